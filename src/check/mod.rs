@@ -8,7 +8,6 @@
 mod body;
 mod case;
 mod closed_forms;
-pub mod exhaustive;
 mod hard_cases;
 mod laws;
 

@@ -1,9 +1,8 @@
 //! `asperity check`: closed forms, laws and hard cases, on this machine.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, TEXT_OR_JSON};
+use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
-use crate::check::exhaustive::{every_history, every_order};
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
 use crate::export::Format;
 use clap::Args;
@@ -15,15 +14,11 @@ Examples:
   asperity check --quick                    All but the cases of seconds and much memory
   asperity check sphere memory              Cases with one of these words in their names
   asperity check --format json -o check.json
-  asperity check --exhaustive               The engine on every profile of up to 8 springs
 
 Each case has one error and a bound that was stated beforehand. The exit code is 1 if a case fails.";
 
-/// Most gaps of the lines that are judged exhaustively.
-const MOST_GAPS: usize = 8;
-
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_args(without_look))]
 pub struct CheckArguments {
     /// Only cases with one of these words in their names
     #[arg(value_name = "WORD")]
@@ -31,9 +26,6 @@ pub struct CheckArguments {
     /// Leave out cases that take seconds and hundreds of megabytes
     #[arg(long)]
     pub quick: bool,
-    /// Check the engine on every profile of up to 8 springs instead
-    #[arg(long, conflicts_with_all = ["words", "quick", "format"])]
-    pub exhaustive: bool,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -62,32 +54,7 @@ impl CheckArguments {
     }
 }
 
-/// Judges the engine on complete small worlds and writes the number of lines and of contacts that agree.
-fn check_all(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    arguments.output.format(&[Format::Text], Format::Text)?;
-    let mut progress = ProgressLine::default();
-    let failed = |error| CliError::named("exhaustive", error);
-    let mut text =
-        "Lines with gaps in every order, ties included; all thresholds are as defined\n".to_owned();
-    text += &format!("{:>8} {:>9}\n", "springs", "lines");
-    for gaps in 1..=MOST_GAPS {
-        progress.show(&format!("{gaps} gaps"), None);
-        let lines = every_order(gaps, 0).map_err(failed)?;
-        text += &format!("{gaps:>8} {lines:>9}\n");
-    }
-    progress.show("histories", None);
-    let contacts = every_history(1).map_err(failed)?;
-    text += &format!(
-        "Contacts of five springs after every history of up to three moves; all are as by the bare rules\n{contacts:>18}\n"
-    );
-    progress.clear();
-    arguments.output.fill(stdout, |out| out.write_all(text.as_bytes()))
-}
-
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    if arguments.exhaustive {
-        return check_all(arguments, stdout);
-    }
     let chosen = arguments.chosen()?;
     let format = arguments.output.format(TEXT_OR_JSON, Format::Text)?;
     let (mut progress, count) = (ProgressLine::default(), chosen.len());
@@ -118,8 +85,7 @@ mod tests {
         CheckArguments {
             words: words.iter().map(ToString::to_string).collect(),
             quick,
-            exhaustive: false,
-            output: OutputArguments { output: None, force: false, format: None },
+            output: OutputArguments::default(),
         }
     }
 

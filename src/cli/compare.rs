@@ -59,5 +59,7 @@ pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Resu
     }
     let outcomes = [compute(&first, first.scene())?, compute(&second, second.scene())?];
     let report = Comparison([(&first, &outcomes[0]), (&second, &outcomes[1])]);
-    arguments.output.write(out, &report, format, Origin::Scene(&first, first.scene()))
+    let names = [("A", &first), ("B", &second)];
+    let scenes = names.map(|(name, document)| (name.to_owned(), document.scene().clone()));
+    arguments.output.write(out, &report, format, Origin::Scenes(&scenes))
 }

@@ -51,13 +51,15 @@ fn budget(text: &str) -> Result<Duration, String> {
 }
 
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let output = &arguments.output;
-    let format = output.format(&Format::ALL, Format::Text)?;
+    let mut output = arguments.output.clone();
     let picture = arguments.picture.clone().map(|path| {
-        let picture = OutputArguments { output: Some(path), force: output.force, format: None };
+        let picture = OutputArguments { output: Some(path), format: None, ..output.clone() };
+        // The look is that of the picture.
+        (output.width, output.parameters) = (None, false);
         picture.format(PICTURES, Format::Svg).map(|format| (picture, format))
     });
     let picture = picture.transpose()?;
+    let format = output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let (mut line, mut seen) = (ProgressLine::default(), Vec::new());

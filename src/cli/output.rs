@@ -2,11 +2,13 @@
 
 use super::error::CliError;
 use crate::draw::{Colours, Figure, figure_text};
-use crate::export::{self, Format, Report, check_extension, files_provenance, scene_provenance};
+use crate::export::{
+    self, Format, Report, check_extension, files_provenance, parameter_lines, scene_provenance,
+};
 use crate::io::{check_writable, write_new};
-use crate::scene::{Document, Scene, quoted};
+use crate::scene::{Document, Scene, parse_quantity, quoted};
 use crate::text::path_name;
-use clap::Args;
+use clap::{Arg, Args};
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -20,8 +22,13 @@ pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Form
 /// Formats of results without a table and without a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Format of results, and a file for them in place of standard output.
-#[derive(Args, Clone, Debug)]
+/// Widths of a figure, m.
+const WIDTHS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
+/// Number of px in a metre of a print.
+const PX: f64 = 96.0 / 0.0254;
+
+/// Format of results, a file for them in place of standard output, and the look of figures.
+#[derive(Args, Clone, Debug, Default)]
 pub struct OutputArguments {
     /// Write to FILE, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
@@ -32,6 +39,24 @@ pub struct OutputArguments {
     /// text, json, csv, npy, svg, png or pdf, as far as the result has it; default: by the extension of FILE
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<Format>,
+    /// Width of a figure for a print: 85mm, 170mm; letters and lines keep their size
+    #[arg(long, value_name = "LENGTH", value_parser = width)]
+    pub width: Option<f64>,
+    /// Add the numbers of the scene in a box to a figure
+    #[arg(long)]
+    pub parameters: bool,
+}
+
+/// Hides the look of figures in the help of a command without figures.
+pub(super) fn without_look(option: Arg) -> Arg {
+    let is_look = ["width", "parameters"].contains(&option.get_id().as_str());
+    option.hide(is_look)
+}
+
+/// Parses the width of a figure, m.
+fn width(text: &str) -> Result<f64, String> {
+    let width = parse_quantity(text, "m").map_err(|error| error.to_string())?;
+    if WIDTHS.contains(&width) { Ok(width) } else { Err("allowed: from 50mm to 500mm".to_owned()) }
 }
 
 /// Input of a table of results.
@@ -39,6 +64,8 @@ pub struct OutputArguments {
 pub(super) enum Origin<'a> {
     /// A scene, with its document for the places of its files.
     Scene(&'a Document, &'a Scene),
+    /// Scenes of a figure with their names.
+    Scenes(&'a [(String, Scene)]),
     /// Measured files.
     Files(&'a [PathBuf]),
 }
@@ -58,6 +85,14 @@ impl OutputArguments {
     /// computation, checks also that FILE can be written. A terminal gets text only.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
+        if (self.width.is_some() || self.parameters) && !format.is_picture() {
+            let option = if self.parameters { "--parameters" } else { "--width" };
+            let refused = match formats.iter().any(|format| format.is_picture()) {
+                true => "only for figures; allowed: with -o FILE.svg, FILE.png or FILE.pdf",
+                false => "this command draws no figure",
+            };
+            return Err(CliError::named(option, refused));
+        }
         match self.file() {
             Some(path) => check_writable(path, self.force)?,
             None if matches!(format, Format::Npy | Format::Png | Format::Pdf)
@@ -72,7 +107,7 @@ impl OutputArguments {
         Ok(format)
     }
 
-    /// Writes a report with the provenance of its table to its destination.
+    /// Writes a report to its destination: a table with its provenance, a figure as asked.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -80,7 +115,20 @@ impl OutputArguments {
         format: Format,
         origin: Origin<'_>,
     ) -> Result<(), CliError> {
+        if let Some(figure) = report.figure().filter(|_| format.is_picture()) {
+            let parameters = match origin {
+                _ if !self.parameters => Vec::new(),
+                Origin::Scene(_, scene) => parameter_lines(&[(String::new(), scene.clone())]),
+                Origin::Scenes(scenes) => parameter_lines(scenes),
+                Origin::Files(_) => {
+                    return Err(CliError::named("--parameters", "this figure has no scene"));
+                }
+            };
+            let figure = Figure { parameters, width: self.width.map(|width| PX * width), ..figure };
+            return self.fill(stdout, |out| export::write(out, &figure, format, ""));
+        }
         let provenance = match origin {
+            Origin::Scenes(_) => Ok(String::new()),
             _ if !format.is_table() => Ok(String::new()),
             Origin::Scene(document, scene) => {
                 scene_provenance(&command(), scene, &document.resolve(""), self.folder())
@@ -97,12 +145,13 @@ impl OutputArguments {
         stdout: &mut dyn Write,
         figure: &Figure,
         format: Format,
+        scenes: &[(String, Scene)],
     ) -> Result<(), CliError> {
         if format == Format::Text {
             let text = text_for_reader(figure, self.file().is_none());
             return self.fill(stdout, |out| out.write_all(text.as_bytes()));
         }
-        self.write(stdout, figure, format, Origin::Files(&[]))
+        self.write(stdout, figure, format, Origin::Scenes(scenes))
     }
 
     /// Writes results to their destination.

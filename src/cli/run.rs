@@ -9,6 +9,7 @@ use crate::contact::{Leg, LegRecord};
 use crate::draw::Figure;
 use crate::export::{
     ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, check_measured_files, force_figure,
+    force_panels,
 };
 use crate::scene::{Document, Scene, open_argument};
 use crate::study::{Axis, Quantity, Results};
@@ -28,6 +29,7 @@ Examples:
   asperity run pressure-sensitive -o loop.svg
   asperity run pressure-sensitive --profile -o profile.svg
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
+  asperity run ideal-adhesion pressure-sensitive non-adhesive --panels --width 170mm -o panels.pdf
 
 JSON is one object with scene, profile, figures, curve, contacts and work; CSV and .npy hold the
 curve, in SI units. Compression is positive, indentation is zero at first touch. CSV and .npy contain
@@ -38,14 +40,17 @@ version, command and scene, and open as that scene.";
 pub struct RunArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// More scenes, with their force curves in the same picture
+    /// More scenes in the same picture: force curves in one chart, all else in a chart for each
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
+    /// Draw the force curve of each scene over axes of its own
+    #[arg(long, requires = "more", conflicts_with_all = ["profile", "fragments", "preloads"])]
+    pub panels: bool,
     /// Draw the profile and its contact at the largest force instead of the curve
-    #[arg(long, conflicts_with_all = ["fragments", "more", "lines"])]
+    #[arg(long, conflicts_with_all = ["fragments", "lines"])]
     pub profile: bool,
     /// Draw the contact patches over the indentation instead of the curve
-    #[arg(long, conflicts_with_all = ["more", "lines"])]
+    #[arg(long, conflicts_with = "lines")]
     pub fragments: bool,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
@@ -65,7 +70,7 @@ pub struct RunArguments {
     /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128. One loading,
     /// and one unloading from each preload; with --lines, the mean over the profiles and its
     /// 95 % confidence interval.
-    #[arg(long, value_name = "A..B", conflicts_with_all = ["more", "profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
+    #[arg(long, value_name = "A..B", conflicts_with_all = ["profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -84,12 +89,22 @@ impl RunArguments {
     }
 
     fn format(&self) -> Result<Format, CliError> {
+        if !self.more.is_empty() && self.lines.is_some() && self.preloads.is_none() {
+            return Err(CliError::named("--lines", "several scenes; allowed: one scene, or --preloads"));
+        }
         let (formats, usual) = match self.is_drawn() {
             true => (PICTURES, Format::Svg),
             false if self.lines.is_some() && self.preloads.is_none() => (WITHOUT_PICTURE, Format::Text),
             false => (&Format::ALL[..], Format::Text),
         };
         self.output.format(formats, usual)
+    }
+
+    /// Quantities of a scene on its profiles, and for its preloads.
+    fn solved(&self, document: &Document, scene: &Scene, record: &[Quantity]) -> Result<Results, CliError> {
+        let (lines, jobs) = (self.lines.map_or(1, u64::from), threads(self.jobs));
+        Results::of_scene(scene, &document.resolve(""), record, lines, self.preloads.as_ref(), jobs)
+            .map_err(|error| CliError::named(document.name(), error))
     }
 
     /// The scene of a document, with springs and edges for the tolerance if one is given. Text states the choice; with
@@ -111,18 +126,15 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let document = arguments.scene.open()?;
     check_measured_files(&document).map_err(CliError::message)?;
     if arguments.is_drawn() {
-        return arguments.output.write_figure(stdout, &figure(arguments, document, format)?, format);
+        let (figure, scenes) = figure(arguments, document, format)?;
+        return arguments.output.write_figure(stdout, &figure, format, &scenes);
     }
     let (scene, choice) = arguments.scene_of(&document, format)?;
     let (title, choice, folder) = (document.title(), choice.as_ref(), document.resolve(""));
     let mut write = |report: &dyn Report| {
         arguments.output.write(stdout, report, format, Origin::Scene(&document, &scene))
     };
-    let solved = |record: &[Quantity]| {
-        let (lines, jobs) = (arguments.lines.map_or(1, u64::from), threads(arguments.jobs));
-        let results = Results::of_scene(&scene, &folder, record, lines, arguments.preloads.as_ref(), jobs);
-        results.map_err(|error| CliError::named(document.name(), error))
-    };
+    let solved = |record: &[Quantity]| arguments.solved(&document, &scene, record);
     if arguments.preloads.is_some() {
         return write(&PreloadReport { title, choice, results: &solved(&Results::OF_PRELOADS)? });
     }
@@ -140,31 +152,51 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     write(&RunReport { title, scene: &scene, outcome: &outcome, choice, estimate: estimate.as_ref() })
 }
 
-/// Computes the scenes and draws the requested figure.
-fn figure(arguments: &RunArguments, document: Document, format: Format) -> Result<Figure, CliError> {
+/// Computes the scenes and draws the requested figure of all of them.
+fn figure(
+    arguments: &RunArguments,
+    document: Document,
+    format: Format,
+) -> Result<(Figure, Vec<(String, Scene)>), CliError> {
     let more = arguments.more.iter().map(|scene| arguments.scene.overrides.apply(open_argument(scene)?));
     let documents = std::iter::once(Ok(document)).chain(more).collect::<Result<Vec<_>, CliError>>()?;
-    let mut computed = Vec::new();
+    let (mut scenes, mut figures, mut outcomes) = (Vec::new(), Vec::new(), Vec::new());
     for document in &documents {
         let (scene, _) = arguments.scene_of(document, format)?;
-        if !(arguments.profile || arguments.fragments) {
-            computed.push((document.title(), compute(document, &scene)?));
-            continue;
+        let title = document.title();
+        if arguments.preloads.is_some() {
+            let results = &arguments.solved(document, &scene, &Results::OF_PRELOADS)?;
+            figures.extend(PreloadReport { title, choice: None, results }.figure());
+        } else if arguments.profile || arguments.fragments {
+            figures.push(contact_figure(arguments, document, &scene)?);
+        } else {
+            outcomes.push((title, compute(document, &scene)?));
         }
-        let failed = |error| CliError::named(document.name(), error);
-        let mut simulation = simulation_of(document);
-        let mut sets = ContactSets::new(arguments.fragments);
-        let mut observe = |_, record: &LegRecord, leg: &Leg| {
-            sets.observe(record, leg);
-            Ok(())
-        };
-        let outcome = simulation.run(&scene, &|| false, &mut observe).map_err(failed)?;
-        if arguments.fragments {
-            return Ok(sets.patches_figure(document.title(), &outcome));
-        }
-        let (line, ..) = simulation.make_line(&scene).map_err(failed)?;
-        return Ok(sets.profile_figure(document.title(), &outcome, line));
+        scenes.push((title.to_owned(), scene));
     }
-    let scenes: Vec<_> = computed.iter().map(|(title, outcome)| (*title, outcome)).collect();
-    Ok(force_figure(&scenes))
+    let outcomes: Vec<_> = outcomes.iter().map(|(title, outcome)| (*title, outcome)).collect();
+    let figure = match figures.len() {
+        0 if arguments.panels => force_panels(&outcomes),
+        0 => force_figure(&outcomes),
+        1 => figures.remove(0),
+        _ => Figure::of_panels(figures),
+    };
+    Ok((figure, scenes))
+}
+
+/// Computes a scene and draws its profile or its contact patches.
+fn contact_figure(arguments: &RunArguments, document: &Document, scene: &Scene) -> Result<Figure, CliError> {
+    let failed = |error| CliError::named(document.name(), error);
+    let mut simulation = simulation_of(document);
+    let mut sets = ContactSets::new(arguments.fragments);
+    let mut observe = |_, record: &LegRecord, leg: &Leg| {
+        sets.observe(record, leg);
+        Ok(())
+    };
+    let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
+    if arguments.fragments {
+        return Ok(sets.patches_figure(document.title(), &outcome));
+    }
+    let (line, ..) = simulation.make_line(scene).map_err(failed)?;
+    Ok(sets.profile_figure(document.title(), &outcome, line))
 }

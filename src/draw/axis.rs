@@ -58,6 +58,12 @@ impl Axis {
         self.with_unit(Label::quantity(&self.name, &self.symbol))
     }
 
+    /// Name and symbol with the prefixed unit, or without the name, if there is a symbol, where that is too wide.
+    pub(super) fn label_within(&self, most: f64) -> Label {
+        let label = self.label_with_unit();
+        if label.width() <= most { label } else { self.symbol_with_unit() }
+    }
+
     /// Symbol with the prefixed unit in brackets; the name of an axis without a symbol.
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
@@ -74,13 +80,15 @@ impl Axis {
         }
     }
 
-    /// Ticks at coordinates, about `most` of them labelled.
+    /// Ticks at coordinates, about `most` of them labelled, and two if there are so many round numbers.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };
             return self.names.iter().enumerate().map(tick).collect();
         }
-        ticks(self.scale, self.span, self.prefix().0, most)
+        let of = |most| ticks(self.scale, self.span, self.prefix().0, most);
+        let two = |ticks: &Vec<Tick>| ticks.iter().filter(|tick| tick.label.is_some()).nth(1).is_some();
+        (most..=most + 2).map(of).find(two).unwrap_or_else(|| of(most))
     }
 }
 
@@ -156,5 +164,7 @@ mod tests {
         assert_eq!(share.label_with_unit().to_string(), "F_a/F_n (10¹⁸)");
         let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();
         assert_eq!(labels.iter().map(Label::to_string).collect::<Vec<_>>(), ["-3", "-2", "-1", "0", "1"]);
+        let hurst = Axis::new(AxisScale::Linear, Span { low: 0.075, high: 0.925 }, "", "H", "1");
+        assert_eq!(hurst.ticks(3).into_iter().filter(|tick| tick.label.is_some()).count(), 4);
     }
 }

@@ -5,15 +5,20 @@ use super::colour::{Ink, Rgb, Shades};
 use super::label::Label;
 use super::scale::{AxisScale, Span};
 
-/// Charts side by side under one title, with one legend.
-#[derive(Clone, Debug, PartialEq)]
+/// Charts in rows under one title, with one legend.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// Title; may be empty.
     pub title: String,
     /// Lines below the title.
     pub notes: Vec<Label>,
     pub charts: Vec<Chart>,
+    /// Frame of each chart, px; only its proportion counts in a figure of a given width.
     pub size: (f64, f64),
+    /// Lines in a box below the legend.
+    pub parameters: Vec<Label>,
+    /// Width of a picture, px of 1/96 inch, in which letters and lines keep their size; else that of its frames.
+    pub width: Option<f64>,
 }
 
 impl Figure {
@@ -25,7 +30,21 @@ impl Figure {
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     pub fn of_chart(title: &str, chart: Chart) -> Figure {
-        Figure { title: title.to_owned(), notes: Vec::new(), charts: vec![chart], size: Figure::WIDE }
+        Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
+    }
+
+    /// The charts of several figures with their titles and notes as headings.
+    pub fn of_panels(figures: Vec<Figure>) -> Figure {
+        let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
+        let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
+            charts.into_iter().map(move |chart| {
+                let parts = [Label::plain(&title), chart.heading.clone()];
+                let parts = parts.iter().chain(&notes).filter(|part| !part.is_empty()).cloned();
+                let heading = parts.reduce(|heading, part| heading.then(", ").join(&part));
+                Chart { heading: heading.unwrap_or_default(), ..chart }
+            })
+        });
+        Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
     /// Heading of a chart with its letter; none in a figure of one chart.

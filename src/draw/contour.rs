@@ -3,9 +3,10 @@
 /// A point in the coordinates of the grid.
 type Point = (f64, f64);
 
-/// Level lines of a field that is linear along the edges of the grid. Squares with a missing corner have none. In a
-/// square that the level crosses twice the mean of the corners decides on their connection.
-pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: f64) -> Vec<Vec<Point>> {
+/// Pieces of the level lines of a field that is linear along the edges of the grid, which meet at their ends. Squares with
+/// a missing corner have none. In a square that the level crosses twice the mean of the corners decides on their
+/// connection.
+pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: f64) -> Vec<[Point; 2]> {
     let mut pieces = Vec::new();
     for row in 1..up.len() {
         for column in 1..across.len() {
@@ -21,21 +22,21 @@ pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: 
             let cuts: Vec<(usize, Point)> =
                 (0..4).filter_map(|edge| Some((edge, cut(square[edge], square[(edge + 1) % 4])?))).collect();
             match cuts.as_slice() {
-                [(_, from), (_, to)] => pieces.push((*from, *to)),
+                [(_, from), (_, to)] => pieces.push([*from, *to]),
                 [(_, south), (_, east), (_, north), (_, west)] => {
                     let middle = square.iter().map(|corner| corner.2).sum::<f64>();
                     // The corners on the side of the mean are connected.
                     if (middle < 0.0) == (square[0].2 < 0.0) {
-                        pieces.extend([(*south, *east), (*north, *west)]);
+                        pieces.extend([[*south, *east], [*north, *west]]);
                     } else {
-                        pieces.extend([(*west, *south), (*east, *north)]);
+                        pieces.extend([[*west, *south], [*east, *north]]);
                     }
                 }
                 _ => {}
             }
         }
     }
-    joined(pieces)
+    pieces
 }
 
 /// Point of an edge at the level.
@@ -48,49 +49,29 @@ fn cut(from: (f64, f64, f64), to: (f64, f64, f64)) -> Option<Point> {
     })
 }
 
-/// Pieces joined at their common ends.
-fn joined(mut pieces: Vec<(Point, Point)>) -> Vec<Vec<Point>> {
-    let mut lines = Vec::new();
-    while let Some((from, to)) = pieces.pop() {
-        let mut line = std::collections::VecDeque::from([from, to]);
-        loop {
-            let ends = (line.front().copied(), line.back().copied());
-            let next = pieces
-                .iter()
-                .position(|(a, b)| [ends.0, ends.1].into_iter().flatten().any(|end| end == *a || end == *b));
-            let Some((a, b)) = next.map(|index| pieces.remove(index)) else { break };
-            if ends.1 == Some(a) {
-                line.push_back(b);
-            } else if ends.1 == Some(b) {
-                line.push_back(a);
-            } else if ends.0 == Some(a) {
-                line.push_front(b);
-            } else {
-                line.push_front(a);
-            }
-        }
-        lines.push(line.into());
-    }
-    lines
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Ends of pieces that no other piece has.
+    fn loose(pieces: &[[Point; 2]]) -> Vec<Point> {
+        let ends = pieces.concat();
+        let alone = |end: &Point| ends.iter().filter(|other| *other == end).count() == 1;
+        ends.iter().copied().filter(alone).collect()
+    }
 
     #[test]
     fn a_plane_is_cut_along_a_straight_line() {
         let (across, up) = ([0.0, 1.0, 3.0, 4.0], [0.0, 2.0, 5.0]);
         let plane: Vec<_> = up.iter().flat_map(|y| across.map(|x| Some(x + y - 2.5))).collect();
-        let lines = contour(&across, &up, &plane, 0.0);
-        assert_eq!(lines.len(), 1, "{lines:?}");
-        assert!(lines[0].len() >= 3, "{lines:?}");
-        for (x, y) in &lines[0] {
+        let pieces = contour(&across, &up, &plane, 0.0);
+        for (x, y) in pieces.concat() {
             assert!((x + y - 2.5).abs() < 1e-12, "{x} {y}");
         }
         // From border to border.
-        let ends = [lines[0][0], lines[0][lines[0].len() - 1]];
-        assert!(ends.contains(&(2.5, 0.0)) && ends.contains(&(0.0, 2.5)), "{ends:?}");
+        let mut ends = loose(&pieces);
+        ends.sort_by(|one, other| one.0.total_cmp(&other.0));
+        assert_eq!(ends, [(0.0, 2.5), (2.5, 0.0)]);
     }
 
     #[test]
@@ -98,14 +79,12 @@ mod tests {
         let places: Vec<f64> = (0..9).map(|index| f64::from(index) - 4.0).collect();
         let mut hill: Vec<_> =
             places.iter().flat_map(|y| places.iter().map(move |x| Some(9.0 - x * x - y * y))).collect();
-        let lines = contour(&places, &places, &hill, 2.0);
-        assert_eq!(lines.len(), 1);
-        assert_eq!(lines[0].first(), lines[0].last());
-        assert!(lines[0].iter().all(|(x, y)| (x.hypot(*y) - 7.0_f64.sqrt()).abs() < 0.15), "{lines:?}");
+        let pieces = contour(&places, &places, &hill, 2.0);
+        assert!(pieces.len() > 8 && loose(&pieces).is_empty(), "{pieces:?}");
+        assert!(pieces.concat().iter().all(|(x, y)| (x.hypot(*y) - 7.0_f64.sqrt()).abs() < 0.15));
         // A corner of squares crossed by the line.
         hill[4 * 9 + 6] = None;
-        let lines = contour(&places, &places, &hill, 2.0);
-        assert!(lines.iter().all(|line| line.first() != line.last()), "{lines:?}");
+        assert_eq!(loose(&contour(&places, &places, &hill, 2.0)).len(), 2);
     }
 
     #[test]
@@ -123,7 +102,7 @@ mod tests {
 
     #[test]
     fn a_level_that_is_not_there_has_no_line() {
-        assert_eq!(contour(&[0.0, 1.0], &[0.0, 1.0], &[Some(1.0); 4], 2.0), Vec::<Vec<Point>>::new());
-        assert_eq!(contour(&[0.0], &[0.0, 1.0], &[Some(1.0); 2], 1.0), Vec::<Vec<Point>>::new());
+        assert_eq!(contour(&[0.0, 1.0], &[0.0, 1.0], &[Some(1.0); 4], 2.0), [[(0.0, 0.0); 2]; 0]);
+        assert_eq!(contour(&[0.0], &[0.0, 1.0], &[Some(1.0); 2], 1.0), [[(0.0, 0.0); 2]; 0]);
     }
 }

@@ -17,6 +17,9 @@ pub(crate) enum Face {
     Exponent,
 }
 
+/// Blank within a statement, which stays on one line; as a string an ordinary blank.
+const FIXED: char = '\u{a0}';
+
 /// Text with italic symbols, indices and exponents. As a string: `F_a`, `10⁻³`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
@@ -64,7 +67,7 @@ impl Label {
     /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
-            Some((symbol, value)) => Label::symbol(symbol).then(" = ").then(value),
+            Some((symbol, value)) => statement("", symbol, value),
             None => Label::plain(text),
         }
     }
@@ -96,36 +99,31 @@ impl Label {
 
     /// Width in units of the font size, for digits 0.58 wide as in the usual sans-serif fonts.
     pub fn width(&self) -> f64 {
-        let of = |(face, text): &(Face, String)| {
-            let share = if matches!(face, Face::Index | Face::Exponent) { SMALL } else { 1.0 };
-            share * text.chars().map(width).sum::<f64>()
-        };
-        self.runs.iter().map(of).sum()
+        self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
     }
 
-    /// Lines no wider than `most`, in units of the font size, broken between words.
+    /// Lines no wider than `most`, in units of the font size, broken between words, and within a longer word.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
-        let mut words = vec![Label::default()];
-        for (face, text) in &self.runs {
-            for (index, part) in text.split(' ').enumerate() {
-                if index > 0 {
-                    words.push(Label::default());
-                }
-                if let Some(word) = words.last_mut() {
-                    word.push(*face, part);
-                }
+        let all = self.runs.iter().flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
+        let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
+        for (face, character) in all {
+            line.push((face, character));
+            width += width_of(face, character);
+            if width > most && line.len() > 1 {
+                let blank = line.iter().rposition(|(_, character)| *character == ' ');
+                let rest = line.split_off(blank.map_or(line.len() - 1, |blank| blank + 1));
+                lines.push(std::mem::replace(&mut line, rest));
+                width = line.iter().map(|(face, character)| width_of(*face, *character)).sum();
             }
         }
-        let mut lines: Vec<Label> = Vec::new();
-        for word in words.into_iter().filter(|word| !word.is_empty()) {
-            match lines.last_mut() {
-                Some(line) if line.width() + width(' ') + word.width() <= most => {
-                    *line = std::mem::take(line).then(" ").join(&word);
-                }
-                _ => lines.push(word),
-            }
-        }
-        lines
+        lines.push(line);
+        let label = |line: Vec<(Face, char)>| {
+            let mut label = Label::default();
+            let end = line.iter().rposition(|(_, character)| *character != ' ').map_or(0, |last| last + 1);
+            line[..end].iter().for_each(|(face, c)| label.push(*face, c.encode_utf8(&mut [0; 4])));
+            label
+        };
+        lines.into_iter().map(label).filter(|line| !line.is_empty()).collect()
     }
 
     fn push(&mut self, face: Face, text: &str) {
@@ -147,7 +145,7 @@ impl fmt::Display for Label {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (face, text) in &self.runs {
             match face {
-                Face::Upright | Face::Italic => out.write_str(text)?,
+                Face::Upright | Face::Italic => out.write_str(&text.replace(FIXED, " "))?,
                 Face::Index => write!(out, "_{text}")?,
                 Face::Exponent => text.chars().try_for_each(|c| write!(out, "{}", raised(c)))?,
             }
@@ -159,13 +157,15 @@ impl fmt::Display for Label {
 /// Size of indices and exponents, in units of the font size.
 pub(crate) const SMALL: f64 = 0.72;
 
-fn width(character: char) -> f64 {
-    match character {
-        'i' | 'j' | 'l' | '.' | ',' | ' ' | 't' | 'f' | '(' | ')' | '/' | '|' => 0.33,
-        'm' | 'w' | 'M' | 'W' => 0.9,
-        c if c.is_uppercase() => 0.7,
-        _ => 0.58,
-    }
+fn width_of(face: Face, character: char) -> f64 {
+    let share = if matches!(face, Face::Index | Face::Exponent) { SMALL } else { 1.0 };
+    share
+        * match character {
+            'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | 't' | 'f' | '(' | ')' | '/' | '|' => 0.33,
+            'm' | 'w' | 'M' | 'W' => 0.9,
+            c if c.is_uppercase() => 0.7,
+            _ => 0.58,
+        }
 }
 
 fn raised(character: char) -> char {
@@ -197,18 +197,26 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
 /// A number with the decimals of `step`.
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
-    let text = format!("{value:.decimals$}");
-    let zero = text.trim_start_matches('-').chars().all(|digit| matches!(digit, '0' | '.'));
-    if zero { text.trim_start_matches('-').to_owned() } else { text }
+    let text = format!("{:.decimals$}", value.abs());
+    let zero = text.chars().all(|digit| matches!(digit, '0' | '.'));
+    let (whole, fraction) = text.split_at(text.find('.').unwrap_or(text.len()));
+    let whole = whole.parse().map_or_else(|_| whole.to_owned(), grouped);
+    format!("{}{whole}{fraction}", if value < 0.0 && !zero { "-" } else { "" })
 }
 
 /// A value with its symbol, or with its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
-    let text = if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) };
-    let label =
-        if symbol.is_empty() { Label::plain(name).then(" ") } else { Label::symbol(symbol).then(" = ") };
-    label.then(&text)
+    statement(name, symbol, &if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) })
+}
+
+/// A symbol, or a name if `symbol` is empty, with a value in words.
+pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
+    let value = value.replace(' ', "\u{a0}");
+    match symbol {
+        "" => Label::plain(name).then(&format!("{FIXED}{value}")),
+        symbol => Label::symbol(symbol).then(&format!("{FIXED}={FIXED}{value}")),
+    }
 }
 
 #[cfg(test)]
@@ -231,7 +239,7 @@ mod tests {
         );
         assert_eq!(Label::symbol("F_a(0)/F_a,max").to_string(), "F_a(0)/F_a,max");
         assert_eq!(Label::power_of_ten(-12).to_string(), "10⁻¹²");
-        assert_eq!(runs(&Label::statement("H = 0.3"))[1], (Face::Upright, " = 0.3".to_owned()));
+        assert_eq!(runs(&Label::statement("H = 0.3"))[1], (Face::Upright, "\u{a0}=\u{a0}0.3".to_owned()));
         assert!(Label::plain("").is_empty() && Label::symbol("").is_empty());
         assert_eq!(Label::plain("a\u{1b}[2J\n").to_string(), "a\\u{1b}[2J\\n");
     }
@@ -242,7 +250,9 @@ mod tests {
         let lines: Vec<String> = label.wrapped(5.5).iter().map(Label::to_string).collect();
         assert_eq!(lines, ["one two F_n", "three"]);
         assert!(label.wrapped(5.5).iter().all(|line| line.width() <= 5.5));
-        assert_eq!(label.wrapped(0.1).len(), 4);
+        let word = Label::plain("folder/file").wrapped(2.0);
+        assert!(word.len() > 2 && word.iter().all(|line| line.width() <= 2.0), "{word:?}");
+        assert_eq!(value_label("", "F_n", "N", 2e-5).wrapped(3.0).len(), 2, "one word, too long for a line");
         assert!(Label::default().wrapped(5.0).is_empty());
     }
 
@@ -264,6 +274,7 @@ mod tests {
         assert_eq!(number(-0.5, 0.05), "-0.50");
         assert_eq!(number(20.0, 10.0), "20");
         assert_eq!(number(-1e-18, 0.2), "0.0");
+        assert_eq!(number(-16384.0, 1.0), "-16 384");
         let text = |symbol: &str, unit: &str, value| value_label("points", symbol, unit, value).to_string();
         assert_eq!(text("N", "1", 65536.0), "N = 65 536");
         assert_eq!(text("N", "1", -2.0), "N = -2");

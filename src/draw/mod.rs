@@ -23,7 +23,7 @@ pub use axis::Axis;
 pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, key, legend};
 pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, Shades, hex};
-pub use label::{Label, prefixed, value_label};
+pub use label::{Label, prefixed, statement, value_label};
 pub use scale::{AxisScale, Span};
 #[cfg(feature = "tui")]
 pub(crate) use svg::{Svg, escaped};

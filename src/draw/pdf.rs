@@ -3,20 +3,16 @@
 use super::chart::Figure;
 use super::png::tree;
 use flate2::{Compression, write::ZlibEncoder};
-use pdf_writer::types::LineJoinStyle;
+use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::writers::ExtGraphicsState;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
-use resvg::tiny_skia::{Path as Outline, PathSegment, Point, Rect as Area};
-use resvg::usvg::{
-    Color, Group, LineJoin, LinearGradient, Node, Paint, Path, Pattern, ShapeRendering, Transform, Tree,
-};
+use resvg::tiny_skia::{Path as Outline, PathSegment, Point};
+use resvg::usvg::{Color, Group, LineCap, LineJoin, Node, Paint, Path, ShapeRendering, Transform, Tree};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// Points of a print for each px of a document, 1/96 inch.
 const POINTS: f32 = 0.75;
-/// Bands of equal colour in which a colour scale is drawn.
-const BANDS: usize = 256;
 /// Width by which adjacent cells overlap, px: viewers show the paper through edges that only touch.
 const OVERLAP: f32 = 0.2;
 
@@ -76,37 +72,30 @@ impl Page {
 
     fn path(&mut self, path: &Path, to_page: Transform) {
         self.content.save_state().transform(matrix(to_page));
-        match path.fill().map(|fill| (fill.paint(), fill.opacity().get())) {
-            Some((Paint::Color(colour), opacity)) => {
-                let [red, green, blue] = rgb(*colour);
-                self.content.set_fill_rgb(red, green, blue).set_stroke_rgb(red, green, blue);
-                if opacity < 1.0 {
-                    let percent = (100.0 * opacity).round() as u8;
-                    self.opacities.insert(percent);
-                    self.content.set_parameters(Name(state(percent).as_bytes()));
-                }
-                if path.rendering_mode() == ShapeRendering::CrispEdges {
-                    self.content.set_line_width(OVERLAP);
-                    self.outline(path.data()).fill_nonzero_and_stroke();
-                } else {
-                    self.outline(path.data()).fill_nonzero();
-                }
+        // Figures have plain colours alone.
+        if let Some((fill, Paint::Color(colour))) = path.fill().map(|fill| (fill, fill.paint())) {
+            let ([red, green, blue], opacity) = (rgb(*colour), fill.opacity().get());
+            self.content.set_fill_rgb(red, green, blue).set_stroke_rgb(red, green, blue);
+            if opacity < 1.0 {
+                let percent = (100.0 * opacity).round() as u8;
+                self.opacities.insert(percent);
+                self.content.set_parameters(Name(state(percent).as_bytes()));
             }
-            Some((Paint::LinearGradient(scale), _)) => {
-                self.outline(path.data()).clip_nonzero().end_path();
-                self.bands(scale);
+            if path.rendering_mode() == ShapeRendering::CrispEdges {
+                self.content.set_line_width(OVERLAP);
+                self.outline(path.data()).fill_nonzero_and_stroke();
+            } else {
+                self.outline(path.data()).fill_nonzero();
             }
-            Some((Paint::Pattern(pattern), _)) => {
-                self.outline(path.data()).clip_nonzero().end_path();
-                self.tiles(pattern, path.bounding_box());
-            }
-            _ => {}
         }
         if let Some((stroke, Paint::Color(colour))) = path.stroke().map(|stroke| (stroke, stroke.paint())) {
             let [red, green, blue] = rgb(*colour);
             self.content.set_stroke_rgb(red, green, blue).set_line_width(stroke.width().get());
             if stroke.linejoin() == LineJoin::Round {
                 self.content.set_line_join(LineJoinStyle::RoundJoin);
+            }
+            if stroke.linecap() == LineCap::Round {
+                self.content.set_line_cap(LineCapStyle::RoundCap);
             }
             if let Some(dashes) = stroke.dasharray() {
                 self.content.set_dash_pattern(dashes.iter().copied(), 0.0);
@@ -142,35 +131,6 @@ impl Page {
             }
         }
         &mut self.content
-    }
-
-    /// Fills the area of the clip path with an upright colour scale, as wide and as high as this area.
-    fn bands(&mut self, scale: &LinearGradient) {
-        self.content.transform(matrix(scale.transform()));
-        for band in 0..BANDS {
-            let at = band as f32 / BANDS as f32;
-            let stops = scale.stops();
-            let after = stops.partition_point(|stop| stop.offset().get() <= at).clamp(1, stops.len() - 1);
-            let [from, to] = [&stops[after - 1], &stops[after]];
-            let [start, end] = [from, to].map(|stop| stop.offset().get());
-            let share = (at - start) / (end - start);
-            let [from, to] = [from, to].map(|stop| rgb(stop.color()));
-            let [red, green, blue] = [0, 1, 2].map(|part| from[part] + share * (to[part] - from[part]));
-            let y = scale.y1() + at * (scale.y2() - scale.y1());
-            // The rest of the scale, below the bands that follow.
-            self.content.set_fill_rgb(red, green, blue).rect(0.0, y, 1.0, scale.y2() - y).fill_nonzero();
-        }
-    }
-
-    /// Fills an area with a pattern.
-    fn tiles(&mut self, pattern: &Pattern, area: Area) {
-        let size = (pattern.rect().width(), pattern.rect().height());
-        let from = ((area.left() / size.0).floor() as i32, (area.top() / size.1).floor() as i32);
-        let to = ((area.right() / size.0).ceil() as i32, (area.bottom() / size.1).ceil() as i32);
-        for (row, column) in (from.1..to.1).flat_map(|row| (from.0..to.0).map(move |column| (row, column))) {
-            let place = Transform::from_translate(column as f32 * size.0, row as f32 * size.1);
-            self.group(pattern.root(), place);
-        }
     }
 }
 
@@ -224,17 +184,8 @@ mod tests {
     }
 
     #[test]
-    fn letters_colour_scales_and_hatching_are_outlines() {
+    fn letters_are_outlines() {
         let (_, letters) = drawn("<text x=\"1\" y=\"9\" font-family=\"DejaVu Sans\">µF</text>");
         assert!(letters.matches(" c\n").count() > 5 && letters.contains("f\n"), "{letters}");
-        let scale = "<linearGradient id=\"s\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\"><stop offset=\"0\" \
-                     stop-color=\"#000000\"/><stop offset=\"1\" stop-color=\"#ffffff\"/></linearGradient>";
-        let (_, bands) = drawn(&format!("{scale}<rect width=\"4\" height=\"8\" fill=\"url(#s)\"/>"));
-        assert_eq!(bands.matches(" re\nf\n").count(), BANDS);
-        assert!(bands.contains("0 0 0 rg") && bands.contains("W\nn"), "{bands}");
-        let tile = "<pattern id=\"t\" width=\"2\" height=\"2\" patternUnits=\"userSpaceOnUse\"><path \
-                    d=\"M0 2L2 0\" stroke=\"#808080\"/></pattern>";
-        let (_, tiles) = drawn(&format!("{tile}<rect width=\"4\" height=\"6\" fill=\"url(#t)\"/>"));
-        assert_eq!(tiles.matches("S\n").count(), 6, "{tiles}");
     }
 }

@@ -11,16 +11,17 @@ use std::sync::Arc;
 /// Upright and oblique letters with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
 /// files.
 const FONTS: [&[u8]; 2] = [include_bytes!("font/sans.ttf"), include_bytes!("font/sans-oblique.ttf")];
-/// Pixels for each px of a document.
+/// Pixels for each px of a document; with a given width for a print, 600 in an inch.
 const SCALE: f32 = 2.0;
+const PRINT_SCALE: f32 = 6.25;
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
-/// Pixels per metre of a print on which a px is 1/96 inch.
-const PER_METRE: u32 = 7559;
+/// Number of px of 1/96 inch in a metre.
+const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
     /// The figure as the content of a PNG file.
     pub fn png(&self) -> io::Result<Vec<u8>> {
-        png(&self.svg())
+        png(&self.svg(), if self.width.is_some() { PRINT_SCALE } else { SCALE })
     }
 }
 
@@ -33,9 +34,9 @@ pub(super) fn tree(svg: &str) -> io::Result<Tree> {
 }
 
 /// An SVG document on white as the content of a PNG file.
-fn png(svg: &str) -> io::Result<Vec<u8>> {
+fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
     let tree = tree(svg)?;
-    let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (SCALE * side).ceil());
+    let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (scale * side).ceil());
     let is_small = f64::from(width) * f64::from(height) <= MOST_PIXELS;
     let pixmap = is_small.then(|| Pixmap::new(width as u32, height as u32)).flatten();
     let mut pixmap = pixmap.ok_or_else(|| {
@@ -44,12 +45,13 @@ fn png(svg: &str) -> io::Result<Vec<u8>> {
     })?;
     // The last pixels may be covered in part.
     pixmap.fill(Color::WHITE);
-    resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width as u32, height as u32);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
-    encoder.set_pixel_dims(Some(PixelDimensions { xppu: PER_METRE, yppu: PER_METRE, unit: Unit::Meter }));
+    let per_metre = (scale * PX).round() as u32;
+    encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter }));
     let pixels: Vec<u8> =
         pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
     encoder.write_header()?.write_image_data(&pixels)?;
@@ -66,9 +68,9 @@ mod tests {
     }
 
     fn pixels(elements: &str) -> (usize, Vec<[u8; 3]>) {
-        let file = png(&document(elements)).unwrap();
+        let file = png(&document(elements), SCALE).unwrap();
         let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
-        assert_eq!(reader.info().pixel_dims.map(|dims| dims.xppu), Some(PER_METRE));
+        assert_eq!(reader.info().pixel_dims.map(|dims| dims.xppu), Some(7559));
         let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
         let frame = reader.next_frame(&mut bytes).unwrap();
         assert_eq!((frame.width, frame.height, frame.color_type), (80, 61, ColorType::Rgb));
@@ -102,7 +104,7 @@ mod tests {
 
     #[test]
     fn too_many_pixels_are_refused() {
-        let error = png(&document("").replace("40", "1e6").replace("30.5", "1e6")).unwrap_err();
+        let error = png(&document("").replace("40", "1e6").replace("30.5", "1e6"), SCALE).unwrap_err();
         assert!(error.to_string().contains("2000000 × 2000000 pixels; allowed: at most 67108864"), "{error}");
     }
 }

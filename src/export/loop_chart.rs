@@ -124,10 +124,12 @@ impl LoopUnits {
 pub struct ForceLoop<'a> {
     /// Curves with their directions.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
-    /// Remarkable points; those of a loop without a name are named with their forces.
+    /// Remarkable points; those of a loop without a name are in the legend.
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name in the legend.
     pub name: Option<Label>,
+    /// False for marks without their forces in the legend, where several charts share it.
+    pub forces: bool,
     pub ink: Option<Ink>,
     pub stroke: Option<Stroke>,
 }
@@ -136,7 +138,7 @@ impl<'a> ForceLoop<'a> {
     /// The loop of a loading history with its marks.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
-        ForceLoop { curves, marks: marks(legs), name: None, ink: None, stroke: None }
+        ForceLoop { curves, marks: marks(legs), name: None, forces: true, ink: None, stroke: None }
     }
 
     fn layers(&self, units: LoopUnits) -> Vec<Layer> {
@@ -160,7 +162,11 @@ impl<'a> ForceLoop<'a> {
             }
         }
         for (mark, point) in &self.marks {
-            let name = if self.name.is_none() { mark_name(*mark, point.force) } else { Label::default() };
+            let name = match self.name {
+                None if self.forces => mark_name(*mark, point.force),
+                None => Label::plain(mark.name()),
+                Some(_) => Label::default(),
+            };
             let shape = Shape::signs(vec![units.place(point)], sign(*mark));
             layers.push(Layer::new(name, self.ink.unwrap_or(Ink::Text), shape));
         }
@@ -192,6 +198,18 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     });
     let chart = loop_chart(&loops.collect::<Vec<_>>(), units);
     Figure { notes: vec![Label::plain("dotted: loading, solid: unloading")], ..Figure::of_chart("", chart) }
+}
+
+/// Force curves of computed scenes with their titles, each over axes of its own, with the adhesion force in the heading.
+pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
+    let figure = |(title, outcome): &(&str, &Outcome)| {
+        let one = ForceLoop { forces: false, ..ForceLoop::new(&outcome.history.legs) };
+        let force = outcome.figures.adhesion_force.map(|force| value_label("", "F_a", "N", force));
+        let chart = loop_chart(&[one], LoopUnits::default());
+        let notes = force.into_iter().collect();
+        Figure { notes, size: Figure::SMALL, ..Figure::of_chart(title, chart) }
+    };
+    Figure::of_panels(scenes.iter().map(figure).collect())
 }
 
 pub fn sign(mark: Mark) -> Sign {

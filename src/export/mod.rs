@@ -9,6 +9,7 @@ mod cost;
 mod ensemble;
 mod loop_chart;
 mod map;
+mod parameters;
 mod preloads;
 mod provenance;
 mod report;
@@ -31,7 +32,10 @@ pub use run::RunReport;
 pub(crate) use comparison::{Comparison, adhesion_forces};
 pub(crate) use cost::CostReport;
 pub(crate) use ensemble::LinesReport;
-pub(crate) use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
+pub(crate) use loop_chart::{
+    ForceLoop, LoopQuantities, LoopUnits, force_figure, force_panels, loop_chart, sign,
+};
+pub(crate) use parameters::parameter_lines;
 pub(crate) use preloads::{PreloadReport, preload_axes, preload_layers};
 pub(crate) use provenance::{check_measured_files, files_provenance, named_from};
 pub(crate) use report::check_extension;

@@ -125,6 +125,7 @@ impl Report for ReversalReport<'_> {
                 density_chart(map, smoothing),
             ],
             size: Figure::SMALL,
+            ..Figure::default()
         })
     }
 }

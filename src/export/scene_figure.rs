@@ -121,7 +121,7 @@ impl ContactSets {
                 vec![Label::plain(&format!("the first {drawn} of {} loading stages", drawn + rest))]
             }
         };
-        Figure { title: title.to_owned(), notes, charts, size: PATCHES }
+        Figure { title: title.to_owned(), notes, charts, size: PATCHES, ..Figure::default() }
     }
 }
 

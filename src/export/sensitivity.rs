@@ -182,7 +182,13 @@ impl Report for SensitivityReport<'_> {
     fn figure(&self) -> Option<Figure> {
         let charts = [0, 1, 2].map(|result| sensitivity_chart(self.sensitivity, result, usize::MAX));
         let notes = vec![Label::plain(&self.note())];
-        Some(Figure { title: self.title.to_owned(), notes, charts: charts.into(), size: Figure::SMALL })
+        Some(Figure {
+            title: self.title.to_owned(),
+            notes,
+            charts: charts.into(),
+            size: Figure::SMALL,
+            ..Figure::default()
+        })
     }
 }
 

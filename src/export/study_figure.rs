@@ -27,7 +27,13 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
-    Figure { title: title.into(), notes: fixed.into_iter().collect(), charts, size: Figure::SMALL }
+    Figure {
+        title: title.into(),
+        notes: fixed.into_iter().collect(),
+        charts,
+        size: Figure::SMALL,
+        ..Figure::default()
+    }
 }
 
 /// A map of a quantity over the two axes of a grid, with the regimes and the line on which adhesion without a load
@@ -327,12 +333,16 @@ mod tests {
     fn each_cell_with_a_value_is_coloured_and_the_others_are_not() {
         let study = phase_map();
         let (columns, rows) = study.grid.size();
-        let rects = elements(&drawn(&study), "rect");
-        let hatched = rects.iter().filter(|rect| rect.contains("#hatched"));
-        let area: f64 = hatched.map(|rect| attribute(rect, "width") * attribute(rect, "height")).sum();
-        // Three cells of either map, all of one size, and a sample of 12 × 12 px in the legend.
-        let cell = 330.0 * 270.0 / (columns * rows) as f64;
-        assert!((area - 144.0 - 6.0 * cell).abs() < 5.0, "{area} {cell}");
+        let grey = elements(&drawn(&study), "path").into_iter().filter(|path| path.contains("#c4c8cc"));
+        // M left top H right V bottom H left z.
+        let area = grey.map(|path| {
+            let numbers = path.split_once("d=\"M").unwrap().1.split([' ', 'H', 'V']);
+            let ends: Vec<f64> = numbers.map_while(|number| number.parse().ok()).collect();
+            (ends[2] - ends[0]) * (ends[3] - ends[1])
+        });
+        // Three cells of either map, all of one size.
+        let (area, cell) = (area.sum::<f64>(), 330.0 * 270.0 / (columns * rows) as f64);
+        assert!((area - 6.0 * cell).abs() < 5.0, "{area} {cell}");
     }
 
     #[test]

@@ -7,6 +7,7 @@ mod common {
 mod body;
 mod closed_forms;
 mod equilibrium;
+mod exhaustive;
 mod hard_cases;
 mod large_lines;
 mod laws;

@@ -66,8 +66,8 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     let map = plot(&["--at", "preload=0.1", "-o", "-"]).unwrap();
     assert_eq!(map, plot(&["--at", "preload=0.1", "-o", "-"]).unwrap());
     assert!(map.starts_with("<svg ") && map.contains("Small"), "{map}");
-    // Two panels with a scale of colours each.
-    assert_eq!(map.matches("url(#sequential)").count(), 2);
+    // Two panels with a scale of 128 colours each.
+    assert!(map.matches("crispEdges").count() > 256 && map.contains("(b) "), "{map}");
     plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap();
     assert_eq!(fs::read_to_string(at.join("map.svg")).unwrap(), map);
     assert!(plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap_err().contains("--force overwrites it"));

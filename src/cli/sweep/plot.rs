@@ -11,7 +11,7 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "\
 Examples:
   asperity sweep plot study                          A figure for the terminal
-  asperity sweep plot study -o map.svg               ... and one for a paper
+  asperity sweep plot study --width 85mm -o map.pdf  ... and one for a paper
   asperity sweep plot study --at roughness.hurst=0.3 A curve over the axis that is left
   asperity sweep plot study --quantity adhesion_force --x kappa --y roughness.hurst
 
@@ -50,5 +50,8 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     };
     let charts: Vec<_> = quantities.into_iter().flat_map(charts).collect();
     let figure = study_figure(&study.plan().title, &grid, charts);
-    arguments.output.write_figure(stdout, &figure, format)
+    // The numbers that vary differ in the first and in the last cell.
+    let cells = [0, study.plan().cells() - 1].map(|cell| study.plan().scene_of(cell));
+    let scenes: Vec<_> = cells.into_iter().flatten().map(|scene| (String::new(), scene)).collect();
+    arguments.output.write_figure(stdout, &figure, format, &scenes)
 }

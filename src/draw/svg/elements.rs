@@ -5,11 +5,11 @@ use crate::draw::colour::{Palette, Rgb, hex};
 use crate::draw::label::{Face, Label, SMALL};
 use std::fmt::{Arguments, Write};
 
-/// Fill of cells without a value.
-pub(super) const HATCHED: &str = "fill=\"url(#hatched)\"";
 pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
 pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
 pub(super) const PAPER: Rgb = Palette::LIGHT.background;
+/// Fill of cells without a value: a grey, which no scale of colours has.
+pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
 
 /// A place in a picture, px from the upper left.
 pub(super) type Place = (f64, f64);
@@ -48,7 +48,8 @@ impl Pen {
     }
 }
 
-/// An SVG document of version 1.1 without references to other files.
+/// An SVG document of version 1.1 without references to other files, or a part of one.
+#[derive(Default)]
 pub(crate) struct Svg {
     text: String,
 }
@@ -72,6 +73,11 @@ impl Svg {
         self.text.push('\n');
     }
 
+    /// Adds the elements of a part.
+    pub(super) fn append(&mut self, part: Svg) {
+        self.text += &part.text;
+    }
+
     pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
@@ -85,7 +91,7 @@ impl Svg {
     }
 
     /// Draws a rectangle with these attributes.
-    pub(super) fn rect(&mut self, from: Place, to: Place, looks: &str) {
+    fn rect(&mut self, from: Place, to: Place, looks: &str) {
         // The ends are rounded, so that adjacent rectangles meet.
         let length = |from: f64, to: f64| px((100.0 * to).round() / 100.0 - (100.0 * from).round() / 100.0);
         let (x, y) = (px(from.0), px(from.1));
@@ -108,6 +114,14 @@ impl Svg {
         ));
     }
 
+    /// Draws straight lines with round ends.
+    pub(super) fn pieces(&mut self, pieces: impl Iterator<Item = [Place; 2]>, pen: Pen) {
+        let piece =
+            |[from, to]: [Place; 2]| format!("M{} {}L{} {}", px(from.0), px(from.1), px(to.0), px(to.1));
+        let (path, pen) = (pieces.map(piece).collect::<String>(), pen.attributes());
+        self.push(format_args!("<path d=\"{path}\" fill=\"none\" {pen} stroke-linecap=\"round\"/>"));
+    }
+
     pub(super) fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
         let (points, fill) = (points(places), hex(fill));
         let opacity =
@@ -115,7 +129,8 @@ impl Svg {
         self.push(format_args!("<polygon points=\"{points}\" fill=\"{fill}\"{opacity}/>"));
     }
 
-    /// Fills boxes by their upper left and lower right corners, at least half a pixel wide and high.
+    /// Fills boxes by their upper left and lower right corners, at least half a pixel wide and high. Boxes with a common
+    /// edge meet without a seam.
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
@@ -133,9 +148,17 @@ impl Svg {
         self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"));
     }
 
+    /// Writes lines of labels below each other, the first at this place, and returns the height of the next one.
+    pub(super) fn lines(&mut self, lines: &[Label], (x, y): Place, size: f64, anchor: Anchor) -> f64 {
+        lines.iter().fold(y, |y, line| {
+            self.label(line, (x, y), size, anchor);
+            y + (1.4 * size).round()
+        })
+    }
+
     /// Writes a label in letters of a size.
-    pub(super) fn label(&mut self, label: &Label, at: Place, size: f64, anchor: Anchor, colour: Rgb) {
-        let (x, y, fill) = (px(at.0), px(at.1), hex(colour));
+    pub(super) fn label(&mut self, label: &Label, at: Place, size: f64, anchor: Anchor) {
+        let (x, y, fill) = (px(at.0), px(at.1), hex(TEXT));
         let (side, turned) = match anchor {
             Anchor::Left => ("start", String::new()),
             Anchor::Middle => ("middle", String::new()),
@@ -149,6 +172,16 @@ impl Svg {
             "<text x=\"{x}\" y=\"{base}\" font-size=\"{size}\" text-anchor=\"{side}\" fill=\"{fill}\"{turned}>{runs}</text>"
         ));
     }
+}
+
+/// Text with minus signs in place of the hyphens before numbers.
+fn with_minus(text: &str) -> String {
+    let characters: Vec<char> = text.chars().collect();
+    let is_minus = |at: usize| {
+        let next = characters.get(at + 1).is_some_and(char::is_ascii_digit);
+        characters[at] == '-' && next && (at == 0 || [' ', '\u{a0}', '('].contains(&characters[at - 1]))
+    };
+    (0..characters.len()).map(|at| if is_minus(at) { '−' } else { characters[at] }).collect()
 }
 
 /// The runs of a label as elements within a text of this size, px.
@@ -168,7 +201,7 @@ fn runs(label: &Label, size: f64) -> String {
             step => format!(" dy=\"{step}\""),
         };
         shift = below;
-        let text = escaped(text);
+        let text = escaped(&with_minus(text));
         if step.is_empty() && looks.is_empty() {
             elements.push_str(&text);
         } else {
@@ -217,7 +250,7 @@ mod tests {
         assert_eq!(
             runs(&label, 10.0),
             "<tspan font-style=\"italic\">F</tspan><tspan dy=\"2.5\" font-size=\"7.2\">a,max</tspan>\
-             <tspan dy=\"-2.5\"> &lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">-3</tspan>"
+             <tspan dy=\"-2.5\"> &lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
         );
     }
 

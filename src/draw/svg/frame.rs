@@ -70,17 +70,18 @@ impl Frame<'_> {
             };
             svg.line(&ends, Pen::solid(TEXT, 1.0));
             if let Some(label) = label {
-                svg.label(label, place, NUMBER, anchor, TEXT);
+                svg.label(label, place, NUMBER, anchor);
             }
         }
-        let label = axis.label_with_unit();
+        let length = if side == Side::Below { self.width() } else { self.height() };
+        let label = axis.label_within((length + LABEL) / LABEL);
         if !label.is_empty() {
             let middle = self.at((0.5, 0.5));
             let (place, anchor) = match side {
                 Side::Below => ((middle.0, edge + 2.9 * NUMBER), Anchor::Middle),
                 _ => ((edge + outwards * beside(&ticks), middle.1), Anchor::Upwards),
             };
-            svg.label(&label, place, LABEL, anchor, TEXT);
+            svg.label(&label, place, LABEL, anchor);
         }
     }
 

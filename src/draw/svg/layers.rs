@@ -1,6 +1,6 @@
 //! Layers of a chart in its frame.
 
-use super::elements::{HATCHED, PAPER, Pen, Place, QUIET, Svg, TEXT};
+use super::elements::{EMPTY, PAPER, Pen, Place, QUIET, Svg, TEXT};
 use super::frame::Frame;
 use crate::draw::axis::{Axis, Share};
 use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
@@ -146,31 +146,24 @@ fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     let rows = HeatMap::borders(frame.axes.y.scale, &map.rows);
     let colours: Vec<Option<Rgb>> =
         map.values.iter().map(|value| value.map(|value| map.colour(value))).collect();
-    // With edges on whole pixels adjacent areas meet without a seam.
-    svg.group("shape-rendering=\"crispEdges\"", |svg| {
-        for (cells, up) in colours.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
-            let mut column = 0;
-            for run in cells.chunk_by(|one, next| one == next) {
-                let from = frame.place_of_coordinates((columns[column], up[1]));
-                column += run.len();
-                let to = frame.place_of_coordinates((columns[column], up[0]));
-                match run[0] {
-                    Some(colour) => svg.rectangle(from, to, colour),
-                    None => svg.rect(from, to, HATCHED),
-                }
-            }
+    for (cells, up) in colours.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
+        let mut column = 0;
+        for run in cells.chunk_by(|one, next| one == next) {
+            let from = frame.place_of_coordinates((columns[column], up[1]));
+            column += run.len();
+            let to = frame.place_of_coordinates((columns[column], up[0]));
+            svg.boxes(std::iter::once((from, to)), run[0].unwrap_or(EMPTY));
         }
-    });
+    }
     let coordinates = |axis: &Axis, values: &[f64]| -> Vec<f64> {
         values.iter().map(|value| axis.scale.coordinate(*value)).collect()
     };
     let (across, up) = (coordinates(frame.axes.x, &map.columns), coordinates(frame.axes.y, &map.rows));
     if let Some(Contour { field, level, .. }) = &map.contour {
-        for line in contour(&across, &up, field, *level) {
-            let places: Vec<_> = line.into_iter().map(|point| frame.place_of_coordinates(point)).collect();
-            svg.line(&places, Pen::solid(PAPER, 4.0));
-            svg.line(&places, Pen::solid(TEXT, 1.8));
-        }
+        let pieces = contour(&across, &up, field, *level);
+        let pieces = pieces.into_iter().map(|ends| ends.map(|end| frame.place_of_coordinates(end)));
+        svg.pieces(pieces.clone(), Pen::solid(PAPER, 4.0));
+        svg.pieces(pieces, Pen::solid(TEXT, 1.8));
     }
     let every = |count: usize, pixels: f64| ((SIGN_DISTANCE * count as f64 / pixels).ceil() as usize).max(1);
     let (every_column, every_row) = (every(across.len(), frame.width()), every(up.len(), frame.height()));

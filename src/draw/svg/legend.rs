@@ -1,62 +1,46 @@
 //! Legend of a figure: rows of samples with names.
 
-use super::elements::{Anchor, HATCHED, Pen, Place, QUIET, Svg, TEXT};
+use super::elements::{Anchor, EMPTY, Pen, Place, Svg};
 use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
 use crate::draw::chart::{Entry, Sample};
+use crate::draw::label::Label;
 
 /// Size of names, px.
 const SIZE: f64 = 11.5;
 /// Distance of two entries, px.
 const BETWEEN: f64 = 20.0;
 /// Height of a row, px.
-pub(super) const ROW: f64 = 20.0;
+const ROW: f64 = 20.0;
 
-/// Entries in rows, with the width of each row.
-pub(super) struct Legend {
-    rows: Vec<(f64, Vec<Entry>)>,
-}
+/// An entry with its width and the lines of its name.
+type Named<'a> = (f64, &'a Entry, Vec<Label>);
 
-impl Legend {
-    /// Rows no wider than `most`, unless a single entry is.
-    pub(super) fn new(entries: Vec<Entry>, most: f64) -> Legend {
-        let mut rows: Vec<(f64, Vec<Entry>)> = Vec::new();
-        for entry in entries {
-            let own = width(&entry);
-            match rows.last_mut() {
-                Some((width, row)) if *width + BETWEEN + own <= most => {
-                    *width += BETWEEN + own;
-                    row.push(entry);
-                }
-                _ => rows.push((own, vec![entry])),
+/// Draws entries in rows around a middle, no wider than `most`, and returns their lower end.
+pub(super) fn draw(svg: &mut Svg, entries: &[Entry], (middle, top): Place, most: f64) -> f64 {
+    let mut rows: Vec<(f64, Vec<Named<'_>>)> = Vec::new();
+    for entry in entries {
+        let lines = entry.name.wrapped((most - room(entry)) / SIZE);
+        let own = room(entry) + SIZE * lines.iter().map(Label::width).fold(0.0, f64::max);
+        match rows.last_mut() {
+            Some((width, row)) if *width + BETWEEN + own <= most => {
+                *width += BETWEEN + own;
+                row.push((own, entry, lines));
             }
-        }
-        Legend { rows }
-    }
-
-    pub(super) fn width(&self) -> f64 {
-        self.rows.iter().map(|(width, _)| *width).fold(0.0, f64::max)
-    }
-
-    pub(super) fn height(&self) -> f64 {
-        self.rows.len() as f64 * ROW
-    }
-
-    /// Draws the rows around a middle, the first at this height.
-    pub(super) fn draw(&self, svg: &mut Svg, middle: f64, top: f64) {
-        for (index, (row_width, entries)) in self.rows.iter().enumerate() {
-            let mut x = middle - row_width / 2.0;
-            let y = top + index as f64 * ROW;
-            for entry in entries {
-                sample(svg, entry, (x, y));
-                svg.label(&entry.name, (x + room(entry), y), SIZE, Anchor::Left, TEXT);
-                x += width(entry) + BETWEEN;
-            }
+            _ => rows.push((own, vec![(own, entry, lines)])),
         }
     }
-}
-
-fn width(entry: &Entry) -> f64 {
-    room(entry) + entry.name.width() * SIZE
+    let mut y = top;
+    for (width, row) in rows {
+        let mut x = middle - width / 2.0;
+        let height = row.iter().map(|(.., lines)| lines.len()).max().unwrap_or(1);
+        for (own, entry, lines) in row {
+            sample(svg, entry, (x, y + ROW / 2.0));
+            svg.lines(&lines, (x + room(entry), y + ROW / 2.0), SIZE, Anchor::Left);
+            x += own + BETWEEN;
+        }
+        y += ROW + (height - 1) as f64 * 1.4 * SIZE;
+    }
+    y
 }
 
 /// Room for the samples of an entry, px.
@@ -94,9 +78,7 @@ fn sample(svg: &mut Svg, entry: &Entry, (x, y): Place) {
             Sample::Guide => svg.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide(*ink)),
             Sample::Contour => svg.line(&[(x, y), (x + 22.0, y)], Pen::solid(colour, 1.8)),
             Sample::Empty => {
-                let (from, to) = ((x, y - 6.0), (x + 12.0, y + 6.0));
-                svg.rect(from, to, HATCHED);
-                svg.frame(from, to, Pen::solid(QUIET, 0.8));
+                svg.rectangle((x, y - 6.0), (x + 12.0, y + 6.0), EMPTY);
             }
         }
     }

@@ -11,120 +11,117 @@ pub(crate) use tests::{attribute, elements, parsed};
 
 use super::axis::Axes;
 use super::chart::{Chart, Figure, HeatMap};
-use super::colour::{Rgb, Shades, hex};
 use super::label::Label;
-use elements::{Anchor, PAPER, Pen, Place, QUIET, TEXT};
+use elements::{Anchor, PAPER, Pen, Place, TEXT};
 use frame::{Frame, LABEL, Side};
-use legend::Legend;
 
 /// Fonts of figures, with nearly the same letters on all systems.
 const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
-/// Least room on the left of a chart and below it for the axes, and on the right of a chart, px.
-const AXES: (f64, f64) = (78.0, 50.0);
+/// Room below a chart for its axis, and least room on its right, px.
+const BELOW: f64 = 50.0;
 const BESIDE: f64 = 22.0;
-/// Distance of the colour scale from its map, and its width, px.
+/// Distance of the colour scale from its map, its width, px, and its number of colours.
 const FROM_MAP: f64 = 14.0;
 const BAR: f64 = 13.0;
+const BANDS: usize = 128;
 /// Least distance of text from the border, px.
 const MARGIN: f64 = 6.0;
-/// Size of the title, px.
+/// Sizes of the title and of text below it and below the legend, px.
 const TITLE: f64 = 14.5;
+const TEXT_SIZE: f64 = LABEL - 1.0;
+/// Least frame of charts side by side in a figure of a given width, and largest width of another figure of several, px.
+const LEAST: f64 = 110.0;
+const WIDEST: f64 = 1400.0;
+/// Frames up to this height are no lower than wide, px.
+const SQUARE: f64 = 150.0;
 
 impl Figure {
     pub fn svg(&self) -> String {
-        let page = Page::new(self);
-        let mut svg = Svg::new(page.width, page.height, &Label::plain(&self.title).to_string());
-        definitions(&mut svg, &self.charts);
-        svg.group(FONTS, |svg| page.draw(svg));
-        svg.finish()
-    }
-}
-
-/// Defines the shades and the hatching of maps.
-fn definitions(svg: &mut Svg, charts: &[Chart]) {
-    let maps = || charts.iter().filter_map(Chart::map);
-    for shades in [Shades::Sequential, Shades::Diverging] {
-        if maps().any(|map| map.shades == shades) {
-            let colours = shades.colours();
-            let last = (colours.len() - 1) as f64;
-            let stop = |(index, colour): (usize, &Rgb)| {
-                format!("<stop offset=\"{}\" stop-color=\"{}\"/>", index as f64 / last, hex(*colour))
-            };
-            let stops: String = colours.iter().enumerate().map(stop).collect();
-            svg.push(format_args!(
-                "<linearGradient id=\"{shades}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">{stops}</linearGradient>"
-            ));
-        }
-    }
-    if maps().any(|map| map.values.contains(&None)) {
-        let quiet = hex(QUIET);
-        svg.push(format_args!(
-            "<pattern id=\"hatched\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\">\
-             <path d=\"M-1 1L1 -1M0 6L6 0M5 7L7 5\" stroke=\"{quiet}\" stroke-width=\"0.8\"/></pattern>"
-        ));
-    }
-}
-
-/// A figure with the places of its parts, px.
-struct Page<'a> {
-    figure: &'a Figure,
-    legend: Legend,
-    title: Vec<Label>,
-    notes: Vec<Label>,
-    width: f64,
-    height: f64,
-    /// Room on the left and on the right of each chart.
-    rooms: Vec<(f64, f64)>,
-    /// Upper and lower ends of the charts, including the axes below.
-    top: f64,
-    bottom: f64,
-}
-
-impl<'a> Page<'a> {
-    fn new(figure: &'a Figure) -> Page<'a> {
-        let rooms: Vec<(f64, f64)> = figure.charts.iter().map(|chart| rooms(chart, figure.size)).collect();
-        let charts = charts_width(&rooms, figure.size.0);
-        let legend = Legend::new(figure.legend(), charts - 40.0);
-        let width = charts.max(legend.width() + 40.0);
-        let title = Label::plain(&figure.title).wrapped((width - 24.0) / TITLE);
-        let notes: Vec<Label> =
-            figure.notes.iter().flat_map(|note| note.wrapped((width - 24.0) / (LABEL - 1.0))).collect();
-        let headings = if figure.charts.len() > 1 { 22.0 } else { 6.0 };
-        let top = 12.0 + title.len() as f64 * 20.0 + notes.len() as f64 * 18.0 + headings;
-        let bottom = top + figure.size.1 + AXES.1;
-        let height = bottom + if legend.height() > 0.0 { legend.height() + 10.0 } else { 6.0 };
-        Page { figure, legend, title, notes, width, height, rooms, top, bottom }
-    }
-
-    fn draw(&self, svg: &mut Svg) {
-        let Page { figure, width, height, .. } = *self;
+        let (size, rooms) = self.columns();
+        let width = self.width.unwrap_or_else(|| width_of(&rooms, size));
+        let mut svg = Svg::default();
         let middle = width / 2.0;
-        svg.rectangle((0.0, 0.0), (width, height), PAPER);
-        let mut y = 20.0;
-        for line in &self.title {
-            svg.label(line, (middle, y), TITLE, Anchor::Middle, TEXT);
-            y += 20.0;
+        let wrapped = |label: &Label, size: f64| label.wrapped((width - 4.0 * MARGIN) / size);
+        let title = wrapped(&Label::plain(&self.title), TITLE);
+        let first = if self.title.is_empty() && self.notes.is_empty() { 10.0 } else { 20.0 };
+        let mut y = svg.lines(&title, (middle, first), TITLE, Anchor::Middle);
+        for note in &self.notes {
+            y = svg.lines(&wrapped(note, TEXT_SIZE), (middle, y), TEXT_SIZE, Anchor::Middle);
         }
-        for line in &self.notes {
-            svg.label(line, (middle, y - 1.0), LABEL - 1.0, Anchor::Middle, TEXT);
-            y += 18.0;
+        for (row, charts) in self.charts.chunks(rooms.len()).enumerate() {
+            y = self.draw_row(&mut svg, row * rooms.len(), charts, (size, &rooms, y));
         }
-        let mut left = (width - charts_width(&self.rooms, figure.size.0)) / 2.0;
-        for (index, (chart, (before, beside))) in figure.charts.iter().zip(&self.rooms).enumerate() {
-            left += before;
-            if let Some(heading) = figure.heading(index) {
-                svg.label(&heading, (left, self.top - 12.0), LABEL, Anchor::Left, TEXT);
+        y = legend::draw(&mut svg, &self.legend(), (middle, y + 2.0), width - 4.0 * MARGIN) + MARGIN;
+        let parameters: Vec<Label> =
+            self.parameters.iter().flat_map(|line| wrapped(line, TEXT_SIZE)).collect();
+        if !parameters.is_empty() {
+            let left = 2.0 * MARGIN;
+            let end = svg.lines(&parameters, (left, y + 2.0 * MARGIN), TEXT_SIZE, Anchor::Left) - MARGIN;
+            svg.frame((MARGIN, y), (width - MARGIN, end), Pen::solid(TEXT, 0.8));
+            y = end + MARGIN;
+        }
+        let mut document = Svg::new(width, y, &Label::plain(&self.title).to_string());
+        document.rectangle((0.0, 0.0), (width, y), PAPER);
+        document.group(FONTS, |document| document.append(svg));
+        document.finish()
+    }
+
+    /// Size of the frames, and the room on the left and on the right of each column of charts, px, in the fewest rows
+    /// that fit.
+    fn columns(&self) -> ((f64, f64), Vec<(f64, f64)>) {
+        let count = self.charts.len().max(1);
+        let rooms = |columns: usize, size| -> Vec<(f64, f64)> {
+            let charts = |column| self.charts.iter().skip(column).step_by(columns);
+            let wider = |one: (f64, f64), other: (f64, f64)| (one.0.max(other.0), one.1.max(other.1));
+            let room = |column| charts(column).map(|chart| rooms(chart, size)).fold((0.0, 0.0), wider);
+            (0..columns).map(room).collect()
+        };
+        let within = |columns: usize| {
+            let mut size = self.size;
+            // The numbers at the ticks, and so the rooms, depend on the size.
+            for width in self.width.into_iter().chain(self.width) {
+                let across = (width - width_of(&rooms(columns, size), (0.0, 0.0))) / columns as f64;
+                let across = across.max(MARGIN);
+                size = (across, (across * self.size.1 / self.size.0).max(across.min(SQUARE)));
             }
-            draw_chart(svg, chart, (left, self.top), figure.size);
-            left += figure.size.0 + beside;
+            (size, rooms(columns, size))
+        };
+        let fits = |(size, rooms): &((f64, f64), Vec<(f64, f64)>)| match self.width {
+            Some(_) => size.0 >= LEAST,
+            None => width_of(rooms, *size) <= WIDEST,
+        };
+        let mut layouts = (1..count).map(|rows| within(count.div_ceil(rows)));
+        layouts.find(fits).unwrap_or_else(|| within(1))
+    }
+
+    /// Draws charts side by side below this height, with the index of the first, and returns the height below them.
+    fn draw_row(
+        &self,
+        svg: &mut Svg,
+        first: usize,
+        charts: &[Chart],
+        (size, rooms, y): ((f64, f64), &[(f64, f64)], f64),
+    ) -> f64 {
+        let heading = |(index, (_, beside)): (usize, &(f64, f64))| {
+            self.heading(index).unwrap_or_default().wrapped((size.0 + beside - MARGIN) / LABEL)
+        };
+        let headings: Vec<Vec<Label>> = (first..first + charts.len()).zip(rooms).map(heading).collect();
+        let lines = headings.iter().map(Vec::len).max().unwrap_or(0);
+        let top = y + 18.0 * lines as f64 - if lines > 0 { 0.0 } else { 2.0 };
+        let mut left = 0.0;
+        for ((chart, heading), (before, beside)) in charts.iter().zip(&headings).zip(rooms) {
+            left += before;
+            svg.lines(heading, (left, top - 18.0 * heading.len() as f64 + 6.0), LABEL, Anchor::Left);
+            draw_chart(svg, chart, (left, top), size);
+            left += size.0 + beside;
         }
-        self.legend.draw(svg, middle, self.bottom + 12.0);
+        top + size.1 + BELOW + if self.charts.len() > first + charts.len() { 2.0 * MARGIN } else { 0.0 }
     }
 }
 
-/// Width of charts with frames of this width, px.
-fn charts_width(rooms: &[(f64, f64)], frame: f64) -> f64 {
-    rooms.iter().map(|(before, beside)| before + frame + beside).sum()
+/// Width of charts of one size side by side, px.
+fn width_of(rooms: &[(f64, f64)], size: (f64, f64)) -> f64 {
+    rooms.iter().map(|(before, beside)| before + size.0 + beside).sum()
 }
 
 fn frame_of(chart: &Chart, from: Place, size: (f64, f64)) -> Frame<'_> {
@@ -144,7 +141,7 @@ fn rooms(chart: &Chart, size: (f64, f64)) -> (f64, f64) {
     let scale = chart
         .map()
         .map_or(0.0, |map| FROM_MAP + BAR + frame_of_colours(map, frame).room(Side::Right) + MARGIN);
-    (AXES.0.max(frame.room(Side::Left) + MARGIN), BESIDE.max(scale))
+    (frame.room(Side::Left) + MARGIN, BESIDE.max(scale))
 }
 
 fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
@@ -155,7 +152,11 @@ fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
     frame.axis(svg, Side::Left);
     if let Some(map) = chart.map() {
         let scale = frame_of_colours(map, frame);
-        svg.rect(scale.from, scale.to, &format!("fill=\"url(#{})\"", map.shades));
+        for band in 0..BANDS {
+            let [low, high] = [band, band + 1].map(|band| band as f64 / BANDS as f64);
+            let corners = (scale.at((0.0, high)), scale.at((1.0, low)));
+            svg.boxes(std::iter::once(corners), map.shades.at(f64::midpoint(low, high)));
+        }
         svg.frame(scale.from, scale.to, Pen::solid(TEXT, 1.0));
         scale.axis(svg, Side::Right);
     }
@@ -165,7 +166,7 @@ fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
 mod tests {
     use super::*;
     use crate::draw::chart::{Layer, Shape, Sign, Stroke};
-    use crate::draw::colour::Ink;
+    use crate::draw::colour::{Ink, hex};
     use crate::draw::{Axis, AxisScale, Span};
     use roxmltree::Document;
 
@@ -275,6 +276,34 @@ mod tests {
         // The end without a logarithm is at the bottom.
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(small(Vec::new()).svg().len() < svg.len());
+    }
+
+    #[test]
+    fn charts_of_a_given_width_lie_apart_and_keep_their_letters() {
+        let sizes = |svg: &str| {
+            let sizes = elements(svg, "text").into_iter().map(|text| attribute(&text, "font-size").to_bits());
+            sizes.collect::<std::collections::BTreeSet<_>>()
+        };
+        let chart = small(Vec::new()).charts.remove(0);
+        for (count, width) in (1..=6).flat_map(|count| [189.0, 321.26, 642.52].map(|width| (count, width))) {
+            let charts = vec![chart.clone(); count];
+            let wide = Figure { charts, parameters: vec!["E".into()], ..small(Vec::new()) };
+            let narrow = Figure { width: Some(width), ..wide.clone() }.svg();
+            assert_eq!(sizes(&narrow), sizes(&wide.svg()));
+            let rects = elements(&narrow, "rect");
+            assert!((attribute(&rects[0], "width") - width).abs() < 0.01, "{}", rects[0]);
+            let frames: Vec<[f64; 4]> = rects
+                .iter()
+                .filter(|rect| rect.contains("stroke-width=\"1\""))
+                .map(|rect| ["x", "y", "width", "height"].map(|name| attribute(rect, name)))
+                .collect();
+            assert_eq!(frames.len(), count);
+            for (index, [x, y, across, down]) in frames.iter().enumerate() {
+                assert!(*x > 0.0 && x + across < width && *across > 90.0 && *down > 90.0, "{frames:?}");
+                let apart = |other: &[f64; 4]| x + across < other[0] || y + down < other[1];
+                assert!(frames[index + 1..].iter().all(apart), "{frames:?}");
+            }
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Complete small worlds: every order of few gaps, ties included, against the definitions of the thresholds, and every
 //! history of a few springs against the bare rules.
 
-use crate::contact::{
+use asperity::contact::{
     Body, Contact, ContactError, Direction, Edges, Foundation, HessRule, Move, Patch, Solver,
 };
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ const AGREE: f64 = 1e-12;
 /// Compares the thresholds of a loading to full contact with both edge models, and of the way back with whole springs, on
 /// every line of this number of springs with gaps in any order, ties included. Springs out of reach on the left, `before`
 /// of them, move the others across the ends of blocks. Returns the number of lines.
-pub fn every_order(springs: usize, before: usize) -> Result<u64, String> {
+fn every_order(springs: usize, before: usize) -> Result<u64, String> {
     let mut gaps: Vec<f64> = (0..before).map(|place| 3.0 + (before - place) as f64).collect();
     gaps.resize(before + springs, 0.0);
     let mut lines = 0;
@@ -133,7 +133,7 @@ impl Definition<'_> {
 
 /// Compares the patches after each move with those of the bare rules, for every history of three moves on every `step`-th
 /// line of five springs, under one and two works of adhesion. Returns the number of contacts compared.
-pub fn every_history(step: usize) -> Result<u64, String> {
+fn every_history(step: usize) -> Result<u64, String> {
     let mut compared = 0;
     for heights in sequences(HEIGHTS.len(), 5).step_by(step) {
         let heights: Vec<f64> = heights.into_iter().map(|height| HEIGHTS[height]).collect();
@@ -190,33 +190,28 @@ fn relax(gaps: &[f64], contact: &mut [bool], at: f64, works: [f64; 2]) {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+#[test]
+fn every_order_of_few_gaps_has_the_thresholds_of_the_definition() {
+    // The numbers of weak orders (Fubini).
+    let counts: Vec<u64> = (1..=6).map(|springs| every_order(springs, 0).unwrap()).collect();
+    assert_eq!(counts, [1, 3, 13, 75, 541, 4683]);
+    assert!((59..64).all(|before| every_order(4, before) == Ok(75)), "across the end of a block");
+}
 
-    #[test]
-    fn every_order_of_few_gaps_has_the_thresholds_of_the_definition() {
-        // The numbers of weak orders (Fubini).
-        let counts: Vec<u64> = (1..=6).map(|springs| every_order(springs, 0).unwrap()).collect();
-        assert_eq!(counts, [1, 3, 13, 75, 541, 4683]);
-        assert!((59..64).all(|before| every_order(4, before) == Ok(75)), "across the end of a block");
-    }
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn every_order_of_eight_gaps_has_the_thresholds_of_the_definition() {
+    assert_eq!([every_order(7, 0), every_order(8, 0)], [Ok(47_293), Ok(545_835)]);
+    assert!((58..64).all(|before| every_order(6, before) == Ok(4683)), "across the end of a block");
+}
 
-    #[test]
-    #[ignore = "takes ten seconds or more; .ci/run runs it"]
-    fn every_order_of_eight_gaps_has_the_thresholds_of_the_definition() {
-        assert_eq!([every_order(7, 0), every_order(8, 0)], [Ok(47_293), Ok(545_835)]);
-        assert!((58..64).all(|before| every_order(6, before) == Ok(4683)), "across the end of a block");
-    }
+#[test]
+fn histories_of_five_springs_agree_with_the_bare_rules() {
+    assert_eq!(every_history(23), Ok(136 * 3 * 343 * 3));
+}
 
-    #[test]
-    fn histories_of_five_springs_agree_with_the_bare_rules() {
-        assert_eq!(every_history(23), Ok(136 * 3 * 343 * 3));
-    }
-
-    #[test]
-    #[ignore = "takes ten seconds or more; .ci/run runs it"]
-    fn every_history_of_five_springs_agrees_with_the_bare_rules() {
-        assert_eq!(every_history(1), Ok(3125 * 3 * 343 * 3));
-    }
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn every_history_of_five_springs_agrees_with_the_bare_rules() {
+    assert_eq!(every_history(1), Ok(3125 * 3 * 343 * 3));
 }
