@@ -134,9 +134,9 @@ fn refused(text: &str) -> QuantityError {
 pub enum Run {
     /// A single stage.
     Stage(Move),
-    /// The second stage, and so many times the first one and the second one: minor loops.
+    /// The second stage, then this number of times the first one and the second one: minor loops.
     Loops(usize, Move, Move),
-    /// So many turning points in equal distances up to this one, each followed by a separation.
+    /// This number of turning points, equally spaced up to this one, each followed by a separation.
     Reversals(usize, Move),
 }
 
