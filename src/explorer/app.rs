@@ -19,7 +19,7 @@ use super::theme::Appearance;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
-use crate::scene::{Change, Document, Observer, Scene, ron_float};
+use crate::scene::{Change, Document, Move, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Place};
 use std::sync::Arc;
@@ -47,6 +47,10 @@ impl CloseUpTarget {
 pub struct ManualState {
     /// Path so far, the newest point last.
     pub path: Vec<CurvePoint>,
+    /// Places of the stages of these points.
+    pub stages: Vec<usize>,
+    /// The history from separation to the present state.
+    pub loading: Vec<Move>,
     /// Springs attached or detached on the last move.
     pub changed: u64,
     /// Elastic energy released since manual loading began, J.

@@ -101,7 +101,10 @@ impl Editor {
     /// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and
     /// the row that switched an effect off can switch the effect on again.
     fn row_of(&self, path: &str) -> usize {
-        let row = |path: &str| self.parameters.iter().position(|parameter| parameter.path == path);
+        // A loading stage with a number has its row at the path of the number.
+        let is_at =
+            |one: &Parameter, path: &str| one.path == path || one.path.strip_suffix(".0") == Some(path);
+        let row = |path: &str| self.parameters.iter().position(|parameter| is_at(parameter, path));
         let around = successors(Some(path), |path| path.rsplit_once('.').map(|(group, _)| group));
         around.filter_map(row).next().unwrap_or(self.selected)
     }

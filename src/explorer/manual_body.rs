@@ -1,17 +1,16 @@
 //! The body under manual loading, with its path for the curve.
 
+use super::reach::{beyond_full_contact, out_of_reach};
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
-use crate::contact::{Body, ContactError, CurvePoint, Leg, Motion, Solver};
-use crate::scene::{Move, format_quantity};
+use crate::contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
+use crate::scene::Move;
 use crate::text::round_to;
 
 /// Points of the curve along the way of one order.
 const POINTS: u32 = 16;
 /// Most points of the curve of a separation.
 const MOST_POINTS: u32 = 512;
-/// Largest force over that at full contact: beyond full contact the curve is a straight line.
-const MOST_OVER_FULL_CONTACT: f64 = 10.0;
 
 /// Body under manual loading.
 pub struct ManualBody {
@@ -21,18 +20,26 @@ pub struct ManualBody {
     step: f64,
     /// Force at which the last spring touches the rigid body, N.
     full_contact: f64,
-    /// Largest pressing force, N.
-    largest: f64,
+    /// Largest force of the scene's loading, N.
+    preload: f64,
+    /// Direction of the last stage of the path.
+    direction: Option<Direction>,
 }
 
 impl ManualBody {
     /// Begins manual loading at an indentation of a leg, m. `step` is the distance of the points of a pull, m, and
-    /// `preload` the largest force of the scene's loading, N; `None` without enough memory.
-    pub fn take(leg: &Leg, indentation: f64, (step, preload): (f64, f64)) -> Option<Self> {
+    /// `preload` the largest force of the scene's loading, N; the stages so far end in a direction. `None` without enough
+    /// memory.
+    pub fn take(
+        leg: &Leg,
+        indentation: f64,
+        (step, preload): (f64, f64),
+        (loading, direction): (Vec<Move>, Option<Direction>),
+    ) -> Option<Self> {
         let body = Body::at(leg, indentation).ok()?;
         let full_contact = leg.contact().full_contact_force();
-        let largest = MOST_OVER_FULL_CONTACT * full_contact.max(preload);
-        Some(ManualBody { body, travel: ManualPath::default(), step, full_contact, largest })
+        let travel = ManualPath { loading, ..ManualPath::default() };
+        Some(ManualBody { body, travel, step, full_contact, preload, direction })
     }
 
     /// Present state.
@@ -47,8 +54,8 @@ impl ManualBody {
 
     /// Path since the last call.
     pub fn travel(&mut self) -> ManualPath {
-        let released_energy = self.travel.released_energy;
-        std::mem::replace(&mut self.travel, ManualPath { released_energy, ..ManualPath::default() })
+        let (released_energy, loading) = (self.travel.released_energy, self.travel.loading.clone());
+        std::mem::replace(&mut self.travel, ManualPath { released_energy, loading, ..ManualPath::default() })
     }
 
     /// Moves the body; a refused order moves nothing.
@@ -56,31 +63,24 @@ impl ManualBody {
         let from = self.body.point();
         let target = match order {
             ManualMove::Take { .. } => return,
-            ManualMove::To(indentation) => Move::ToIndentation(indentation),
-            ManualMove::By(way) => Move::ToIndentation(from.indentation + way),
+            // Few digits, since the path may become the loading of the scene.
+            ManualMove::To(indentation) => Move::ToIndentation(round_to(indentation, 10)),
+            ManualMove::By(way) => Move::ToIndentation(round_to(from.indentation + way, 10)),
             ManualMove::ToForce(force) => Move::ToForce(force),
             ManualMove::Separate => Move::ToSeparation,
         };
         self.travel.refused = self.go(from, target).err();
     }
 
-    /// Moves the body, or states why not, with forces rounded into the allowed range.
+    /// Moves the body, or states why not.
     fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), String> {
-        let newtons = |force| format_quantity(force, "N");
         if let Move::ToForce(force) = target
-            && force > self.largest.max(from.force)
+            && force > from.force
+            && let Some(why) = beyond_full_contact(force, self.full_contact, self.preload)
         {
-            let (full, most) = (newtons(self.full_contact), newtons(-rounded_up(-self.largest)));
-            let force = newtons(force);
-            return Err(format!("{force} is far beyond full contact at {full}; allowed: at most {most}"));
+            return Err(why);
         }
-        let moved = self.body.move_to(target).map_err(|error| match (error, target) {
-            (ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {
-                let (force, least) = (newtons(force), newtons(rounded_up(smallest)));
-                format!("the contact detaches before {force}; smallest force within reach: {least}")
-            }
-            (error, _) => error.to_string(),
-        })?;
+        let moved = self.body.move_to(target).map_err(|error| out_of_reach(&error, target))?;
         let Some(Motion { leg, low, high, .. }) = moved else { return Ok(()) };
         let to = self.body.point();
         let way = to.indentation - from.indentation;
@@ -101,17 +101,16 @@ impl ManualBody {
         // All springs attach or detach between contact and separation.
         let passes_separation = from.springs == 0 || to.springs == 0;
         let below = if passes_separation { f64::NEG_INFINITY } else { low };
-        self.travel.path.extend(path);
-        self.travel.path.push(to);
+        // Motions in one direction are one stage, to the last target.
+        let direction = Some(leg.direction());
+        if std::mem::replace(&mut self.direction, direction) == direction {
+            self.travel.loading.pop();
+        }
+        let stage = self.travel.loading.len();
+        self.travel.loading.push(target);
+        self.travel.path.extend(path.into_iter().chain([to]).map(|point| (stage, point)));
         self.travel.changed += to.springs.abs_diff(from.springs);
         self.travel.released_energy += leg.released_energy(below, high);
         Ok(())
     }
-}
-
-/// The nearest number of four digits not below a value.
-fn rounded_up(value: f64) -> f64 {
-    let nearest = round_to(value, 4);
-    let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
-    if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
 }

@@ -26,6 +26,7 @@ pub mod parameters;
 pub mod picture;
 mod player;
 pub mod prompt;
+mod reach;
 mod recording;
 pub mod request;
 pub mod runtime;

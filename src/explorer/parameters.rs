@@ -1,8 +1,8 @@
 //! The list of parameters: the fields of the present scene that can be changed, in groups, by use.
 
 use crate::scene::{
-    Document, Effect, Field, Move, Range, RoughnessParameter, field, format_quantity, ron_float,
-    stage_targets,
+    Document, Effect, Field, Move, Range, RoughnessParameter, STAGE, exact_quantity, field, format_quantity,
+    loading_text, ron_float, stage_in_ron,
 };
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
@@ -33,7 +33,7 @@ pub struct Parameter {
     pub path: String,
     /// Name of its group: the path of the first row.
     pub group: &'static str,
-    /// The leg, for the target of a leg.
+    /// The loading stage, for a row of one.
     pub leg: Option<usize>,
     /// Its value as written in the scene file.
     pub written: String,
@@ -73,7 +73,7 @@ impl Parameter {
         }
     }
 
-    /// Name with the number of its leg.
+    /// Name with the number of its loading stage.
     pub fn name(&self) -> String {
         match (self.leg, self.setting) {
             (Some(leg), _) => format!("{} {}", self.field.name, leg + 1),
@@ -85,7 +85,9 @@ impl Parameter {
     /// Returns true if its value is typed as a number.
     pub fn takes_number(&self) -> bool {
         let has_value = !matches!(self.setting, Setting::Switch(_) | Setting::Heading);
-        has_value && !matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. })
+        let is_text = matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. });
+        // A stage in words may become one with a number.
+        has_value && (self.leg.is_some() || !is_text)
     }
 
     /// Returns true for the first row of a group.
@@ -137,14 +139,14 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         let written = if is_given { Some(written.to_owned()) } else { waves(document, field) };
         let Some(written) = written else { continue };
         let shown = match field.path {
-            "loading" => stage_targets(&document.scene().loading, format_quantity),
+            "loading" => loading_text(&document.scene().loading, exact_quantity),
             "roughness.roll_off" if !is_given => "none".to_owned(),
             _ if !is_given => format!("= {}", shown(field, &written)),
             _ => shown(field, &written),
         };
         parameters.push(Parameter { written, shown, ..Parameter::new(field, field.path) });
         if field.path == "loading" {
-            parameters.extend(leg_targets(&document.scene().loading));
+            parameters.extend(stage_rows(&document.scene().loading));
         }
     }
     add_other_adhesion(&mut parameters);
@@ -210,16 +212,18 @@ fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item =
     })
 }
 
-fn leg_targets(loading: &[Move]) -> impl Iterator<Item = Parameter> {
-    loading.iter().enumerate().filter_map(|(index, leg)| {
-        let (field, value) = leg.field()?;
-        Some(Parameter {
+/// A row for each loading stage, at the path of its number if it has one.
+fn stage_rows(loading: &[Move]) -> impl Iterator<Item = Parameter> {
+    loading.iter().enumerate().map(|(index, stage)| {
+        let number = stage.field();
+        let path = format!("loading.{index}{}", if number.is_some() { ".0" } else { "" });
+        Parameter {
             leg: Some(index),
-            written: ron_float(value),
-            shown: format_quantity(value, field.unit),
+            written: number.map_or_else(|| stage_in_ron(stage), |(_, value)| ron_float(value)),
+            shown: loading_text(&[*stage], format_quantity),
             effect: Some(Effect::Unloading),
-            ..Parameter::new(field, &format!("loading.{index}.0"))
-        })
+            ..Parameter::new(number.map_or(&STAGE, |(field, _)| field), &path)
+        }
     })
 }
 

@@ -6,7 +6,7 @@ use super::request::{Focus, LineView, SnapshotRequest};
 use crate::contact::{CurvePoint, Patch, PatchState};
 pub use crate::export::section::{Column, Section};
 use crate::export::section::{Contact, Part};
-use crate::scene::Scene;
+use crate::scene::{Move, Scene};
 use crate::simulation::{LineFacts, Outcome};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,6 +17,8 @@ pub struct SolvedScene {
     pub generation: u64,
     pub scene: Arc<Scene>,
     pub outcome: Outcome,
+    /// Force at which the last spring touches the rigid body, N.
+    pub full_contact: f64,
 }
 
 /// State of the contact at one indentation.
@@ -110,8 +112,10 @@ pub fn profile_part(request: &SnapshotRequest, count: usize, close_up: usize) ->
 /// Path of manual loading since the last snapshot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualPath {
-    /// Points of the curve on the way, without its start.
-    pub path: Vec<CurvePoint>,
+    /// Points of the curve on the way, without its start, with the places of their stages.
+    pub path: Vec<(usize, CurvePoint)>,
+    /// The history from separation to this state: the loading of the scene, then turning points of manual loading.
+    pub loading: Vec<Move>,
     /// Springs attached or detached.
     pub changed: u64,
     /// Elastic energy released since manual loading began, J.

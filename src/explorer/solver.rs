@@ -4,11 +4,12 @@
 use super::close_up::close_up;
 use super::manual_body::ManualBody;
 use super::player::{Player, indentations};
+use super::reach::out_of_reach;
 use super::request::{Drive, ManualMove, Place, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, lengths, profile_part, strip};
-use crate::contact::{ContactError, CurvePoint, Leg};
+use crate::contact::{ContactError, CurvePoint, Direction, Leg};
 use crate::export::section::{Contact, LineColumns};
-use crate::scene::{Observer, Scene, Solver as SceneSolver};
+use crate::scene::{Move, Observer, Scene, Solver as SceneSolver};
 use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -81,6 +82,9 @@ impl Solver {
                 Ok(()) => {}
                 // Unless the scene is awaited again.
                 Err(error) if error.is_interruption() => return self.newest.generation = 0,
+                Err(RunError::Contact(error)) => {
+                    report(Report::Failed { generation, error: out_of_reach(&error, Move::ToTouch) });
+                }
                 Err(error) => report(Report::Failed { generation, error: error.to_string() }),
             }
         }
@@ -108,14 +112,17 @@ impl Solver {
             observed.observe.push(Observer::HeightHistogram);
         }
         let stop = || self.awaited.load(Ordering::Relaxed) != generation;
-        let (mut bytes, mut legs) = (0, Vec::new());
+        let (mut bytes, mut legs, mut full_contact) = (0, Vec::new(), 0.0);
         let outcome = (self.solve)(&mut self.simulation, &observed, &stop, &mut |stage, _, leg| {
+            if stage == 0 {
+                full_contact = leg.contact().full_contact_force();
+            }
             legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
             bytes += leg.bytes();
             report(Report::Progress { generation, legs: stage + 1 });
             Ok(())
         })?;
-        let solved = Some(Arc::new(SolvedScene { generation, scene, outcome }));
+        let solved = Some(Arc::new(SolvedScene { generation, scene, outcome, full_contact }));
         self.newest = Newest { generation, scene: Some(observed), solved, legs, ..Newest::default() };
         Ok(())
     }
@@ -132,20 +139,21 @@ impl Solver {
         }
     }
 
-    fn take(&mut self, leg: usize, indentation: f64) -> Option<ManualBody> {
+    fn take(&mut self, number: usize, indentation: f64) -> Option<ManualBody> {
         self.newest.body = None;
         let solved = self.newest.solved.clone()?;
         let leg = if solved.scene.numerics.solver == SceneSolver::Exact {
-            self.leg(leg)
+            self.leg(number)
         } else {
             // The stepwise solver knows no leg but those of the loading.
             let mut scene = solved.scene.as_ref().clone();
             scene.numerics.solver = SceneSolver::Exact;
-            self.leg_of(&scene, leg)
+            self.leg_of(&scene, number)
         }?;
         let preload = solved.outcome.figures.preload.unwrap_or(0.0);
         let (low, high) = indentations(&solved.outcome.history.legs).unwrap_or_default();
-        ManualBody::take(&leg, indentation, ((high - low) / STEPS_OF_A_PULL, preload))
+        let so_far = stages_until(&solved, number, indentation);
+        ManualBody::take(&leg, indentation, ((high - low) / STEPS_OF_A_PULL, preload), so_far)
     }
 
     /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
@@ -227,6 +235,21 @@ impl Solver {
         });
         found
     }
+}
+
+/// The stages of a loading until an indentation of a leg, m, and the direction of the last one.
+fn stages_until(solved: &SolvedScene, number: usize, indentation: f64) -> (Vec<Move>, Option<Direction>) {
+    let (legs, loading) = (&solved.outcome.history.legs, &solved.scene.loading);
+    let mut stages = loading.iter().take(number).copied().collect::<Vec<_>>();
+    let before = number.checked_sub(1).and_then(|before| legs.get(before));
+    let Some(leg) = legs.get(number) else { return (stages, None) };
+    // The animation begins above the foundation.
+    if indentation == leg.start() || before.is_none() && indentation < leg.start() {
+        return (stages, before.map(|leg| leg.direction));
+    }
+    let is_end = [leg.end(), leg.end().next_down()].contains(&indentation);
+    stages.push(if is_end { leg.target } else { Move::ToIndentation(indentation) });
+    (stages, Some(leg.direction))
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {

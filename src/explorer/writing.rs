@@ -2,8 +2,10 @@
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
+use super::panes::PATH_COMMAND;
 use super::picture::{svg, text};
 use super::theme::Theme;
+use super::update::stages::with_path;
 use super::view;
 use crate::draw::Palette;
 use crate::export::{self, Format, scene_provenance};
@@ -45,7 +47,8 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
         }
         Content::Pane(format) => {
             let (command, report) = (app.view.pane.row().report)(app).ok_or_else(missing)?;
-            let document = &app.edit.document;
+            let kept = if command == PATH_COMMAND { with_path(app).and_then(Result::ok) } else { None };
+            let document = kept.as_ref().unwrap_or(&app.edit.document);
             let command = command_line(command, document.name(), document.overrides());
             let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));
             let provenance = match format {

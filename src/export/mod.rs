@@ -27,7 +27,7 @@ mod work_precision;
 
 pub use provenance::scene_provenance;
 pub use report::{Format, Report, write};
-pub use run::RunReport;
+pub use run::{PathReport, RunReport};
 
 pub(crate) use comparison::{Comparison, adhesion_forces};
 pub(crate) use cost::CostReport;

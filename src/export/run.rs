@@ -4,9 +4,10 @@ use super::loop_chart::force_figure;
 use super::report::{Json, Report};
 use super::summary::summary;
 use crate::accuracy::{Choice, Estimate};
+use crate::contact::CurvePoint;
 use crate::draw::Figure;
 use crate::io::{Table, object};
-use crate::scene::{Observer, Scene};
+use crate::scene::{Move, Observer, Scene};
 use crate::simulation::Outcome;
 use crate::surface::Line;
 
@@ -67,7 +68,7 @@ impl Report for RunReport<'_> {
             "dissipated_energy": figures.dissipated_energy,
             "tabor_number": outcome.tabor_number,
             "steep_waves"?: outcome.steep_waves,
-            "curve": curve(outcome),
+            "curve": self.table(),
             "contacts": &history.contacts,
             "fragments": fragments,
             "histogram": outcome.histogram.as_ref().map(|histogram| object! {
@@ -81,7 +82,10 @@ impl Report for RunReport<'_> {
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        Some(curve(self.outcome))
+        let legs = || self.outcome.history.legs.iter().zip(0_u64..);
+        Some(curve(move || {
+            legs().flat_map(|(leg, number)| leg.curve.iter().map(move |point| (number, point)))
+        }))
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -89,12 +93,29 @@ impl Report for RunReport<'_> {
     }
 }
 
-/// The force curve in SI units, with the numbers of the loading stages from 0.
-fn curve(outcome: &Outcome) -> Table<'_> {
-    let points = || {
-        let legs = outcome.history.legs.iter().zip(0_u64..);
-        legs.flat_map(|(leg, number)| leg.curve.iter().map(move |point| (number, point)))
-    };
+/// The path of manual loading.
+#[derive(Clone, Copy, Debug)]
+pub struct PathReport<'a> {
+    /// Its stages, from separation.
+    pub loading: &'a [Move],
+    /// Points of its curve.
+    pub path: &'a [CurvePoint],
+    /// Places of the stages of these points.
+    pub stages: &'a [usize],
+}
+
+impl Report for PathReport<'_> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(object! { "loading": self.loading, "curve": self.table() }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        Some(curve(|| self.stages.iter().map(|stage| *stage as u64).zip(self.path)))
+    }
+}
+
+/// A force curve in SI units, its points with the numbers of their loading stages from 0.
+fn curve<'a, I: Iterator<Item = (u64, &'a CurvePoint)> + 'a>(points: impl Fn() -> I + 'a) -> Table<'a> {
     Table::of(points)
         .whole("leg", |(number, _)| *number)
         .real("indentation", |(_, point)| point.indentation)

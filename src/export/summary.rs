@@ -6,11 +6,11 @@ use crate::analysis::{
     INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,
 };
 use crate::contact::Work;
-use crate::scene::{Move, Scene, format_quantity};
+use crate::scene::{Move, Scene, format_quantity, loading_text};
 use crate::simulation::{Outcome, Timings};
 use crate::text::grouped;
 
-/// Largest number of loading stages that are listed; further ones are counted.
+/// Largest number of loading stages, or runs of them, that are listed; further ones are counted.
 const MOST_STAGES: usize = 8;
 
 /// Result of a scene in plain text of at most 80 columns, with the estimated error of the adhesion force and the choice of
@@ -216,18 +216,13 @@ fn adhesion_force(outcome: &Outcome) -> String {
 }
 
 fn loading(legs: &[Move]) -> String {
-    let words = |leg: &Move| match *leg {
-        Move::ToForce(force) => format!("to {}", format_quantity(force, "N")),
-        Move::ToIndentation(indentation) => format!("to d = {}", format_quantity(indentation, "m")),
-        Move::ToTouch => "to first touch".into(),
-        Move::ToZeroForce => "to zero force".into(),
-        Move::ToSeparation => "to separation".into(),
-    };
-    let mut named: Vec<String> = legs.iter().take(MOST_STAGES).map(words).collect();
-    if legs.len() > MOST_STAGES {
-        named.push(format!("and {} more stages", legs.len() - MOST_STAGES));
+    let text = loading_text(legs, format_quantity);
+    match text.match_indices(", ").nth(MOST_STAGES - 1) {
+        Some((end, _)) => {
+            format!("{} and {} more stages", &text[..=end], text[end + 1..].split(", ").count())
+        }
+        None => text,
     }
-    named.join(", ")
 }
 
 fn contact(sheet: &mut Sheet, outcome: &Outcome) {
@@ -411,7 +406,8 @@ mod tests {
     fn long_scenes_stay_within_their_columns() {
         let title = format!("\"{}\"", "title ".repeat(30));
         let notice = format!("\"{}\\n\\n{}\"", "x".repeat(300), "notice ".repeat(60));
-        let loading = format!("[{}ToSeparation]", "ToForce(1.2345e-5), ToZeroForce, ".repeat(20));
+        let stages = (1..=20).map(|force| format!("ToForce({force}.2345e-6), ToZeroForce, "));
+        let loading = format!("[{}ToSeparation]", stages.collect::<String>());
         let text = summary_of(ROUGH, &[("title", &title), ("notice", &notice), ("loading", &loading)]);
         assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
         assert!(text.contains("and 33 more stages"), "{text}");

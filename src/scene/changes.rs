@@ -1,9 +1,10 @@
 //! Differences between two scenes, by technical names.
 
 use super::document::Document;
-use super::field::{Field, stage_targets};
+use super::field::Field;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
+use super::stages::loading_text;
 use super::tree::{Tree, differing};
 use std::fmt;
 
@@ -73,7 +74,7 @@ fn changed_stages(scenes: &[Scene; 2]) -> Vec<Change> {
     let [one, other] = scenes.each_ref().map(|scene| &scene.loading);
     let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);
     let changes: Vec<Change> = pairs.map(change_of_stage).collect();
-    let [from, to] = [one, other].map(|loading| stage_targets(loading, format_quantity));
+    let [from, to] = [one, other].map(|loading| loading_text(loading, format_quantity));
     // A change takes the room of its value and of some fourteen characters.
     let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
     if one.len() == other.len() && length < 14 + from.len() {
@@ -83,7 +84,7 @@ fn changed_stages(scenes: &[Scene; 2]) -> Vec<Change> {
 }
 
 fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
-    let [from, to] = [one, other].map(|stage| stage_targets(&[*stage], format_quantity));
+    let [from, to] = [one, other].map(|stage| loading_text(&[*stage], format_quantity));
     let symbol = match (one.field(), other.field()) {
         (Some((field, _)), Some((same, _))) if field == same => format!(" {}", field.symbol),
         _ => String::new(),

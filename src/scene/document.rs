@@ -9,11 +9,11 @@ use super::effects::Effect;
 use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
 use super::fields::{FIELDS, field};
-use super::model::Scene;
+use super::model::{Move, Scene};
 use super::range::Range;
 use super::read::read;
 use super::text::{NOT_ONE_VALUE, Text, is_within, line_column};
-use super::tree::{Tree, to_ron};
+use super::tree::{Tree, in_ron, to_ron};
 
 /// Longest text; longer ones are refused unread. Scenes are a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
@@ -113,6 +113,33 @@ impl Document {
         SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
             overrides_behind(error, overrides)
         })?;
+        if !new.is_changed() {
+            new.overrides.clear();
+        }
+        Ok(new)
+    }
+
+    /// The stages of the loading with their places.
+    pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
+        self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
+    }
+
+    /// This document with another loading: its stages, those that stay with their places in the present loading, by which
+    /// they keep their notation and their comments.
+    ///
+    /// # Errors
+    /// As [`Document::set`].
+    pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
+        let elements: Vec<_> = stages.iter().map(|(place, stage)| (*place, in_ron(stage))).collect();
+        let mut new =
+            self.set("loading", &in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>()))?;
+        let is_same = |text: &Text| {
+            check_length(text.as_str()).is_ok()
+                && read(text.as_str(), |_| Origin::Scene).is_ok_and(|scene| scene == new.scene)
+        };
+        if let Some(text) = self.text.arrange("loading", &elements).filter(is_same) {
+            new.text = text;
+        }
         if !new.is_changed() {
             new.overrides.clear();
         }

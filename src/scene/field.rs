@@ -2,6 +2,7 @@
 
 use super::quantity::{QuantityError, parse_quantity};
 use super::range::Range;
+use super::stages::{STAGES, read_loading, stage_in_ron};
 use super::text::{ron_float, ron_string};
 use crate::contact::Move;
 
@@ -147,6 +148,11 @@ pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
+/// A loading stage without a number, at `loading.0` for the first stage.
+pub(crate) const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
+    "target of the stage: a force (10 µN), an indentation (200 nm), touch, zero force or separation",
+);
+
 impl Move {
     /// Field and value of the target, if the stage has a numeric target.
     pub fn field(&self) -> Option<(&'static Field, f64)> {
@@ -164,7 +170,8 @@ const MOST_EXACT: f64 = 9.0e15;
 impl Field {
     /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
     /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, a work with
-    /// its unit is an adhesion, and a loading may be a list of targets, as [`stage_targets`] writes it. Any other text is unchanged but for surrounding blanks.
+    /// its unit is an adhesion, and a loading may be a list of stages, as
+    /// [`loading_text`](super::loading_text) writes it. Any other text is unchanged but for surrounding blanks.
     ///
     /// # Errors
     /// Text that begins as a number and continues as another unit, or a number that is too large.
@@ -173,9 +180,9 @@ impl Field {
         if self.path == "roughness" && is_file_name(typed) {
             return Ok(format!("Measured(file: {}, as_line: false)", ron_string(typed)));
         }
-        if self.path == "loading" && self.variant.is_none() && !typed.starts_with('[') {
-            let stages = typed.split(',').map(|stage| read_stage(stage.trim()));
-            return Ok(format!("[{}]", stages.collect::<Result<Vec<_>, _>>()?.join(", ")));
+        if self.path == "loading" && self.variant.is_none() && ron::from_str::<Vec<Move>>(typed).is_err() {
+            let stages: Vec<_> = read_loading(typed)?.iter().map(stage_in_ron).collect();
+            return Ok(format!("[{}]", stages.join(", ")));
         }
         let is_omitted = self.range == FILE_NAME && (typed.is_empty() || typed == "None");
         let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
@@ -210,32 +217,6 @@ impl Field {
     }
 }
 
-/// Targets of the stages of a loading, apart by commas, their values in a format: `10 µN, 0 N, separation`.
-pub fn stage_targets(loading: &[Move], format: fn(f64, &str) -> String) -> String {
-    let target = |stage: &Move| match *stage {
-        Move::ToForce(force) => format(force, "N"),
-        Move::ToIndentation(indentation) => format(indentation, "m"),
-        Move::ToTouch => "touch".to_owned(),
-        Move::ToZeroForce => "0 N".to_owned(),
-        Move::ToSeparation => "separation".to_owned(),
-    };
-    loading.iter().map(target).collect::<Vec<_>>().join(", ")
-}
-
-/// A loading stage in RON, by its target.
-fn read_stage(target: &str) -> Result<String, QuantityError> {
-    let quantity = |unit| parse_quantity(target, unit).map(ron_float);
-    Ok(match target {
-        "touch" => "ToTouch".to_owned(),
-        "separation" => "ToSeparation".to_owned(),
-        "0 N" => "ToZeroForce".to_owned(),
-        _ => match quantity("m") {
-            Ok(indentation) if target.ends_with('m') => format!("ToIndentation({indentation})"),
-            _ => format!("ToForce({})", quantity("N")?),
-        },
-    })
-}
-
 /// Returns true for a name with an ending or a folder, unlike any choice of a field.
 fn is_file_name(typed: &str) -> bool {
     typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
@@ -249,7 +230,7 @@ mod tests {
     fn numbers_may_have_prefix_and_unit() {
         for row in [
             "adhesion.work|50mJ/m2|0.05",
-            "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToZeroForce, ToIndentation(-5.0e-9), ToSeparation]",
+            "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToForce(0.0), ToIndentation(-5.0e-9), ToSeparation]",
             "adhesion.work| 50 mN/m |0.05",
             "adhesion|30 mJ/m²|(work: 0.03)",
             "adhesion|(kappa: 2.0)|(kappa: 2.0)",

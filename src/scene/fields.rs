@@ -9,6 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::field::Step::{Doubling, Integer, Linear, Typed};
 use super::field::{FILE_NAME, Field, row};
 use super::range::Range::{self, Band, Choice, List, Text, Wavelengths, Whole};
+use super::stages::{MOST_STAGES, STAGES};
 use super::text::read_ron;
 
 /// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
@@ -50,11 +51,6 @@ const ROUGHNESS: Range = Choice(&[
     "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)",
     "Measured(file: \"line.csv\")",
 ]);
-const STAGES: Range = List {
-    of: &["ToForce(1.0e-5)", "ToIndentation(1.0e-7)", "ToTouch", "ToZeroForce", "ToSeparation"],
-    least: 1,
-    most: 100_000,
-};
 const SWITCH: Range = Choice(&["false", "true"]);
 const UNIT: Range = Text { least: 0, most: 20, lines: false };
 
@@ -167,7 +163,7 @@ pub const FIELDS: &[Field] = &[
         .meaning("elastic energy that pressing the bodies flat takes, over the work of adhesion: adhesion is strong for small e_el/γ"),
     row("adhesion.range", Range::closed(1e-12, 1e-3)).quantity("range of attraction", "z₀", "m").default("None")
         .meaning("range of the attraction, for the Tabor number alone; default: 0.3 nm"),
-    row("loading", STAGES).default("[ToZeroForce, ToSeparation]")
+    row("loading", List { of: &STAGES, least: 1, most: MOST_STAGES }).default("[ToZeroForce, ToSeparation]")
         .meaning("loading stages in their order, from separation"),
     row("numerics", Range::Group).default("()")
         .meaning("resolution and method of the computation"),

@@ -21,7 +21,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
 /// Reason why a typed text is no quantity.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct QuantityError(String);
+pub struct QuantityError(pub(super) String);
 
 impl QuantityError {
     fn no_number(typed: &str, unit: &str) -> Self {

@@ -186,6 +186,7 @@ fn key_event(name: &str) -> KeyEvent {
         "PageUp" => KeyCode::PageUp,
         "Backspace" => KeyCode::Backspace,
         "Delete" => KeyCode::Delete,
+        "Insert" => KeyCode::Insert,
         _ => match (name.chars().next(), name.chars().nth(1)) {
             (Some(character), None) => KeyCode::Char(character),
             _ => panic!("no key is called {name}"),

@@ -25,6 +25,7 @@ mod reversals;
 mod saving;
 mod sizes;
 mod spectrum;
+mod stages;
 mod studies;
 mod study;
 mod typing;

@@ -14,7 +14,7 @@ use super::pane::Pane;
 use super::parameters::Parameter;
 use super::prompt::Purpose;
 use super::request::Focus;
-use super::update::{accuracy, compare, crosshair, dialogue, edit, files, look, map, movement};
+use super::update::{accuracy, compare, crosshair, dialogue, edit, files, look, map, movement, stages};
 use Run::{Character, Do, Edit};
 use tui_input::InputRequest;
 
@@ -68,6 +68,7 @@ pub fn footer(app: &App) -> Vec<(String, &'static str)> {
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
 /// In the list of parameters these characters begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
+const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
 const VALUES: &[Context] = &[Context::Parameters];
 const MAP_PANE: &[Context] = &[Context::Map];
 const CROSSHAIR: &[Context] = &[Context::Crosshair];
@@ -79,6 +80,7 @@ const LEAVE: &[Context] = &[Context::Leave];
 
 const ANIMATION: &str = "Animation";
 const PARAMETERS: &str = "Parameters";
+const STAGES: &str = "Loading stages";
 const COMPARE: &str = "Comparison";
 const LOOK: &str = "View";
 const CROSS: &str = "Crosshair";
@@ -132,6 +134,10 @@ fn is_manual(app: &App) -> bool {
     app.manual.is_some()
 }
 
+fn is_stage(app: &App) -> bool {
+    app.edit.parameter().is_some_and(|parameter| parameter.leg.is_some())
+}
+
 fn takes_number(app: &App) -> bool {
     app.edit.parameter().is_some_and(Parameter::takes_number)
 }
@@ -154,15 +160,16 @@ static TABLE: &[Entry] = &[
     row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
     row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).shown_if(is_manual),
     row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
+    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the path of manual loading as the loading of the scene", MANUAL).shown_if(is_manual),
 
     row("↑ k", LIST, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", LIST, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
     row("Home g", LIST, "first-parameter", Do(|app| edit::move_selection(app, i32::MIN)), "", "select the first parameter", PARAMETERS),
     row("End G", LIST, "last-parameter", Do(|app| edit::move_selection(app, i32::MAX)), "", "select the last parameter", PARAMETERS),
-    row("← h", LIST, "decrease", Do(|app| edit::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
-    row("→ l", LIST, "increase", Do(|app| edit::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
-    row("Shift+← H", LIST, "decrease-coarse", Do(|app| edit::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
-    row("Shift+→ L", LIST, "increase-coarse", Do(|app| edit::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
+    row("← h", LIST, "decrease", Do(|app| stages::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
+    row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
+    row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
+    row("Shift+→ L", LIST, "increase-coarse", Do(|app| stages::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
     row("Enter e", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
     row("0–9 - .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
@@ -172,6 +179,12 @@ static TABLE: &[Entry] = &[
     row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS),
     row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),
     row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
+
+    row("Insert P", LIST, "add-stage", Do(stages::add), "add", "add a stage after the selected one", STAGES).rank(1).shown_if(is_stage),
+    row("Delete X", LIST, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
+    row("Shift+↑ K", LIST, "move-stage-up", Do(|app| stages::shift(app, -1)), "move", "move the selected stage up", STAGES).rank(1).shown_if(is_stage),
+    row("Shift+↓ J", LIST, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
+    row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the selected stage: to a force, an indentation, touch, zero force or separation", STAGES).rank(1).shown_if(is_stage),
 
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),

@@ -21,7 +21,7 @@ pub use accuracy::Costs;
 pub use force::{indentation_at, nearest};
 pub use parameters::parameter_in;
 pub use preload_curve::{PROFILES, PreloadCurve};
-pub use row::{Exported, PaneRow};
+pub use row::{Exported, PATH_COMMAND, PaneRow};
 pub use scene_spectra::SceneSpectra;
 pub use section::spring_at;
 

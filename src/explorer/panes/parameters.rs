@@ -241,6 +241,10 @@ fn explanation(app: &App, index: usize) -> Line<'static> {
     let text = match parameter.setting {
         Setting::Switch(effect) => format!("{}: observed or not; t switches it", effect.name()),
         Setting::Heading => format!("{}; Enter folds the group", parameter.field.meaning),
+        _ if parameter.path == "loading" => format!(
+            "{}: 10 µN, 3 loops 0 N to 10 µN, separation. ← → choose a protocol, Shift the number of its loops or reversals",
+            parameter.field.meaning
+        ),
         _ => format!("{}. Allowed: {}", parameter.field.meaning, parameter.field.allowed()),
     };
     Line::styled(text, app.view.appearance.theme.style(Meaning::Quiet))

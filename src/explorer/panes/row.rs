@@ -1,13 +1,13 @@
 //! Properties of one pane.
 
 use crate::draw::Figure;
-use crate::explorer::app::App;
+use crate::explorer::app::{App, ManualState};
 use crate::explorer::keys::Context;
 use crate::explorer::pane::Place;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
-use crate::export::{Report, RunReport};
+use crate::export::{PathReport, Report, RunReport};
 use ratatui::layout::Size;
 use std::sync::Arc;
 
@@ -45,8 +45,14 @@ impl PaneRow {
     };
 }
 
-/// The outcome of the scene, with its force curve.
+/// Command of the path of manual loading: the explorer opens on the path as the loading of the scene.
+pub const PATH_COMMAND: &str = "asperity";
+
+/// The path of manual loading, else the outcome of the scene with its force curve.
 fn outcome(app: &App) -> Exported<'_> {
+    if let Some(ManualState { loading, path, stages, .. }) = &app.manual {
+        return Some((PATH_COMMAND, Box::new(PathReport { loading, path, stages })));
+    }
     let (title, scene, outcome) =
         (app.edit.document.title(), app.edit.document.scene(), &app.current()?.outcome);
     let report = RunReport { title, scene, outcome, choice: None, estimate: app.studies.value() };

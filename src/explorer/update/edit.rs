@@ -6,12 +6,13 @@ use crate::explorer::editor::scene_of;
 use crate::explorer::layout::Layout;
 use crate::explorer::parameters::{Parameter, Setting, text_of};
 use crate::explorer::prompt::Purpose;
+use crate::explorer::reach::beyond_full_contact;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
-    Computed, Document, Range, SceneErrors, Solver, Step, exact_quantity, parse_quantity, presets,
-    stage_targets,
+    Computed, Document, Move, Range, SceneErrors, Solver, Step, exact_quantity, kind_and_number,
+    loading_text, parse_quantity, presets, read_stage, ron_float,
 };
 
 /// Moves the selection in the list of parameters, as far as there are rows.
@@ -150,7 +151,11 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
 fn editable(app: &App, parameter: &Parameter) -> String {
     let written = app.written(parameter).unwrap_or_default();
     match parameter.field.range {
-        _ if parameter.path == "loading" => stage_targets(&app.edit.document.scene().loading, exact_quantity),
+        _ if parameter.group == "loading" => {
+            let loading = &app.edit.document.scene().loading;
+            let stages = parameter.leg.map_or(loading.get(..), |leg| loading.get(leg..=leg));
+            loading_text(stages.unwrap_or_default(), exact_quantity)
+        }
         Range::Text { .. } => text_of(&written),
         _ => parameter.field.quantities(&written, exact_quantity).unwrap_or(written),
     }
@@ -162,12 +167,46 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     if typed == editable(app, parameter) {
         return Ok(());
     }
-    let allowed = parameter.field.allowed();
-    let written =
-        parameter.field.read_typed(typed).map_err(|error| format!("{error}; allowed: {allowed}"))?;
-    let document = with_selected(app, &written)?;
+    let document = with_typed(app, typed)?;
     take_over(app, Ok(document));
     Ok(())
+}
+
+/// The scene with a typed value of the selected parameter, or why there is none. A stage may be typed as any kind.
+fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
+    let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
+    let document = &app.edit.document;
+    let Some(leg) = parameter.leg else {
+        let written = parameter.field.read_typed(typed);
+        let allowed = || parameter.field.allowed();
+        return with_selected(app, &written.map_err(|error| format!("{error}; allowed: {}", allowed()))?);
+    };
+    let mut stages = document.stages();
+    let (kind, _) = kind_and_number(&stages[leg].1);
+    let stage = read_stage(typed, Some(kind)).map_err(|error| error.to_string())?;
+    match kind_and_number(&stage) {
+        (same, Some(number)) if same == kind => with_selected(app, &ron_float(number)),
+        _ => {
+            stages[leg] = (None, stage);
+            let changed = document.with_stages(&stages).map_err(|errors| reasons(&errors))?;
+            within_reach(app, changed)
+        }
+    }
+}
+
+/// Largest force of the loading stages, N; 0 where no stage presses to a force.
+pub fn pressing_force(document: &Document) -> f64 {
+    let force = |stage: &Move| if let Move::ToForce(force) = *stage { force } else { 0.0 };
+    document.scene().loading.iter().map(force).fold(0.0, f64::max)
+}
+
+/// A scene, unless it presses more than the present one and far beyond full contact.
+fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
+    let full_contact = app.current().map_or(0.0, |solved| solved.full_contact);
+    let force = pressing_force(&changed);
+    let is_more = full_contact > 0.0 && force > pressing_force(&app.edit.document);
+    let why = beyond_full_contact(force, full_contact, 0.0).filter(|_| is_more);
+    why.map_or(Ok(changed), Err)
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
@@ -215,11 +254,11 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
             }
         }
     };
-    changed.map_err(|errors| reasons(&errors))
+    changed.map_err(|errors| reasons(&errors)).and_then(|changed| within_reach(app, changed))
 }
 
 /// Errors of values, without their places.
-fn reasons(errors: &SceneErrors) -> String {
+pub fn reasons(errors: &SceneErrors) -> String {
     errors.iter().map(|error| error.what()).collect::<Vec<_>>().join("; ")
 }
 
@@ -235,10 +274,7 @@ fn is_previewed(document: &Document) -> bool {
 /// Requests the curve with the value typed so far, or none where that is not an allowed value.
 pub fn preview(app: &mut App) {
     let typed = app.prompt.as_ref().filter(|_| app.is_typing_value()).map(|prompt| prompt.line.text());
-    let tried = typed.and_then(|typed| {
-        let written = app.edit.parameter()?.field.read_typed(typed).ok()?;
-        with_selected(app, &written).ok()
-    });
+    let tried = typed.and_then(|typed| with_typed(app, typed).ok());
     let tried = tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
     if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
         return;

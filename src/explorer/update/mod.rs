@@ -11,6 +11,7 @@ pub(super) mod look;
 pub(super) mod map;
 mod mouse;
 pub(super) mod movement;
+pub(super) mod stages;
 
 pub use super::action::Effect;
 pub use accuracy::{Answer, Choosing, studies};
@@ -119,11 +120,13 @@ fn reported(app: &mut App, report: Report) {
 
 /// The state that the screen waits for; takes the manual moves.
 pub fn request(app: &mut App) -> Request {
+    let moves = app.manual.as_mut().map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves));
+    // Without the moves taken: a move before the answer is another request.
     app.asked = Some(awaited(app));
     Request {
         generation: app.edit.generation,
         scene: scene_of(&app.edit.document),
-        moves: app.manual.as_mut().map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves)),
+        moves,
         snapshot: snapshot_request(app),
     }
 }

@@ -128,9 +128,12 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
         app.view.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
     if let Some((manual, travel)) = app.manual.as_mut().zip(snapshot.manual.as_ref()) {
-        manual.path.extend(&travel.path);
+        manual.path.extend(travel.path.iter().map(|(_, point)| point));
+        manual.stages.extend(travel.path.iter().map(|(stage, _)| stage));
         let old = manual.path.len().saturating_sub(PATH_KEPT);
         manual.path.drain(..old);
+        manual.stages.drain(..old);
+        manual.loading.clone_from(&travel.loading);
         if !travel.path.is_empty() {
             manual.changed = travel.changed;
         }
@@ -152,8 +155,10 @@ pub fn take(app: &mut App, order: Option<ManualMove>) {
         let start = app.present().map(|snapshot| snapshot.point);
         app.play.playing = false;
         let moves = vec![ManualMove::Take { leg, indentation }];
-        let path = start.into_iter().collect();
-        app.manual = Some(ManualState { path, moves, ..ManualState::default() });
+        // The start of a stage is the end of the one before, which the path may continue.
+        let stage = if app.play.done > 0.0 { leg } else { leg.saturating_sub(1) };
+        let (path, stages) = start.map(|point| (point, stage)).into_iter().unzip();
+        app.manual = Some(ManualState { path, stages, moves, ..ManualState::default() });
     }
     if let Some(manual) = &mut app.manual {
         manual.moves.extend(order);

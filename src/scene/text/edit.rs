@@ -42,6 +42,39 @@ impl Text {
         self.spliced(splices, &path, value)
     }
 
+    /// The text with other elements in the list at a path: those that stay, by their places, with the comments before them
+    /// and on their line, and new ones as written. `None` for an empty list, or where a comment leaves no readable text.
+    pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
+        let inside = self.span(list)?.inside.clone()?;
+        let (old, mut start) = (self.inside(list), inside.start);
+        let mut parts = Vec::new();
+        for (place, Span { value, comma, .. }) in old.iter().enumerate() {
+            let after = comma.unwrap_or(value.end);
+            let next = old.get(place + 1).map_or(inside.end, |next| next.value.start);
+            let end = self.line_break_in(after..next).unwrap_or(after);
+            let before_comma = &self.source[value.end..after - usize::from(comma.is_some())];
+            let behind = format!("{before_comma}{}", &self.source[after..end]);
+            parts.push((&self.source[start..value.start], &self.source[value.clone()], behind));
+            start = end;
+        }
+        let blank = |before: &'_ str| before[..before.len() - before.trim_start().len()].to_owned();
+        let first = blank(parts.first()?.0);
+        let usual = if first.contains('\n') { first.clone() } else { " ".to_owned() };
+        let further = parts.get(1).map_or(usual, |part| blank(part.0));
+        let mut new = String::new();
+        for (place, (kept, written)) in elements.iter().enumerate() {
+            let added = ("", written.as_str(), String::new());
+            let (before, value, behind) = if let Some(at) = kept { parts.get(*at)? } else { &added };
+            let has_comma = place + 1 < elements.len() || old.last()?.comma.is_some();
+            let (blank, comma) =
+                (if place == 0 { &first } else { &further }, if has_comma { "," } else { "" });
+            new += &format!("{blank}{}{value}{comma}{behind}", before.trim_start());
+        }
+        let mut source = self.source.clone();
+        source.replace_range(inside.start..start, &new);
+        Text::new(source).ok()
+    }
+
     /// Splices that put an entry after another one, in the same style: on a line of its own, after the comment on the
     /// line before, or on the same line.
     fn splices_after(&self, anchor: &Span, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
@@ -85,4 +118,29 @@ fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];
     before.chars().all(|c| matches!(c, ' ' | '\t')).then_some(before)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_that_stay_keep_their_comments() {
+        let lines = "(l: [ // all\n    A(1.0), // press\n    // then\n    B, C // end\n])";
+        for (text, elements, arranged) in [
+            ("(l: [A(1.0), /* b */ B])", "1 0", "(l: [/* b */ B, A(1.0)])"),
+            ("(l: [A,B,])", "0 X 1", "(l: [A,X,B,])"),
+            ("(l: [A(1.0)])", "0 X", "(l: [A(1.0), X])"),
+            ("(l: [A, B])", "0", "(l: [A])"),
+            ("(l: [\n    A, // press\n    B,\n])", "1 0", "(l: [\n    B,\n    A, // press\n])"),
+            ("(l: [\n    A, // press\n    B\n])", "0 1 X", "(l: [\n    A, // press\n    B,\n    X\n])"),
+            (lines, "1 2", "(l: [ // then\n    B,\n    C // end\n])"),
+        ] {
+            let elements: Vec<_> =
+                elements.split(' ').map(|one| (one.parse::<usize>().ok(), one.to_owned())).collect();
+            let found = Text::new(text).unwrap().arrange("l", &elements);
+            assert_eq!(found.as_ref().map(Text::as_str), Some(arranged), "{text} {elements:?}");
+        }
+        assert_eq!(Text::new("(l: [])").unwrap().arrange("l", &[(None, "A".to_owned())]), None);
+    }
 }

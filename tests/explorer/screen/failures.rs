@@ -30,13 +30,13 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
     driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
     assert!(!driver.app.is_computing());
     let text = driver.text();
-    assert!(text.contains("the contact detaches above that force"), "{text}");
+    assert!(text.contains("stage 2: the contact detaches before -1 N"), "{text}");
     // Figures of the former scene are no longer shown.
     assert!(!text.contains("F_a "), "{text}");
     for keys in ["j", "k", ". .", "Tab", "n", "+"] {
         driver.press(keys);
     }
-    assert!(driver.text().contains("the contact detaches above that force"), "{}", driver.text());
+    assert!(driver.text().contains("stage 2: the contact detaches before -1 N"), "{}", driver.text());
     driver.press("u");
     assert!(driver.status().starts_with("undo: "), "{}", driver.status());
     driver.press("j");

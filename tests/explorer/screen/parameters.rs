@@ -40,7 +40,7 @@ fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
     driver.press("j");
     assert_eq!(selected(&driver.app), "numerics");
     driver.press("k k");
-    assert_eq!(selected(&driver.app), "loading.0.0");
+    assert_eq!(selected(&driver.app), "loading.1");
     // An edit and its undoing leave the group folded.
     driver.press("l u");
     assert_eq!(driver.app.edit.listed().len(), all - roughness);

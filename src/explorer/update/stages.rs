@@ -1,0 +1,165 @@
+//! Edits of the loading: its stages one by one, protocols, and the path of manual loading.
+
+use super::edit;
+use crate::explorer::app::{App, Player};
+use crate::scene::{Document, Move, Run, STAGE_KINDS, SceneErrors, kind_and_number, runs};
+use crate::text::round_to;
+
+/// Stages, those of the present loading with their places in it.
+type Stages = Vec<(Option<usize>, Move)>;
+
+/// The selected stage, on the row of the loading the last one; states where there is none.
+fn selected(app: &mut App) -> Option<usize> {
+    edit::show_parameters(app);
+    let last = app.edit.document.scene().loading.len() - 1;
+    let parameter = app.edit.parameter().filter(|parameter| parameter.group == "loading");
+    let stage = parameter.map(|parameter| parameter.leg.unwrap_or(last));
+    if stage.is_none() {
+        app.set_error("no loading stage is selected; select a row of the loading");
+    }
+    stage
+}
+
+/// Changes the stages, given the selected one, and selects the stage that results.
+fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
+    let Some(at) = selected(app) else { return };
+    let mut stages = app.edit.document.stages();
+    let next = change(&mut stages, at);
+    if stages != app.edit.document.stages() {
+        let changed = app.edit.document.with_stages(&stages);
+        adopt(app, changed, next)
+    }
+}
+
+/// Makes an allowed scene the explored one and selects a stage.
+fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
+    let is_allowed = changed.is_ok();
+    edit::take_over(app, changed);
+    let row = app.edit.parameters.iter().position(|one| one.leg == Some(stage));
+    if let Some(row) = row.filter(|_| is_allowed) {
+        app.edit.select(row);
+    }
+}
+
+/// Adds a stage after the selected one: a pull to zero force after a stage that presses, else a press.
+pub fn add(app: &mut App) {
+    let force = pressing_force(app);
+    change(app, |stages, at| {
+        let presses = matches!(stages[at].1, Move::ToForce(to) | Move::ToIndentation(to) if to > 0.0);
+        stages.insert(at + 1, (None, if presses { Move::ToZeroForce } else { Move::ToForce(force) }));
+        at + 1
+    })
+}
+
+/// Deletes the selected stage.
+pub fn delete(app: &mut App) {
+    change(app, |stages, at| {
+        stages.remove(at);
+        at.min(stages.len().saturating_sub(1))
+    })
+}
+
+/// Exchanges the selected stage with the one before or after it.
+pub fn shift(app: &mut App, way: isize) {
+    change(app, |stages, at| {
+        let to = at.saturating_add_signed(way).min(stages.len() - 1);
+        stages.swap(at, to);
+        to
+    })
+}
+
+/// Changes the selected stage to the next kind in this direction that the loading allows, with the state at its end.
+pub fn change_kind(app: &mut App, forwards: bool) {
+    let Some(at) = selected(app) else { return };
+    let legs = app.current().map(|solved| &solved.outcome.history.legs);
+    let end = legs.and_then(|legs| legs.get(at)?.curve.last());
+    let pressing = pressing_force(app);
+    let number = |unit| match (unit, end) {
+        ("m", end) => end.map_or(1e-7, |end| end.indentation),
+        (_, Some(end)) if end.force.abs() > 1e-6 * pressing => end.force,
+        _ => pressing,
+    };
+    let (stages, count) = (app.edit.document.stages(), STAGE_KINDS.len());
+    let here = kind_and_number(&stages[at].1).0;
+    let changed = (1..count).map(|distance| {
+        let kind = &STAGE_KINDS[(here + if forwards { distance } else { count - distance }) % count];
+        let mut stages = stages.clone();
+        stages[at] = (None, (kind.stage)(round_to(number(kind.unit), 4)));
+        app.edit.document.with_stages(&stages)
+    });
+    if let Some(changed) = changed.reduce(|one, other| if one.is_ok() { one } else { other }) {
+        adopt(app, changed, at)
+    }
+}
+
+/// The largest force of the loading, or of the one before it; else one that suits the computed scene, N.
+fn pressing_force(app: &App) -> f64 {
+    let name = app.edit.document.name();
+    let before = app.edit.past.iter().rev().filter(|document| document.name() == name);
+    let given = [&app.edit.document].into_iter().chain(before).map(edit::pressing_force);
+    let computed = app.current().map_or(0.0, |solved| {
+        round_to(solved.outcome.figures.preload.unwrap_or_default().max(0.01 * solved.full_contact), 2)
+    });
+    given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
+}
+
+/// Steps the selected value; for the row of the loading its protocol, or with a large step the number of loops or
+/// reversals; for a stage in words its kind.
+pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
+    let Some(parameter) = app.edit.parameter() else { return };
+    match parameter.leg {
+        Some(_) if parameter.field.unit.is_empty() => change_kind(app, steps > 0),
+        None if parameter.path == "loading" => step_protocol(app, steps, coarse),
+        _ => edit::step_value(app, steps, coarse),
+    }
+}
+
+fn step_protocol(app: &mut App, steps: i32, coarse: bool) {
+    edit::show_parameters(app);
+    let force = pressing_force(app);
+    let [low, high] = [round_to(force / 2.0, 12), force].map(Move::ToForce);
+    let protocols =
+        [Run::Stage(Move::ToTouch), Run::Stage(high), Run::Loops(3, low, high), Run::Reversals(8, high)];
+    let counted = |count: usize| count.saturating_add_signed(steps as isize).max(2);
+    let (here, changed) = match runs(&app.edit.document.scene().loading).first() {
+        Some(Run::Loops(count, low, high)) => (2, Some(Run::Loops(counted(*count), *low, *high))),
+        Some(Run::Reversals(count, high)) => (3, Some(Run::Reversals(counted(*count), *high))),
+        Some(Run::Stage(Move::ToForce(_))) => (1, None),
+        _ => (0, None),
+    };
+    let run = if coarse { changed } else { Some(protocols[(here + steps).rem_euclid(4) as usize]) };
+    let Some(run) = run else {
+        return app.set_error("only loops and reversals have a number; ← → change the protocol");
+    };
+    let end = Some(Move::ToSeparation).filter(|_| !matches!(run, Run::Reversals(..)));
+    let stages = replaced(&app.edit.document, run.stages().into_iter().chain(end));
+    let changed = app.edit.document.with_stages(&stages);
+    edit::take_over(app, changed)
+}
+
+/// These stages in place of the present ones, of which those that are equal stay.
+fn replaced(document: &Document, loading: impl IntoIterator<Item = Move>) -> Stages {
+    let present = &document.scene().loading;
+    let placed = |(at, stage)| ((present.get(at) == Some(&stage)).then_some(at), stage);
+    loading.into_iter().enumerate().map(placed).collect()
+}
+
+/// The scene with the path of manual loading as its loading.
+pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
+    let loading = &app.manual.as_ref()?.loading;
+    Some(app.edit.document.with_stages(&replaced(&app.edit.document, loading.iter().copied())))
+}
+
+/// Keeps the path of manual loading as the loading of the scene, with the body at its end.
+pub fn keep_path(app: &mut App) {
+    match with_path(app) {
+        None => app.set_error("no manual loading; d begins it"),
+        Some(Err(errors)) => app.set_error(edit::reasons(&errors)),
+        Some(Ok(document)) => {
+            let count = document.scene().loading.len();
+            edit::adopt(app, document);
+            app.play = Player { leg: count - 1, done: 1.0, playing: false };
+            app.set_done(format!("the path is the loading of the scene, {count} stages; u undoes"));
+        }
+    }
+}

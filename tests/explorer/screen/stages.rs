@@ -1,0 +1,287 @@
+//! The loading by hand and by list: stages and protocols by keys and as text, the path of manual loading kept.
+
+use super::common::driver::Driver;
+use super::common::scenes::{changed, rough, smooth, without_adhesion};
+use super::{is_up_to_date, pressed};
+use asperity::explorer::app::{App, Message};
+use asperity::scene::{Document, Move, open, to_ron};
+use asperity::simulation::Simulation;
+
+/// The rough scene with a loading, the row of one of its stages selected, of the loading as a whole for 0.
+fn loaded(loading: &str, stage: usize) -> Driver {
+    let mut driver = Driver::start(changed(&rough(), &[("loading", loading)]));
+    select(&mut driver, stage);
+    driver
+}
+
+fn select(driver: &mut Driver, stage: usize) {
+    let is_row =
+        |(leg, path): (Option<usize>, &str)| leg == stage.checked_sub(1) && path.starts_with("loading");
+    let rows = &driver.app.edit.parameters;
+    driver.app.edit.selected = rows.iter().position(|one| is_row((one.leg, &one.path))).expect("a row");
+}
+
+fn loading(app: &App) -> String {
+    let text = to_ron(app.edit.document.scene());
+    let line = text.lines().find_map(|line| line.strip_prefix("    loading: ")).expect("the loading");
+    line.trim_end_matches(',').to_owned()
+}
+
+/// Number of the selected stage, from 1.
+fn selected(app: &App) -> Option<usize> {
+    app.edit.parameter().and_then(|one| one.leg).map(|leg| leg + 1)
+}
+
+#[test]
+fn keys_edit_the_stages() {
+    let two = "[ToForce(2.0e-5), ToSeparation]";
+    for (stage, keys, stages, next) in [
+        (1, "Insert", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
+        (1, "P P", "[ToForce(2.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]", 3),
+        (0, "P", "[ToForce(2.0e-5), ToSeparation, ToForce(2.0e-5)]", 3),
+        (2, "X", "[ToForce(2.0e-5)]", 1),
+        (0, "X", "[ToForce(2.0e-5)]", 1),
+        (1, "P Delete", two, 2),
+        (1, "P Shift+Up", "[ToZeroForce, ToForce(2.0e-5), ToSeparation]", 1),
+        (1, "P K J", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
+        (1, "P J", "[ToForce(2.0e-5), ToSeparation, ToZeroForce]", 3),
+        (1, "P Left", "[ToForce(2.0e-5), ToTouch, ToSeparation]", 2),
+        // Nothing is in contact after a separation: a second one is left out.
+        (1, "P Right", "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]", 2),
+        (1, "V V V V", "[ToForce(2.0e-5), ToSeparation]", 1),
+        (1, "V V", "[ToTouch, ToSeparation]", 1),
+        (1, "l", "[ToForce(2.24e-5), ToSeparation]", 1),
+    ] {
+        let mut driver = loaded(two, stage);
+        driver.press(keys);
+        assert_eq!(loading(&driver.app), stages, "{keys}");
+        assert_eq!(selected(&driver.app), Some(next), "{keys}");
+        assert!(is_up_to_date(&driver.app), "{keys}");
+        // Each key is one edit.
+        for _ in keys.split(' ') {
+            driver.press("u");
+        }
+        assert_eq!(loading(&driver.app), two, "{keys}");
+        assert!(driver.app.edit.past.is_empty(), "{keys}");
+    }
+}
+
+#[test]
+fn a_stage_of_another_kind_has_the_state_at_its_end() {
+    let mut driver = loaded("[ToForce(2.0e-5), ToSeparation]", 1);
+    let end = driver.app.legs()[0].end();
+    let preload = driver.outcome().figures.adhesion_force;
+    driver.press("V");
+    let Move::ToIndentation(to) = driver.app.edit.document.scene().loading[0] else {
+        panic!("an indentation")
+    };
+    assert!((to / end - 1.0).abs() < 1e-3, "{to} {end}");
+    assert_eq!(selected(&driver.app), Some(1));
+    // The turning point is nearly the same.
+    assert!(preload.is_some() && driver.outcome().figures.adhesion_force.is_some());
+    // Back to a force by the text of one.
+    driver.enter("20 µN");
+    assert_eq!(loading(&driver.app), "[ToForce(2.0e-5), ToSeparation]");
+    assert_eq!(selected(&driver.app), Some(1));
+    driver.enter("touch");
+    assert_eq!(loading(&driver.app), "[ToTouch, ToSeparation]");
+    driver.app.view.pane = asperity::explorer::app::Pane::Parameters;
+    driver.press("2 Space n m Enter");
+    assert_eq!(loading(&driver.app), "[ToIndentation(2.0e-9), ToSeparation]");
+}
+
+#[test]
+fn edits_of_stages_keep_comments() {
+    let text = rough().text().replace(
+        "[ToForce(2.0e-5), ToSeparation]",
+        "[\n        ToForce(20.0e-6), // press\n        ToSeparation, // pull\n    ]",
+    );
+    let mut driver = Driver::start(Document::parse(&text, "a.ron").unwrap());
+    select(&mut driver, 1);
+    driver.press("P");
+    let added =
+        "[\n        ToForce(20.0e-6), // press\n        ToZeroForce,\n        ToSeparation, // pull\n    ]";
+    assert!(driver.app.edit.document.text().contains(added), "{}", driver.app.edit.document.text());
+    driver.press("K");
+    let moved =
+        "[\n        ToZeroForce,\n        ToForce(20.0e-6), // press\n        ToSeparation, // pull\n    ]";
+    assert!(driver.app.edit.document.text().contains(moved), "{}", driver.app.edit.document.text());
+    driver.press("J X");
+    assert_eq!(driver.app.edit.document.text(), text);
+    assert_eq!(driver.app.edit.document.overrides(), []);
+}
+
+#[test]
+fn what_cannot_be_loaded_is_refused_in_one_line() {
+    let refused = |driver: &Driver| match &driver.app.message {
+        Some(Message::Refused(why) | Message::Error(why)) => why.clone(),
+        other => panic!("{other:?}: {}", driver.text()),
+    };
+    let (one, two) = ("[ToForce(2.0e-5)]", "[ToForce(2.0e-5), ToSeparation]");
+    for (stages, stage, keys, why) in [
+        (one, 1, "X", "loading = []: allowed: a list of 1 to 100000"),
+        (one, 0, "L", "only loops and reversals have a number"),
+        (two, 2, "K", "cannot pull before contact"),
+    ] {
+        let mut driver = loaded(stages, stage);
+        driver.press(keys);
+        let message = refused(&driver);
+        assert!(message.contains(why), "{keys}: {message}");
+        assert_eq!(loading(&driver.app), stages, "{keys}");
+    }
+    // At the end of the list there is nothing to exchange.
+    let mut driver = loaded(two, 2);
+    driver.press("J");
+    assert!(driver.app.edit.past.is_empty() && selected(&driver.app) == Some(2));
+    let mut driver = pressed("P");
+    assert!(refused(&driver).contains("select a row of the loading"));
+    // What was typed stays in the editor.
+    for (stage, typed, why) in [
+        (0, "separation", "cannot pull before contact"),
+        (0, "10 µN, pull", "\"pull\" is not a stage; such as"),
+        (1, "separation", "cannot pull before contact"),
+        (1, "1 kN", "is far beyond full contact at "),
+        (0, "2 loops 0 N to 1 kN, separation", "is far beyond full contact at "),
+    ] {
+        select(&mut driver, stage);
+        driver.press("Enter");
+        driver.type_text(typed);
+        driver.press("Enter");
+        assert!(
+            driver.refusal().is_some_and(|refusal| refusal.contains(why)),
+            "{typed}: {:?}",
+            driver.refusal()
+        );
+        assert_eq!(driver.app.prompt.as_ref().unwrap().line.text(), typed);
+        driver.press("Esc");
+    }
+    // A pull beyond adhesion is known once it is computed; the stated force is within reach.
+    select(&mut driver, 0);
+    driver.enter("20 µN, -1 N, separation");
+    let status = driver.status();
+    let (before, least) = status.split_once("smallest force within reach: ").expect("a reachable value");
+    assert!(before.contains("stage 2: the contact detaches before -1 N"), "{status}");
+    let least = least.split("N").next().unwrap().to_owned() + "N";
+    driver.enter(&format!("20 µN, {least}, separation"));
+    assert!(is_up_to_date(&driver.app), "{}", driver.status());
+}
+
+#[test]
+fn the_row_of_the_loading_is_a_choice_of_protocol() {
+    let mut driver = loaded("[ToForce(2.0e-5), ToSeparation]", 0);
+    let shown = |driver: &Driver| driver.app.edit.parameter().unwrap().shown.clone();
+    for (keys, text) in [
+        ("", "20 µN, separation"),
+        ("l", "3 loops 10 µN to 20 µN, separation"),
+        ("L L", "5 loops 10 µN to 20 µN, separation"),
+        ("H H H H", "2 loops 10 µN to 20 µN, separation"),
+        ("l", "8 reversals to 20 µN"),
+        ("H", "7 reversals to 20 µN"),
+        ("l", "touch, separation"),
+        ("l", "20 µN, separation"),
+        ("h h", "8 reversals to 20 µN"),
+    ] {
+        driver.press(keys);
+        assert_eq!(shown(&driver), text, "{keys}");
+        assert!(is_up_to_date(&driver.app), "{keys}: {}", driver.status());
+    }
+    // A text replaces the protocol, and each text that is shown is the same loading.
+    for typed in ["4 loops 0 N to 10 µN, separation", "5 reversals to 40 nm", "touch, separation"] {
+        driver.enter(typed);
+        assert_eq!(shown(&driver), typed);
+        let before = driver.app.edit.document.clone();
+        driver.enter(&format!("[{typed}]"));
+        assert_eq!(driver.app.edit.document.scene(), before.scene());
+    }
+    // A scene that only touches takes a force of its own size.
+    for scene in [smooth(), without_adhesion()] {
+        let mut driver = Driver::start(changed(&scene, &[("loading", "[ToTouch, ToSeparation]")]));
+        select(&mut driver, 0);
+        driver.press("l");
+        let Move::ToForce(force) = driver.app.edit.document.scene().loading[0] else { panic!("a press") };
+        assert!(force > 0.0 && is_up_to_date(&driver.app), "{force}");
+    }
+}
+
+#[test]
+fn the_path_of_manual_loading_is_kept_as_the_loading() {
+    for (scene, keys) in [
+        (rough(), "d { { } } }"),
+        (rough(), "< d } { { { S } }"),
+        (rough(), "d F 1 5 Space u N Enter [ [ F 1 0 Space u N Enter"),
+        (smooth(), "> . . d { } { ]"),
+        (without_adhesion(), "d } } { }"),
+        (open("jkr-sphere").unwrap(), "d { { } S"),
+    ] {
+        let mut driver = Driver::start(scene.clone());
+        driver.press("Space > . . . . . . . . . .");
+        driver.press(keys);
+        let manual = driver.app.manual.clone().expect("manual loading");
+        let point = driver.point();
+        let effects = driver.press("W");
+        assert!(driver.status().contains("is the loading of the scene"), "{keys}: {}", driver.status());
+        assert!(!effects.is_empty() && driver.app.manual.is_none());
+        assert_eq!(driver.app.edit.document.scene().loading, manual.loading, "{keys}");
+        let is_near = |one: f64, other: f64, size: f64| (one - other).abs() <= 1e-9 * size;
+        let (deepest, largest) = manual.path.iter().fold((0.0_f64, 0.0_f64), |(d, force), point| {
+            (d.max(point.indentation.abs()), force.max(point.force.abs()))
+        });
+        // The body stays where it is.
+        assert!(is_near(driver.point().indentation, point.indentation, deepest), "{keys}");
+        // The curve of each stage is the path.
+        let document = driver.app.edit.document.clone();
+        let mut legs = Vec::new();
+        let run = Simulation::default().run(document.scene(), &|| false, &mut |_, _, leg| {
+            legs.push(leg.clone());
+            Ok(())
+        });
+        assert_eq!(run.unwrap().history.legs.len(), manual.loading.len());
+        let mut compared = 0;
+        for (stage, at) in manual.stages.iter().zip(&manual.path) {
+            let found = legs[*stage].point(at.indentation).unwrap();
+            // Next to a jump the rounding of the indentation decides about its side.
+            let beside =
+                [1.0 - 1e-12, 1.0 + 1e-12].map(|by| legs[*stage].point(at.indentation * by).unwrap());
+            let is_same = [found]
+                .iter()
+                .chain(&beside)
+                .any(|found| is_near(found.force, at.force, largest) && found.fragments == at.fragments);
+            assert!(is_same, "{keys}: stage {stage} {at:?} {found:?}");
+            compared += 1;
+        }
+        assert!(compared > 20, "{keys}: {compared} points");
+        driver.press("u");
+        assert_eq!(driver.app.edit.document.text(), scene.text());
+    }
+    let mut driver = pressed("W");
+    assert!(driver.status().contains("no manual loading; d begins it"), "{}", driver.status());
+    driver.press("u");
+}
+
+#[test]
+fn the_path_is_exported_with_its_stages() {
+    let mut driver = Driver::start(rough());
+    driver.press("Space > . . d { } { S");
+    let manual = driver.app.manual.clone().unwrap();
+    driver.press("E Ctrl+u");
+    driver.type_text("path.csv");
+    driver.press("Enter");
+    let table = driver.file("path.csv");
+    let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(rows[0], "leg,indentation,force,contact_length,fragments,stored_energy");
+    assert_eq!(rows.len(), 1 + manual.path.len());
+    let legs: Vec<usize> =
+        rows[1..].iter().map(|row| row.split(',').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(legs, manual.stages);
+    assert_eq!(legs.last(), Some(&(manual.loading.len() - 1)));
+    // The table opens as the scene with this loading.
+    let path = driver.folder.join("path.csv");
+    assert_eq!(open(path.to_str().unwrap()).unwrap().scene().loading, manual.loading);
+    assert!(table.contains("# command: asperity rough-line --set 'loading="), "{table}");
+    driver.press("E Ctrl+u");
+    driver.type_text("path.json");
+    driver.press("Enter");
+    let value: serde_json::Value = serde_json::from_str(&driver.file("path.json")).unwrap();
+    assert_eq!(value["curve"].as_array().unwrap().len(), manual.path.len());
+    assert_eq!(value["loading"][0]["ToForce"], 2e-5);
+}
