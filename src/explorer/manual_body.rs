@@ -8,12 +8,10 @@ use crate::text::round_to;
 
 /// Points of the curve along the way of one order.
 const POINTS: u32 = 16;
-/// Most points of the curve of a separation.
 const MOST_POINTS: u32 = 512;
 /// Largest force over that at full contact: beyond full contact the curve is a straight line.
 const MOST_OVER_FULL_CONTACT: f64 = 10.0;
 
-/// Body under manual loading.
 pub struct ManualBody {
     body: Body,
     travel: ManualPath,
@@ -35,17 +33,14 @@ impl ManualBody {
         Some(ManualBody { body, travel: ManualPath::default(), step, full_contact, largest })
     }
 
-    /// Present state.
     pub fn point(&self) -> CurvePoint {
         self.body.point()
     }
 
-    /// Contact of the present leg.
     pub fn leg(&self) -> Leg {
         self.body.leg()
     }
 
-    /// Path since the last call.
     pub fn travel(&mut self) -> ManualPath {
         let released_energy = self.travel.released_energy;
         std::mem::replace(&mut self.travel, ManualPath { released_energy, ..ManualPath::default() })

@@ -6,7 +6,7 @@ use super::picture::{svg, text};
 use super::theme::Theme;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{self, Format, scene_provenance};
+use crate::export::{self, Format, Report, scene_provenance};
 use crate::io::{WriteError, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
@@ -44,7 +44,12 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
             export::write(out, &app.figure().ok_or_else(missing)?, format, "")
         }
         Content::Pane(format) => {
-            let (command, report) = (app.view.pane.row().report)(app).ok_or_else(missing)?;
+            let curves = || {
+                let figure = app.figure().filter(|figure| app.is_current() && figure.table().is_some())?;
+                Some(("asperity", Box::new(figure) as Box<dyn Report>))
+            };
+            let report = (app.view.pane.row().report)(app).or_else(curves);
+            let (command, report) = report.ok_or_else(missing)?;
             let document = &app.edit.document;
             let command = command_line(command, document.name(), document.overrides());
             let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));
