@@ -85,9 +85,9 @@ fn panel(app: &App, size: Size) -> Panel {
 /// Map of the regimes or of a quantity over two axes; `None` for a grid with one axis.
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
-    if let (true, Some(map)) = (mapped.is_regime(), chart.map_mut()) {
-        // The shades show the regimes.
-        map.contour = None;
+    if let Some(map) = chart.map_mut() {
+        // The shades show the regimes; in a map of another quantity letters would hide the boundary.
+        map.contour = map.contour.take().filter(|_| !mapped.is_regime());
         map.class_names.iter_mut().for_each(|class| class.letter = None);
     }
     Some(chart)
@@ -190,8 +190,8 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
             parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
         }
     } else {
-        // The first name is that of the axis.
-        parts.extend(names(chart, look).into_iter().skip(1));
+        // The last name is that of the boundary.
+        parts.extend(names(chart, look).pop().filter(|_| map.contour.is_some()));
     }
     let Some(study) = app.map.shown_study() else { return filled(parts, "  ", width) };
     let slices = study.study_map.slices();
