@@ -56,7 +56,7 @@ mod measure {
         Case { what: "kappa, small step", row: "roughness-adhesion parameter", keys: ["h", "l"], bar: EDIT },
         Case {
             what: "force of the first leg, small step",
-            row: "force of a stage",
+            row: "force of stage",
             keys: ["h", "l"],
             bar: EDIT,
         },

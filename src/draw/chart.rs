@@ -115,6 +115,20 @@ impl Shape {
     pub fn signs(points: Vec<(f64, f64)>, sign: Sign) -> Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
+
+    /// Points of a curve, and of an envelope the ends of its columns.
+    pub fn points(&self) -> Vec<(f64, f64)> {
+        match self {
+            Shape::Curve { points, .. } => points.clone(),
+            Shape::Envelope { x: (from, to), columns } => {
+                let at = |index: usize| from + (to - from) * (index as f64 + 0.5) / columns.len() as f64;
+                let ends = columns.iter().enumerate().filter_map(|(index, ends)| Some((at(index), (*ends)?)));
+                let both = |(x, (low, high))| [(x, low)].into_iter().chain((low < high).then_some((x, high)));
+                ends.flat_map(both).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
 }
 
 impl Layer {

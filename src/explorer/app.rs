@@ -5,6 +5,7 @@ use super::config::Config;
 pub use super::editor::Editor;
 use super::editor::scene_of;
 use super::keys::Command;
+use super::map::Live;
 pub use super::map::{MapState, OpenStudy};
 use super::opening::Opening;
 pub use super::pane::Pane;
@@ -21,14 +22,12 @@ use crate::contact::{CurvePoint, LegRecord};
 use crate::export::LoopQuantities;
 use crate::scene::{Change, Document, Move, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
-use crate::study::{Axis, Place};
+use crate::study::{Axis, Grid, Place, Quantity};
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseUpTarget {
-    /// Place.
     pub focus: Focus,
-    /// Springs shown.
     pub springs: usize,
 }
 
@@ -42,7 +41,6 @@ impl CloseUpTarget {
     }
 }
 
-/// State of manual loading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualState {
     /// Path so far, the newest point last.
@@ -55,11 +53,11 @@ pub struct ManualState {
     pub changed: u64,
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
-    /// Moves not yet requested.
     pub moves: Vec<ManualMove>,
+    /// The force typed last, which the solver may refuse.
+    pub typed: String,
 }
 
-/// Content of the pane of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     pub quantities: LoopQuantities,
@@ -69,14 +67,10 @@ pub struct CurveLook {
     pub loss: bool,
 }
 
-/// Loop kept for comparison.
 #[derive(Clone, Debug)]
 pub struct Ghost {
-    /// Its scene.
     pub document: Document,
-    /// Outcome.
     pub computed: Arc<SolvedScene>,
-    /// The contact when it was kept.
     pub snapshot: Option<Arc<ContactSnapshot>>,
 }
 
@@ -89,27 +83,22 @@ impl Ghost {
     }
 }
 
-/// Letter of a ghost.
 pub fn letter(number: usize) -> &'static str {
-    const LETTERS: [&str; 8] = ["A", "B", "C", "D", "E", "F", "G", "H"];
+    const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
     LETTERS[number % LETTERS.len()]
 }
 
 /// A line for the user, below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Message {
-    /// Success.
     Done(String),
-    /// Failure.
     Error(String),
     /// A refused change of the selected parameter.
     Refused(String),
 }
 
-/// Shown panes, their parts, and their appearance.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// The chosen pane.
     pub pane: Pane,
     /// Pane in the place of profile and close-up; `None`: these.
     pub large: Option<Pane>,
@@ -117,25 +106,17 @@ pub struct View {
     pub lower: Pane,
     /// True if the chosen pane has the whole screen.
     pub zoomed: bool,
-    /// Columns and rows of the terminal.
     pub size: (u16, u16),
-    /// Colours and markers.
     pub appearance: Appearance,
     /// True where octants have no known width: `M` skips them.
     pub lacks_octants: bool,
     pub look: CloseUpTarget,
-    /// Part of the line in the profile pane.
     pub profile: LineView,
-    /// Content of the pane of the curve.
     pub curve: CurveLook,
-    /// Position of the crosshair as a share of the profile, 0 to 1, while shown. On the force curve its lines cross at
-    /// the shown state.
+    /// Position of the crosshair as a share of the profile, or of the horizontal axis of another chart.
     pub crosshair: Option<f64>,
-    /// True if the status line has springs and times in place of mechanical quantities.
-    pub shows_work: bool,
     /// True if times are shown: they differ from run to run.
     pub shows_times: bool,
-    /// Traffic of the connection, over SSH.
     pub traffic: Option<Traffic>,
     /// Line in place of the keys, which have no effect while a script plays.
     pub demo: Option<&'static str>,
@@ -144,26 +125,18 @@ pub struct View {
 /// Generation, snapshot and number of manual moves that the screen waits for.
 pub(super) type Awaited = (u64, SnapshotRequest, usize);
 
-/// The state of the explorer.
 #[derive(Clone, Debug)]
 pub struct App {
-    /// The scene and its history.
     pub edit: Editor,
-    /// State of the animation.
     pub play: Player,
-    /// Manual loading, while active.
     pub manual: Option<ManualState>,
-    /// Shown panes and their appearance.
     pub view: View,
-    /// The newest computed scene.
     pub solved: Option<Arc<SolvedScene>>,
     /// The newest snapshot of its animation.
     pub snapshot: Option<Arc<ContactSnapshot>>,
     /// Legs done of the scene being computed.
     pub progress: Option<usize>,
-    /// Values computed after the scene.
     pub studies: Findings,
-    /// The map over κ and H.
     pub map: MapState,
     /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
@@ -171,24 +144,18 @@ pub struct App {
     pub opens_beside: Option<Document>,
     /// Scene with the value being typed, whose outcome is awaited.
     pub tried: Option<Document>,
-    /// The line being typed, or the question.
     pub prompt: Option<Prompt>,
-    /// A line for the user.
     pub message: Option<Message>,
-    /// Keys, speed of the animation, and file of the configuration.
     pub config: Config,
-    /// Command chosen in the list of commands, to be run next.
+    /// Command chosen in the list of commands or in the footer, to be run next.
     pub chosen: Option<Command>,
-    /// True if the explorer is to end.
     pub finished: bool,
-    /// Effects of the present action.
     pub(super) effects: Vec<Effect>,
     /// The last order to the solver.
     pub(super) asked: Option<Awaited>,
 }
 
 impl App {
-    /// Letter of the newest ghost.
     pub fn newest_letter(&self) -> &'static str {
         letter(self.ghosts.len().saturating_sub(1))
     }
@@ -218,7 +185,6 @@ impl App {
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),
                 crosshair: None,
-                shows_work: false,
                 shows_times: true,
                 traffic: None,
                 demo: None,
@@ -245,22 +211,18 @@ impl App {
         app
     }
 
-    /// Shows a success.
     pub(super) fn set_done(&mut self, text: impl Into<String>) {
         self.message = Some(Message::Done(text.into()));
     }
 
-    /// Shows the reason of a failure.
     pub(super) fn set_error(&mut self, why: impl Into<String>) {
         self.message = Some(Message::Error(why.into()));
     }
 
-    /// Returns true if the last change of a parameter was refused.
     pub fn is_refused(&self) -> bool {
         matches!(self.message, Some(Message::Refused(_)))
     }
 
-    /// Returns true while the value of the selected parameter is typed.
     pub fn is_typing_value(&self) -> bool {
         self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
@@ -288,7 +250,6 @@ impl App {
         }
     }
 
-    /// Opens a prompt with this text.
     pub(super) fn ask(&mut self, purpose: Purpose, text: &str) {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
@@ -354,12 +315,41 @@ impl App {
         up.map_or(Some((place, None)), |up| Some((place, Some(value(&up)?))))
     }
 
-    /// The ghost shown beside the scene.
+    pub fn grid(&self) -> Option<&Grid> {
+        match self.map.shown_study() {
+            Some(study) => Some(&study.grid),
+            None => Some(&self.studies.value::<Live>()?.grid),
+        }
+    }
+
+    /// Axes across and up of the shown map or, before there is one, of the live map.
+    pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
+        if let Some(grid) = self.grid() {
+            return Some((grid.across.clone(), grid.up.clone()));
+        }
+        let mut axes = self.map.plan(self.edit.document.scene())?.axes.into_iter().rev();
+        Some((axes.next()?, axes.next()))
+    }
+
+    /// Quantity of the glyphs: the chosen one, where the map has it.
+    pub fn mapped(&self) -> Quantity {
+        let all = self.grid().map(Grid::quantities).unwrap_or_default();
+        let chosen = all.iter().find(|one| **one == self.map.quantity);
+        *chosen.or(all.first()).unwrap_or(&self.map.quantity)
+    }
+
+    /// Next quantity of the glyphs.
+    pub fn next_mapped(&self) -> Quantity {
+        let all = self.grid().map(Grid::quantities).unwrap_or_default();
+        let now = self.mapped();
+        let place = all.iter().position(|one| *one == now).map_or(0, |place| place + 1);
+        all.get(place).or(all.first()).copied().unwrap_or(now)
+    }
+
     pub fn beside(&self) -> Option<&Ghost> {
         self.ghosts.last().filter(|_| self.view.lower == Pane::Beside)
     }
 
-    /// Drive of the body.
     pub fn drive(&self) -> Drive {
         if self.manual.is_some() { Drive::Manual } else { Drive::Leg(self.play.leg) }
     }
@@ -370,7 +360,6 @@ impl App {
         (snapshot.generation == self.edit.generation && snapshot.drive == self.drive()).then_some(snapshot)
     }
 
-    /// The legs of the shown scene.
     pub fn legs(&self) -> &[LegRecord] {
         self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
     }
@@ -400,7 +389,6 @@ impl App {
         indentations(self.legs())
     }
 
-    /// The indentation of the animation, m.
     pub fn indentation(&self) -> f64 {
         self.play.indentation(self.legs())
     }

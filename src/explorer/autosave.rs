@@ -24,7 +24,6 @@ struct Copy {
     overrides: Vec<(String, String)>,
 }
 
-/// The copies of one session.
 pub struct Autosave {
     path: PathBuf,
     /// The file, locked; `None` without unsaved changes.
@@ -57,9 +56,6 @@ pub fn offer(folder: &Path) -> Option<String> {
 }
 
 /// Reads the scenes of a file, the explored one first.
-///
-/// # Errors
-/// The file and the reason why it cannot be read.
 pub fn read(path: &Path) -> Result<Vec<Document>, String> {
     let wrong = |why: &dyn ToString| format!("{}: {}", path.display(), why.to_string());
     let text = read_regular_text(path, LONGEST).map_err(|error| wrong(&error))?;
@@ -83,15 +79,14 @@ impl Autosave {
     }
 
     /// Keeps these scenes in place of all before; without any, there is no file. The file is whole at every moment.
-    ///
-    /// # Errors
-    /// When the system refuses.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
             return self.own.take().map_or(Ok(()), |_| fs::remove_file(&self.path));
         }
         let copy = |document: &&Document| {
             let file = absolute(document.name()).ok().filter(|path| path.is_file());
+            let whole = file.is_none().then(|| with_whole_paths(document)).flatten();
+            let document = whole.as_ref().unwrap_or(document);
             Copy {
                 name: file.map_or_else(|| document.name().to_owned(), |path| path.display().to_string()),
                 opened: document.opened().to_owned(),
@@ -109,6 +104,17 @@ impl Autosave {
         self.own = Some(file);
         fs::rename(&unfinished, &self.path)
     }
+}
+
+/// The document with whole paths of its measured files in place of those from the working folder.
+fn with_whole_paths(document: &Document) -> Option<Document> {
+    let files = document.scene().measured_files();
+    let mut roughness = document.value("roughness").filter(|_| !files.is_empty())?.to_owned();
+    for file in files {
+        let whole = absolute(document.resolve(file)).ok()?;
+        roughness = roughness.replace(&format!("{file:?}"), &format!("{:?}", whole.to_str()?));
+    }
+    document.set("roughness", &roughness).ok()
 }
 
 #[cfg(test)]
@@ -132,7 +138,12 @@ mod tests {
         let documents = read(&file).unwrap();
         assert_eq!(documents, [changed.clone(), other]);
         assert_eq!(documents[0].overrides(), changed.overrides());
+        // A measured file is found from any folder.
+        let measured = changed.set("roughness", "Measured(file: \"map.txt\")").unwrap();
         let mut next = Autosave::new(&folder, Some(file.clone()));
+        next.keep(&[&measured]).unwrap();
+        let whole = absolute("map.txt").unwrap();
+        assert_eq!(read(&file).unwrap()[0].scene().measured_files(), [whole.to_str().unwrap()]);
         assert_eq!(newest(&folder), None, "the session that opened the scenes continues their file");
         next.keep(&[&changed]).unwrap();
         next.keep(&[]).unwrap();

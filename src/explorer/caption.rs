@@ -18,7 +18,6 @@ pub fn caption(app: &App) -> Option<&'static str> {
     }
 }
 
-/// Event at a point of a loading stage.
 fn event(stage: &LegRecord, point: CurvePoint) -> Option<&'static str> {
     let (first, last) = (stage.curve.first()?, stage.curve.last()?);
     let range = (last.indentation - first.indentation).abs();

@@ -35,7 +35,6 @@ pub fn close_up(
     CloseUp { section, boundaries, fragment }
 }
 
-/// The spring in the middle of the close-up.
 fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
     let (count, patches) = (contact.gaps.len(), contact.patches);
     let summit = || (0..count).find(|&spring| contact.gaps[spring] == 0.0).unwrap_or(count / 2);
@@ -65,7 +64,6 @@ fn compression(contact: &Contact<'_>, patch: Patch) -> f64 {
     contact.gaps[patch.springs()].iter().map(|gap| contact.indentation - gap).sum()
 }
 
-/// The number of the patch nearest to a spring.
 fn nearest(patches: &[Patch], spring: usize) -> Option<usize> {
     let after = patches.partition_point(|patch| patch.last < spring);
     let distance = |number: usize| {

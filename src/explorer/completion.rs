@@ -5,7 +5,6 @@ use crate::text::is_control;
 use std::fs::read_dir;
 use std::path::{MAIN_SEPARATOR, Path, is_separator};
 
-/// Most entries read from a folder.
 const MOST_ENTRIES: usize = 10_000;
 
 /// Returns the paths that begin as typed, in order. Folders end in a separator; hidden files need a typed dot.

@@ -13,7 +13,6 @@ use std::io::ErrorKind::NotFound;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-/// Largest size of a file, bytes.
 const LONGEST: usize = 1 << 20;
 /// File with all fields in comments.
 pub const TEMPLATE: &str = r#"// Configuration of the explorer. A field that is left out has its default.
@@ -29,15 +28,12 @@ pub const TEMPLATE: &str = r#"// Configuration of the explorer. A field that is 
 )
 "#;
 
-/// Configuration of the explorer.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Config {
     version: u32,
-    /// Colours.
     pub theme: Option<Theme>,
     pub markers: Option<Marker>,
-    /// Frames per second of the animation.
     pub frame_rate: u32,
     /// Speed of the animation; 1 takes six seconds for a loading stage.
     pub speed: f64,
@@ -54,7 +50,6 @@ pub struct Config {
     pub bindings: Bindings,
 }
 
-/// Keys of an action.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct KeySetting {
@@ -85,16 +80,12 @@ pub fn default_path() -> Option<PathBuf> {
 }
 
 impl Config {
-    /// The defaults with these keys.
     pub fn new(bindings: Bindings) -> Config {
         Config { bindings, ..Config::default() }
     }
 
     /// Reads a file that may change these keys. `is_named`: the user has named it, and a missing file is an error; otherwise a missing file has
     /// the defaults.
-    ///
-    /// # Errors
-    /// The first mistake, with its place.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         // A broken link is a file that cannot be read.
         let is_missing = || path.symlink_metadata().is_err_and(|error| error.kind() == NotFound);
@@ -105,9 +96,6 @@ impl Config {
     }
 
     /// Reads the text of a file that may change these keys.
-    ///
-    /// # Errors
-    /// The first mistake, with its place.
     pub fn parse(text: &str, path: &Path, bindings: Bindings) -> Result<Config, String> {
         let wrong_at = |offset: usize, message: String| {
             let (line, column) = line_column(text, offset);
@@ -145,9 +133,6 @@ impl Config {
     }
 
     /// Text of a file with these settings.
-    ///
-    /// # Errors
-    /// A value that RON cannot express; there is none.
     pub fn text(&self) -> Result<String, ron::Error> {
         let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
         let layout = PrettyConfig::new().depth_limit(1).separate_tuple_members(false);
@@ -160,18 +145,12 @@ fn text_of(path: &Path) -> Result<String, String> {
 }
 
 /// Writes the template to a file that does not exist yet, with the folders around the file.
-///
-/// # Errors
-/// A file of that name exists, or the system refuses.
 pub fn write_template(path: &Path) -> Result<(), String> {
     write(path, TEMPLATE, false)
 }
 
 /// Writes colours and markers to a file; all else in the file stays, comments included. A missing file is made from the
 /// template.
-///
-/// # Errors
-/// The file is wrong, or cannot be written.
 pub fn remember(path: &Path, appearance: Appearance, bindings: Bindings) -> Result<(), String> {
     let exists = path.symlink_metadata().is_ok();
     let mut text = if exists { text_of(path)? } else { TEMPLATE.to_owned() };

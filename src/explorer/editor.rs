@@ -2,19 +2,17 @@
 
 use super::parameters::{Parameter, parameters};
 use crate::scene::{Document, Scene};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::iter::successors;
 use std::mem::replace;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Most edits that can be undone.
 const UNDO_DEPTH: usize = 1000;
 
 /// The scene as edited, its history, and its list of parameters.
 #[derive(Clone, Debug)]
 pub struct Editor {
-    /// The scene as edited.
     pub document: Document,
     /// Documents before each edit.
     pub past: Vec<Document>,
@@ -26,18 +24,12 @@ pub struct Editor {
     pub saves: u64,
     /// Scenes left with unsaved changes, by their names.
     left: BTreeMap<String, Document>,
-    /// Number of the newest scene.
     pub generation: u64,
-    /// The parameters of the scene.
     pub parameters: Vec<Parameter>,
-    /// Index of the selected parameter, which is never in a folded group.
     pub selected: usize,
-    /// Groups of parameters of which only the first row is listed.
-    pub folded: BTreeSet<&'static str>,
 }
 
 impl Editor {
-    /// A scene just opened.
     pub fn new(document: Document) -> Self {
         let mut editor = Editor {
             parameters: parameters(&document),
@@ -49,53 +41,23 @@ impl Editor {
             left: BTreeMap::new(),
             generation: 1,
             selected: 0,
-            folded: BTreeSet::new(),
         };
         editor.set_saved();
         editor
     }
 
-    /// Indices of the listed parameters: of a folded group only the first.
-    pub fn listed(&self) -> Vec<usize> {
-        let is_listed = |one: &Parameter| one.is_head() || !self.folded.contains(one.group);
-        (0..self.parameters.len()).filter(|index| is_listed(&self.parameters[*index])).collect()
-    }
-
-    /// The selected parameter.
     pub fn parameter(&self) -> Option<&Parameter> {
         self.parameters.get(self.selected)
     }
 
-    /// Selects a parameter, or the last one, and unfolds its group.
+    /// Selects a parameter, or the last one.
     pub fn select(&mut self, row: usize) {
         self.selected = row.min(self.parameters.len().saturating_sub(1));
-        if let Some(group) = self.parameter().filter(|one| !one.is_head()).map(|one| one.group) {
-            self.folded.remove(group);
-        }
     }
 
-    /// Moves the selection by a number of listed rows, at most to the first or the last row.
+    /// Moves the selection by a number of rows, at most to the first or the last row.
     pub fn move_selection(&mut self, rows: i32) {
-        let listed = self.listed();
-        let place = listed.iter().position(|index| *index == self.selected).unwrap_or(0);
-        let next = place.saturating_add_signed(rows as isize).min(listed.len().saturating_sub(1));
-        self.select(listed.get(next).copied().unwrap_or(0));
-    }
-
-    /// Folds the group of the selected parameter and selects its first row, or unfolds the group.
-    pub fn fold(&mut self, folds: bool) {
-        let Some(group) = self.parameter().map(|parameter| parameter.group) else { return };
-        if folds {
-            self.selected = self.row_of(group);
-            self.folded.insert(group);
-        } else {
-            self.folded.remove(group);
-        }
-    }
-
-    /// Returns true if the group of the selected parameter is folded.
-    pub fn is_folded(&self) -> bool {
-        self.parameter().is_some_and(|parameter| self.folded.contains(parameter.group))
+        self.select(self.selected.saturating_add_signed(rows as isize));
     }
 
     /// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and
@@ -160,7 +122,6 @@ impl Editor {
         self.generation += 1;
     }
 
-    /// Returns true if the scene differs from its saved document.
     pub fn is_unsaved(&self) -> bool {
         self.is_changed(&self.document)
     }
@@ -202,7 +163,6 @@ impl Editor {
         self.set_saved();
     }
 
-    /// Marks the scene as saved.
     pub fn set_saved(&mut self) {
         self.saves += 1;
         self.saved.insert(self.document.name().to_owned(), self.document.clone());

@@ -5,9 +5,6 @@ use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventK
 
 /// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns true
 /// while anyone listens; the end of the input is sent as `None`.
-///
-/// # Errors
-/// When the system refuses a thread.
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()
         .name("input".to_owned())

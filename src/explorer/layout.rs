@@ -6,16 +6,12 @@ use ratatui::layout::Rect;
 /// Columns of the histogram beside the profile, its frame line included.
 const HISTOGRAM_COLUMNS: u16 = 14;
 
-/// The parts of the screen.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// The name of the scene and its notice.
     pub title: Option<Rect>,
-    /// The shown panes.
     pub panes: Vec<(Pane, Rect)>,
     /// One line with the headline figures, or the typed text.
     pub status: Rect,
-    /// One line with the keys.
     pub footer: Option<Rect>,
 }
 
@@ -41,7 +37,6 @@ impl Layout {
         }
     }
 
-    /// Area of the panes.
     pub fn body(&self) -> Rect {
         self.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
     }
@@ -57,7 +52,6 @@ impl Layout {
         shown.map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
     }
 
-    /// Cells across the close-up.
     pub fn close_up_cells(&self) -> usize {
         self.pane(Pane::CloseUp).map_or(0, |area| usize::from(inside(area).width))
     }

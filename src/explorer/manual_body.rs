@@ -9,10 +9,8 @@ use crate::text::round_to;
 
 /// Points of the curve along the way of one order.
 const POINTS: u32 = 16;
-/// Most points of the curve of a separation.
 const MOST_POINTS: u32 = 512;
 
-/// Body under manual loading.
 pub struct ManualBody {
     body: Body,
     travel: ManualPath,
@@ -42,17 +40,14 @@ impl ManualBody {
         Some(ManualBody { body, travel, step, full_contact, preload, direction })
     }
 
-    /// Present state.
     pub fn point(&self) -> CurvePoint {
         self.body.point()
     }
 
-    /// Contact of the present leg.
     pub fn leg(&self) -> Leg {
         self.body.leg()
     }
 
-    /// Path since the last call.
     pub fn travel(&mut self) -> ManualPath {
         let (released_energy, loading) = (self.travel.released_energy, self.travel.loading.clone());
         std::mem::replace(&mut self.travel, ManualPath { released_energy, loading, ..ManualPath::default() })

@@ -4,7 +4,6 @@ use crate::scene::{RoughnessParameter, Scene};
 use crate::study::{Grid, LiveMap, Plan, Quantity, StudyMap, live_plan};
 use std::sync::Arc;
 
-/// State of the pane of the map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapState {
     /// Quantity of the glyphs, where the map has it.
@@ -19,7 +18,6 @@ pub struct MapState {
     pub moving: bool,
 }
 
-/// A finished study and its shown map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
     pub study_map: Arc<StudyMap>,
@@ -28,7 +26,6 @@ pub struct OpenStudy {
     pub grid: Arc<Grid>,
 }
 
-/// The live map so far.
 #[derive(Debug)]
 pub struct Live {
     pub map: LiveMap,
@@ -57,14 +54,12 @@ impl OpenStudy {
 }
 
 impl Live {
-    /// The cells of a map so far.
     pub fn of(map: &LiveMap) -> Self {
         Live { map: map.clone(), grid: map.grid() }
     }
 }
 
 impl MapState {
-    /// The study whose map is shown.
     pub fn shown_study(&self) -> Option<&OpenStudy> {
         self.study.as_ref().filter(|_| self.of_study)
     }
@@ -74,7 +69,6 @@ impl MapState {
         self.study = Some(OpenStudy { study_map, slice, grid });
     }
 
-    /// Plan of the live map of a scene.
     pub(super) fn plan(&self, scene: &Scene) -> Option<Plan> {
         live_plan(scene, self.parameter).ok()
     }

@@ -33,7 +33,6 @@ pub mod runtime;
 mod search;
 mod session;
 mod shown;
-mod shown_map;
 mod signals;
 pub mod snapshot;
 pub mod solver;

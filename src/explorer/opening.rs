@@ -6,18 +6,14 @@ use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Argument of the explorer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
-    /// The scene.
     pub document: Document,
     /// The study of the scene, whose maps are shown.
     pub study_map: Option<Arc<StudyMap>>,
-    /// Another scene, shown beside.
     pub beside: Option<Document>,
 }
 
-/// Reason why nothing was opened.
 #[derive(Debug, Error)]
 pub enum OpeningError {
     /// No scene, or an invalid scene.
@@ -42,17 +38,11 @@ impl From<Document> for Opening {
 impl Opening {
     /// Opens a scene by its name or file, or a study by its folder. The folder of a study has precedence over a
     /// built-in scene of the same name.
-    ///
-    /// # Errors
-    /// When neither has the name.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open)
     }
 
     /// As [`Self::of`], for an argument of a command, which may also name a stream; see [`open_argument`].
-    ///
-    /// # Errors
-    /// As [`Self::of`].
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }

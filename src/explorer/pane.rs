@@ -1,13 +1,9 @@
 //! The panes and their places.
 
-/// The panes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum Pane {
-    /// The force curve.
     Force,
-    /// The profile with the distribution of its heights.
     Profile,
-    /// The close-up of contact patches.
     CloseUp,
     /// Distribution of the lengths of contact patches, in place of the close-up.
     Lengths,
@@ -27,7 +23,6 @@ pub enum Pane {
     Sensitivity,
     /// The map over κ and H, in place of profile and close-up.
     Map,
-    /// The list of parameters.
     Parameters,
 }
 
@@ -36,7 +31,6 @@ pub enum Pane {
 pub enum Place {
     Own,
     CloseUp,
-    /// The place of profile and close-up.
     Large,
 }
 

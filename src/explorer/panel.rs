@@ -11,14 +11,10 @@ use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget, Widget};
 
-/// Content of a pane.
 pub struct Panel {
-    /// Title in the frame.
     pub title: String,
-    /// Lines above the body.
     pub head: Vec<Line<'static>>,
     pub body: Body,
-    /// Lines below the body.
     pub foot: Vec<Line<'static>>,
     /// Parts on the lower edge of the frame, the most important first.
     pub edge: Vec<Part>,
@@ -29,7 +25,6 @@ pub enum Body {
     /// A list, scrolled so that the selected row is visible.
     Rows {
         rows: Vec<Line<'static>>,
-        /// Index of the selected row.
         selected: usize,
     },
     /// A text in place of a chart, such as the reason why the chart is missing.
@@ -55,13 +50,11 @@ const MOST_BESIDE: u16 = 15;
 const WITH_CONTACT: u16 = 5;
 
 impl Panel {
-    /// A panel of a chart alone.
     pub fn of_chart(title: String, chart: Chart) -> Panel {
         let plot = Plot { chart, names: Vec::new(), beside: None, contact: Vec::new() };
         Panel { body: Body::Chart(Box::new(plot)), ..Panel::of_text(title, "") }
     }
 
-    /// A panel of a text alone.
     pub fn of_text(title: String, text: &str) -> Panel {
         let body = Body::Text(text.to_owned());
         Panel { title, head: Vec::new(), body, foot: Vec::new(), edge: Vec::new() }
@@ -83,8 +76,9 @@ impl Panel {
             let Shape::Curve { points, .. } = &layer.shape else { continue };
             let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), up.scale.coordinate(point.1));
             let between = points.windows(2).map(|pair| (place(&pair[0]), place(&pair[1])));
-            let on_curve = between.into_iter().find(|(from, to)| from.0 <= at && at <= to.0 && from.0 < to.0);
-            if let Some((from, to)) = on_curve {
+            let is_here =
+                |(from, to): &((f64, f64), (f64, f64))| (from.0 - at) * (to.0 - at) <= 0.0 && from.0 != to.0;
+            if let Some((from, to)) = between.into_iter().find(is_here) {
                 let y = from.1 + (to.1 - from.1) * (at - from.0) / (to.0 - from.0);
                 parts.push(format!("{} {}", layer.name, value(up, up.scale.number(y))));
             }
@@ -120,7 +114,6 @@ pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> 
     draw(&CellStyle { marker: look.marker.symbols(), ink: &ink, colours: Colours::None })
 }
 
-/// Meaning of an ink on the screen.
 pub fn meaning(ink: Ink) -> Meaning {
     use Meaning::{Approach, Ghost, Manual, Quiet, Retraction, Surface, Text};
     match ink {
@@ -140,7 +133,6 @@ pub fn meaning(ink: Ink) -> Meaning {
     }
 }
 
-/// Areas of the parts of a panel.
 struct Places {
     head: Rect,
     body: Rect,
@@ -301,14 +293,11 @@ fn contact_signs(contact: &[bool], cells: usize) -> String {
     (0..cells).map(sign).collect()
 }
 
-/// Content of a cell of a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Under {
     /// Numbers on the axes of a chart: the nearest ones for a cell beside the plot.
     Data(f64, f64),
-    /// Index of a row of a list.
     Row(usize),
-    /// Anything else.
     Frame,
 }
 

@@ -24,12 +24,9 @@ const FIRST: [&str; 7] = [
     "roughness.seed",
 ];
 
-/// A parameter of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Row of the table of fields.
     pub field: &'static Field,
-    /// Path in the scene.
     pub path: String,
     /// Name of its group: the path of the first row.
     pub group: &'static str,
@@ -40,14 +37,11 @@ pub struct Parameter {
     /// Its value for people; empty where the value follows from others and has to be computed.
     pub shown: String,
     pub effect: Option<Effect>,
-    /// Way of setting.
     pub setting: Setting,
 }
 
-/// Way of setting a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
-    /// As a field of the scene.
     Field,
     Switch(Effect),
     /// Not at all: a group without a value of its own.
@@ -107,8 +101,7 @@ impl Parameter {
 const GREEK: [(char, &str); 6] =
     [('γ', "gamma"), ('κ', "kappa"), ('λ', "lambda"), ('θ', "theta"), ('ν', "nu"), ('Δ', "delta ")];
 
-/// A symbol with its Greek letters spelled.
-pub(super) fn spelled(symbol: &str) -> String {
+fn spelled(symbol: &str) -> String {
     GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
 }
 
@@ -118,7 +111,6 @@ fn group_of(path: &str) -> &'static str {
     GROUPS.into_iter().find(|group| *group == first).unwrap_or("form")
 }
 
-/// The parameters of a scene, by use.
 pub fn parameters(document: &Document) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {
@@ -158,7 +150,6 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
     parameters
 }
 
-/// The effect that a field belongs to.
 fn effect_of(path: &str) -> Option<Effect> {
     Effect::ALL
         .into_iter()
@@ -197,7 +188,6 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
     }
 }
 
-/// A switch for each observer.
 fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item = Parameter> {
     let observers = Effect::ALL.into_iter().filter(|effect| effect.path() == "observe");
     observers.map(move |effect| {

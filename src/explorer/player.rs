@@ -5,19 +5,15 @@ use crate::contact::LegRecord;
 /// Share of the whole range of indentations by which the body is lifted before first touch.
 const LIFT: f64 = 0.12;
 
-/// State of the animation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Player {
-    /// Index of the leg.
     pub leg: usize,
     /// Played share, 0 to 1.
     pub done: f64,
-    /// True while playing.
     pub playing: bool,
 }
 
 impl Player {
-    /// Start of the animation.
     pub const START: Player = Player { leg: 0, done: 0.0, playing: true };
 
     /// This state on existing loading stages: at the end of the last one where its own stage does not exist.

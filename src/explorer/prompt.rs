@@ -13,7 +13,6 @@ use std::path::is_separator;
 #[derive(Clone, Debug)]
 pub struct Prompt {
     pub purpose: Purpose,
-    /// The line being typed.
     pub line: TextLine,
     /// Indices of the rows of the list that fit the line, the best first.
     pub found: Vec<usize>,
@@ -21,37 +20,26 @@ pub struct Prompt {
     pub selected: usize,
     /// Paths that begin as typed, as far as several were asked for.
     pub paths: Vec<String>,
-    /// Reason why the typed text was refused.
     pub refused: Option<String>,
 }
 
 #[derive(Clone, Debug)]
 pub enum Purpose {
-    /// Value of the selected parameter.
     Value,
-    /// Force to move the body to.
     Force,
     /// Relative error for a choice of springs.
     Tolerance,
-    /// File to save the scene to.
     Save {
-        /// True to leave afterwards.
         then_quit: bool,
     },
-    /// File to export to.
     Export,
     /// Search of a scene, or path of a scene or a study.
     Scene(Vec<Entry>),
-    /// Search of a parameter.
     Parameter {
-        /// Pane selected before.
         before: Pane,
     },
-    /// Search of a command.
     Command(Vec<Binding>),
-    /// Question whether to overwrite a file.
     Overwrite(OutputFile),
-    /// Question whether to leave with unsaved changes.
     Leave,
     Help,
 }
@@ -92,18 +80,15 @@ impl Prompt {
         };
     }
 
-    /// Index of the selected row of the list.
     pub fn choice(&self) -> Option<usize> {
         self.found.get(self.selected).copied()
     }
 
-    /// The selected scene.
     pub fn scene(&self) -> Option<&Entry> {
         if let Purpose::Scene(entries) = &self.purpose { entries.get(self.choice()?) } else { None }
     }
 }
 
-/// Name, title and notice.
 fn scene_texts(entry: &Entry) -> Vec<String> {
     vec![entry.name.clone(), entry.title().to_owned(), entry.notice().to_owned()]
 }

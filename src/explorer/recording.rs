@@ -10,7 +10,6 @@ use std::cell::RefCell;
 use std::io::{self, Write};
 use std::rc::Rc;
 
-/// A recording in progress.
 pub struct Recording<W: Write> {
     out: W,
     terminal: Terminal<CrosstermBackend<FrameWriter<Sent>>>,
@@ -35,9 +34,6 @@ impl Write for Sent {
 impl<W: Write> Recording<W> {
     /// Begins the recording of a terminal of a width and a height in cells. The recording states no date: the same demo
     /// gives the same file.
-    ///
-    /// # Errors
-    /// When writing fails.
     pub fn new(mut out: W, (width, height): (u16, u16), title: &str) -> io::Result<Self> {
         // The theme decides on colours, not the environment.
         crossterm::style::force_color_output(true);
@@ -55,9 +51,6 @@ impl<W: Write> Recording<W> {
 
     /// Records the screen at a time, in seconds since the beginning, and returns the number of bytes for the terminal.
     /// A screen without a change is left out.
-    ///
-    /// # Errors
-    /// When writing fails.
     pub fn frame(&mut self, seconds: f64, app: &App) -> io::Result<usize> {
         self.terminal.draw(|frame| view::draw(frame, app))?;
         let bytes = self.sent.0.take();

@@ -7,12 +7,10 @@ use std::sync::Arc;
 /// snapshot.
 #[derive(Clone, Debug)]
 pub struct Request {
-    /// Generation of the scene.
     pub generation: u64,
     pub scene: Arc<Scene>,
     /// Manual moves since the last request.
     pub moves: Vec<ManualMove>,
-    /// Snapshot of the contact.
     pub snapshot: SnapshotRequest,
 }
 
@@ -27,14 +25,11 @@ impl Request {
     }
 }
 
-/// Move of manual loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualMove {
     /// Begins manual loading at an indentation of a leg.
     Take {
-        /// Index of the leg.
         leg: usize,
-        /// Indentation, m.
         indentation: f64,
     },
     /// Moves the body to an indentation, m.
@@ -43,42 +38,28 @@ pub enum ManualMove {
     By(f64),
     /// Moves the body to a force, N.
     ToForce(f64),
-    /// Pulls until nothing touches.
     Separate,
-}
-
-/// Place of the body on a loading stage.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
-    /// Share of the stage, 0 to 1, as the animation plays it.
-    Share(f64),
-    /// Indentation, m.
-    Indentation(f64),
 }
 
 /// Request for a snapshot of the contact, with the sizes of the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
-    /// Drive of the body.
     pub drive: Drive,
-    /// Place on the stage; manual loading has its own.
-    pub place: Place,
+    /// Share of the stage, 0 to 1, as the animation plays it; manual loading has a place of its own.
+    pub done: f64,
     /// Columns of dots of the profile pane.
     pub profile_columns: usize,
-    /// Part of the line in the profile pane.
     pub profile: LineView,
     /// Columns of dots of the close-up pane.
     pub close_up_columns: usize,
     /// Cells across the close-up pane.
     pub strip_cells: usize,
-    /// Place of the close-up.
     pub focus: Focus,
     pub close_up_springs: usize,
     /// Position of the crosshair as a share of the profile, 0 to 1.
     pub crosshair: Option<f64>,
 }
 
-/// Part of the line in the profile pane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineView {
     /// Its middle, as a share of the line.
@@ -93,17 +74,14 @@ impl LineView {
     pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0, follow: false };
 }
 
-/// Place of the close-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Focus {
-    /// Place of first touch.
     Summit,
     Spring(usize),
     /// The fragment after the one nearest to a spring.
     After(Option<usize>),
     /// The fragment before the one nearest to a spring.
     Before(Option<usize>),
-    /// The longest fragment.
     Largest,
     /// The fragment that carries the largest force, pressing or pulling.
     MostLoaded,
@@ -116,11 +94,9 @@ impl Focus {
     }
 }
 
-/// Drive of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
     /// A leg of the scene's loading, by its index.
     Leg(usize),
-    /// Manual loading.
     Manual,
 }

@@ -25,7 +25,6 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// An engine of threads that report.
     pub fn threads(solver: SolverThread, studies: StudyThread) -> Self {
         Engine {
             solve: Box::new(move |request| {
@@ -61,9 +60,7 @@ impl Engine {
 
 /// The explorer and all that its effects need, except the terminal.
 pub struct Runtime {
-    /// The state of the explorer.
     pub app: App,
-    /// Solver and studies.
     pub engine: Engine,
     /// Generation of the scene requested last.
     pub asked: u64,

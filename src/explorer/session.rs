@@ -39,7 +39,6 @@ const MOST_CELLS: u32 = 4_000_000;
 /// Longest time of actions without a frame.
 const DRAINING: Duration = Duration::from_millis(100);
 
-/// Options of the explorer.
 pub struct Options {
     /// Colours in place of those by the environment.
     pub theme: Option<Theme>,
@@ -51,7 +50,6 @@ pub struct Options {
     pub restored: Option<(PathBuf, Vec<Document>)>,
     /// Configuration; options here have precedence.
     pub config: Config,
-    /// Message that is shown at the start.
     pub warning: Option<String>,
     /// Folder in which unsaved changes are kept; `None`: nowhere.
     pub unsaved: Option<PathBuf>,
@@ -72,11 +70,8 @@ impl Options {
     }
 }
 
-/// State at the end of the explorer.
 pub struct SessionEnd {
-    /// The scene at the end.
     pub document: Document,
-    /// Outcome.
     pub computed: Option<Arc<SolvedScene>>,
     /// Number of the signal that ended the explorer.
     pub signal: Option<i32>,
@@ -85,7 +80,6 @@ pub struct SessionEnd {
 /// Function that draws the state of the explorer, as [`super::view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &App);
 
-/// Message of another thread.
 enum Message {
     /// Input of the user; `None` at its end.
     Input(Option<Event>),
@@ -95,9 +89,6 @@ enum Message {
 }
 
 /// Opens the explorer on a scene or a finished study, with a solver and a view, and returns its final state.
-///
-/// # Errors
-/// When the terminal refuses.
 pub fn open(
     opening: impl Into<Opening>,
     options: Options,
@@ -168,7 +159,6 @@ pub fn open(
     Ok(SessionEnd { document: app.edit.document, computed, signal })
 }
 
-/// The terminal of a session.
 type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
 
 fn window(terminal: &Screen) -> io::Result<Size> {
@@ -188,16 +178,12 @@ struct Session<'a> {
     /// True if the content of the screen is unknown.
     redraw: bool,
     draw: Draw,
-    /// True over SSH.
     remote: bool,
-    /// Most frames per second.
     frames: u32,
-    /// Bytes written so far.
     written: Rc<Cell<u64>>,
     /// Time of the last report of the traffic, and the bytes written by then.
     traffic: (Instant, u64),
     inbox: Receiver<Message>,
-    /// Keeps unsaved changes.
     autosave: Option<Autosave>,
     /// Generation and number of saves when changes were last kept.
     kept: (u64, u64),

@@ -5,6 +5,7 @@ use super::app::App;
 use super::keys::Context;
 use super::layout::Layout;
 use super::panes::{Pane, Place};
+use super::snapshot::Section;
 use crate::draw::Figure;
 use crate::study::StudyMap;
 use std::sync::Arc;
@@ -78,6 +79,16 @@ impl App {
             (Some(prompt), _) => prompt.context(),
             (None, Some(Context::Crosshair)) if self.view.crosshair.is_none() => Context::Explore,
             (None, of_pane) => of_pane.unwrap_or(Context::Explore),
+        }
+    }
+
+    /// The part of the profile in the selected pane.
+    pub fn section(&self) -> Option<&Section> {
+        let snapshot = self.snapshot.as_ref()?;
+        match self.view.pane {
+            Pane::CloseUp => Some(&snapshot.close_up.section),
+            Pane::Profile | Pane::Beside => Some(&snapshot.profile),
+            _ => None,
         }
     }
 

@@ -17,9 +17,6 @@ pub enum SystemSignal {
 ///
 /// If the explorer has not ended some time later, as while the terminal accepts no output,
 /// the process ends by the signal, with the attributes of the terminal restored.
-///
-/// # Errors
-/// When the system refuses.
 #[cfg(unix)]
 pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH};
@@ -51,9 +48,6 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
 }
 
 /// No signals on other systems.
-///
-/// # Errors
-/// None.
 #[cfg(not(unix))]
 pub fn watch_for_signals(_: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())

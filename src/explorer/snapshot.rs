@@ -11,7 +11,6 @@ use crate::simulation::{LineFacts, Outcome};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A computed scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedScene {
     pub generation: u64,
@@ -24,11 +23,8 @@ pub struct SolvedScene {
 /// State of the contact at one indentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactSnapshot {
-    /// Generation of the scene.
     pub generation: u64,
-    /// Drive of the body.
     pub drive: Drive,
-    /// The shown profile.
     pub line: LineFacts,
     /// Requested place of the close-up.
     pub focus: Focus,
@@ -36,7 +32,6 @@ pub struct ContactSnapshot {
     pub point: CurvePoint,
     /// Half the distance between the outermost edges of the contact, m; zero in separation.
     pub contact_radius: f64,
-    /// The line, or a part of it.
     pub profile: Section,
     /// The neighbourhood of one fragment.
     pub close_up: CloseUp,

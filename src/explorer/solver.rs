@@ -5,7 +5,7 @@ use super::close_up::close_up;
 use super::manual_body::ManualBody;
 use super::player::{Player, indentations};
 use super::reach::out_of_reach;
-use super::request::{Drive, ManualMove, Place, Request, SnapshotRequest};
+use super::request::{Drive, ManualMove, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, lengths, profile_part, strip};
 use crate::contact::{ContactError, CurvePoint, Direction, Leg};
 use crate::export::section::{Contact, LineColumns};
@@ -27,7 +27,6 @@ const STEPS_OF_A_PULL: f64 = 200.0;
 pub type Solve =
     fn(&mut Simulation, &Scene, &dyn Fn() -> bool, &mut AfterLeg<'_>) -> Result<Outcome, RunError>;
 
-/// Solver of the newest scene.
 pub struct Solver {
     solve: Solve,
     simulation: Simulation,
@@ -36,7 +35,6 @@ pub struct Solver {
     newest: Newest,
 }
 
-/// The newest scene.
 #[derive(Default)]
 struct Newest {
     generation: u64,
@@ -161,7 +159,10 @@ impl Solver {
         let (drive, leg, point) = match request.drive {
             Drive::Leg(number) => {
                 self.newest.body = None;
-                let (number, indentation) = self.place(number, request.place)?;
+                let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
+                // The existing leg nearest to the requested one.
+                let player = Player { leg: number, done: request.done, playing: false }.within(legs);
+                let (number, indentation) = (player.leg, player.indentation(legs));
                 let leg = self.leg(number)?;
                 let point = leg.point(indentation).ok()?;
                 (Drive::Leg(number), leg, point)
@@ -193,18 +194,6 @@ impl Solver {
             probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
             lengths: lengths(&patches),
             manual: body.as_mut().map(ManualBody::travel),
-        })
-    }
-
-    /// The existing leg nearest to a number, and an indentation on it.
-    fn place(&self, number: usize, place: Place) -> Option<(usize, f64)> {
-        let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
-        Some(match place {
-            Place::Indentation(indentation) => (number, indentation),
-            Place::Share(done) => {
-                let player = Player { leg: number, done, playing: false }.within(legs);
-                (player.leg, player.indentation(legs))
-            }
         })
     }
 
@@ -264,9 +253,6 @@ pub struct SolverThread {
 
 impl SolverThread {
     /// Starts the thread. `report` receives its reports.
-    ///
-    /// # Errors
-    /// When the system refuses a thread.
     pub fn start(solve: Solve, report: impl Fn(Report) + Send + 'static) -> std::io::Result<Self> {
         let (requests, inbox) = channel();
         let awaited = Arc::new(AtomicU64::new(0));

@@ -164,9 +164,6 @@ pub struct StudyThread {
 
 impl StudyThread {
     /// Starts the thread. `report` receives the findings.
-    ///
-    /// # Errors
-    /// When the system refuses a thread.
     pub fn start(report: impl Fn(Finding) + Send + 'static) -> std::io::Result<Self> {
         let (orders, inbox) = channel();
         let newest = Arc::new(AtomicU64::new(0));

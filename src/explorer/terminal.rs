@@ -24,9 +24,6 @@ pub struct TerminalGuard {
 
 impl TerminalGuard {
     /// Takes the terminal over, with the mouse or without.
-    ///
-    /// # Errors
-    /// When the terminal refuses.
     pub fn take(mouse: bool) -> io::Result<Self> {
         // NO_COLOR is read by the theme; left to crossterm it would drop reverse and bold as well.
         crossterm::style::force_color_output(true);
@@ -51,9 +48,6 @@ impl TerminalGuard {
     }
 
     /// Takes the terminal once more, after another program may have had it.
-    ///
-    /// # Errors
-    /// When the terminal refuses.
     pub fn take_again(&self) -> io::Result<()> {
         // Only a restored terminal can be taken.
         disable_raw_mode()?;
@@ -62,9 +56,6 @@ impl TerminalGuard {
 
     /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it again when the shell
     /// continues the explorer.
-    ///
-    /// # Errors
-    /// When the terminal refuses.
     pub fn suspend(&self) -> io::Result<()> {
         give_back(self.mouse)?;
         stop_until_continued();
@@ -105,9 +96,6 @@ fn stop_until_continued() {}
 ///
 /// The signal of a hang-up may be ignored (`nohup`), and crossterm then reads the end of its input
 /// for ever, at full speed. A thread that waits for nothing but the hang-up costs nothing.
-///
-/// # Errors
-/// When the system refuses a thread.
 #[cfg(unix)]
 pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()> {
     use rustix::event::{PollFd, PollFlags, poll};

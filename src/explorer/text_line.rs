@@ -29,12 +29,10 @@ impl TextLine {
         TextLine { input: Input::new(text), ..TextLine::default() }
     }
 
-    /// A line with this text, all of it selected.
     pub fn selected(text: &str) -> Self {
         TextLine { selected: true, ..TextLine::new(text) }
     }
 
-    /// Returns true if the text is selected.
     pub fn is_selected(&self) -> bool {
         self.selected
     }

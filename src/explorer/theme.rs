@@ -5,16 +5,12 @@ use ratatui::style::{Color, Modifier, Style};
 use ratatui::symbols::Marker as Symbols;
 use serde::{Deserialize, Serialize};
 
-/// Appearance of the explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Appearance {
-    /// Its colours.
     pub theme: Theme,
-    /// Marker of its plots.
     pub marker: Marker,
 }
 
-/// Colours and modifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 pub enum Theme {
     /// Colours that read on dark and on light backgrounds
@@ -29,7 +25,6 @@ pub enum Theme {
     Plain,
 }
 
-/// Marker of plots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 pub enum Marker {
     /// Braille dots, 2 × 4 in a cell
@@ -42,23 +37,15 @@ pub enum Marker {
     Ascii,
 }
 
-/// Meaning of a style.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
-    /// The rigid line.
     Line,
-    /// The elastic surface.
     Surface,
     Contact,
-    /// Forces while loading.
     Approach,
-    /// Forces while unloading.
     Retraction,
-    /// Path of manual loading.
     Manual,
-    /// Loops kept for comparison.
     Ghost,
-    /// The snapshot shown.
     Cursor,
     /// Frames, axes, parts of less weight.
     Quiet,
@@ -125,11 +112,6 @@ impl Theme {
             (Theme::HighContrast, Surface) => Color::LightBlue,
             (Theme::HighContrast, Contact | Error | Cursor | Retraction | Manual) => Color::LightRed,
         }
-    }
-
-    /// The style of letters found by a search, in a text of this style.
-    pub fn found(self, style: Style) -> Style {
-        style.add_modifier(Modifier::BOLD | Modifier::UNDERLINED)
     }
 
     pub fn style(self, meaning: Meaning) -> Style {

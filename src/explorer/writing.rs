@@ -8,7 +8,7 @@ use super::theme::Theme;
 use super::update::stages::with_path;
 use super::view;
 use crate::draw::Palette;
-use crate::export::{self, Format, scene_provenance};
+use crate::export::{self, Format, Report, scene_provenance};
 use crate::io::{WriteError, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
@@ -46,7 +46,12 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
             export::write(out, &app.figure().ok_or_else(missing)?, format, "")
         }
         Content::Pane(format) => {
-            let (command, report) = (app.view.pane.row().report)(app).ok_or_else(missing)?;
+            let curves = || {
+                let figure = app.figure().filter(|figure| app.is_current() && figure.table().is_some())?;
+                Some(("asperity", Box::new(figure) as Box<dyn Report>))
+            };
+            let report = (app.view.pane.row().report)(app).or_else(curves);
+            let (command, report) = report.ok_or_else(missing)?;
             let kept = if command == PATH_COMMAND { with_path(app).and_then(Result::ok) } else { None };
             let document = kept.as_ref().unwrap_or(&app.edit.document);
             let command = command_line(command, document.name(), document.overrides());

@@ -1,7 +1,7 @@
 //! A result in up to four shapes, and the formats in which these are written.
 
-use crate::draw::Figure;
-use crate::io::{Table, write_json_value};
+use crate::draw::{Axis, Chart, Figure, Layer};
+use crate::io::{Kind, Table, write_json_value};
 use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -43,7 +43,27 @@ impl<T: Serialize> Json for T {
     }
 }
 
+/// A figure of one chart is also the table of its curves.
 impl Report for Figure {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(self.table()?))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
+        let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
+        let column = |axis: &Axis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
+        let rows = || {
+            let points = |layer: &Layer| layer.shape.points();
+            layers
+                .iter()
+                .flat_map(move |layer| points(layer).into_iter().map(|at| (layer.name.to_string(), at)))
+        };
+        let table = Table::of(rows).with("curve", Kind::Text(names.max()?), |row| row.0.clone());
+        let table = table.with(column(x), Kind::Real, |row| row.1.0);
+        Some(table.with(column(y), Kind::Real, |row| row.1.1).done())
+    }
+
     fn figure(&self) -> Option<Figure> {
         Some(self.clone())
     }

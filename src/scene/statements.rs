@@ -1,10 +1,11 @@
 //! The numbers that define a scene, in the order of the table of fields.
 
-use super::field::{Field, stage_targets};
+use super::field::Field;
 use super::fields::fields_inside;
 use super::model::Scene;
 use super::quantity::exact_quantity;
 use super::range::Range;
+use super::stages::loading_text;
 use super::tree::Tree;
 use crate::text::grouped;
 
@@ -42,7 +43,7 @@ fn add(scene: &Scene, tree: &Tree, field: &'static Field, found: &mut Vec<Statem
     let value = match field.range {
         Range::Band(..) => written.trim_matches(['(', ')']).replace(", ", " to "),
         Range::Whole(..) if !field.symbol.is_empty() => written.parse().map_or(written, grouped),
-        Range::List { .. } if field.path == "loading" => stage_targets(&scene.loading, exact_quantity),
+        Range::List { .. } if field.path == "loading" => loading_text(&scene.loading, exact_quantity),
         _ => field.quantities(&written, exact_quantity).unwrap_or(written),
     };
     found.push(Statement { field, value });

@@ -68,53 +68,17 @@ fn pressed(keys: &str) -> Driver {
 
 /// Explorers in every mode and pane.
 fn everywhere() -> Vec<Driver> {
-    let keys = [
-        "",
-        "?",
-        "e",
-        "s",
-        "s Enter s Enter",
-        "l q",
-        "z",
-        "Tab z",
-        "Tab Tab z",
-        "Tab Tab Tab z",
-        "F",
-        "E",
-        "o",
-        "/ h u",
-        ": m a p",
-        "I",
-        "Z",
-        "d { ]",
-        "c L",
-        "a v",
-        "D",
-        "N w",
-        "A",
-        "A z",
-        "Q",
-        "Q z",
-        "% 1",
-        "y",
-        "m",
-        "m X z",
-        "i",
-        "*",
-        "& L",
-        "* Tab Right",
-        "* v Right",
-        "i z",
-    ];
-    let mut all: Vec<Driver> = keys.into_iter().map(pressed).collect();
+    let keys = ";?;e;s;s Enter s Enter;l q;z;Tab z;Tab Tab z;Tab Tab Tab z;F;E;o;/ h u;: m a p;d { ];c L;a v;D;N w;A;\
+                A z;Q;Q z;% 1;y;m;m z;i;*;& L;* Tab Right;* v Right;i z";
+    let mut all: Vec<Driver> = keys.split(';').map(pressed).collect();
     all.push(Driver::open(rough()));
     all.push(accuracy::measured(rough()));
-    all.extend(["", "V", "V V", "X", "z"].map(|keys| {
+    all.extend(["", "V", "V V", "z"].map(|keys| {
         let mut driver = map::mapped(rough());
         driver.press(keys);
         driver
     }));
-    all.extend(["", "V V", "X", "W", "V V V X z"].map(|keys| {
+    all.extend(["", "V V", "W", "V V V z"].map(|keys| {
         let (_folder, mut driver) = study::opened();
         driver.press(keys);
         driver

@@ -1,6 +1,5 @@
 //! Colours and markers.
 
-use crate::common::terminal::Terminal;
 use crate::driving::{ESCAPE, explorer, paused, quit};
 
 /// The numbers of all select-graphic-rendition sequences.
@@ -46,49 +45,4 @@ fn without_colours_there_is_emphasis_and_no_colour() {
     for (name, value) in [("NO_COLOR", ""), ("COLUMNS", "1")] {
         assert!(shown(name, value).iter().any(|one| is_colour(one)), "{name}={value}");
     }
-}
-
-/// The explorer on its scene, paused, with an argument or two.
-fn opened(arguments: &[&str], environment: &[(&str, &str)]) -> (Terminal, tempfile::TempDir) {
-    let (mut program, folder) = explorer();
-    for argument in arguments {
-        program = program.argument(argument);
-    }
-    for (name, value) in environment {
-        program = program.env(name, value);
-    }
-    (paused(program), folder)
-}
-
-/// True if any bright colour is used, and true if any colour is.
-fn brightness(terminal: &Terminal) -> (bool, bool) {
-    let all = renditions(terminal.written());
-    let bright = all.iter().any(|one| {
-        one.windows(3).any(|part| part[..2] == [38, 5] && (9..=15).contains(&part[2]))
-            || one.iter().any(|number| (91..=97).contains(number))
-    });
-    (bright, all.iter().any(|one| is_colour(one)))
-}
-
-#[test]
-fn colours_suit_the_background_and_the_wishes_of_the_user() {
-    let light = (false, true);
-    let dark = (true, true);
-    let none = (false, false);
-    let (to_light, to_dark) = (("COLORFGBG", "0;15"), ("COLORFGBG", "15;0"));
-    let without = ("NO_COLOR", "1");
-    let check = |arguments: &[&str], environment: &[(&str, &str)], wanted: (bool, bool)| {
-        let (mut terminal, _folder) = opened(arguments, environment);
-        quit(&mut terminal);
-        assert_eq!(brightness(&terminal), wanted, "{arguments:?} {environment:?}");
-    };
-    check(&[], &[to_dark], dark);
-    check(&[], &[to_light], light);
-    check(&["--theme", "dark"], &[to_light], dark);
-    check(&["--theme", "light"], &[to_dark], light);
-    check(&["--theme", "plain"], &[to_dark], none);
-    check(&["--theme", "high-contrast"], &[], dark);
-    // NO_COLOR is obeyed, unless an argument sets a theme.
-    check(&[], &[to_dark, without], none);
-    check(&["--theme", "dark"], &[without], dark);
 }

@@ -1,13 +1,11 @@
 //! The mouse selects, drags and scrolls, and is released on request.
 
 use crate::common::terminal::Terminal;
-use crate::driving::{count, explorer, paused, quantity, quit, row_with};
+use crate::driving::{count, explorer, paused, quantity, quit};
 use vt100::{MouseProtocolEncoding, MouseProtocolMode};
 
 const LEFT: u8 = 0;
 const DRAGGED: u8 = 32;
-const WHEEL_UP: u8 = 64;
-const WHEEL_DOWN: u8 = 65;
 
 /// Bytes of a terminal for the mouse at a cell, counted from 1.
 fn report(what: u8, column: usize, row: usize) -> String {
@@ -42,20 +40,9 @@ fn the_terminal_is_asked_for_presses_and_drags_but_not_for_every_motion() {
 }
 
 #[test]
-fn presses_drags_and_the_wheel_have_their_effects() {
+fn presses_and_drags_have_their_effects() {
     let (program, _folder) = explorer();
     let mut terminal = paused(program);
-    let (column, row) = place_of(&terminal, "Profile z(x)");
-    let title = row_with(&terminal, "Profile z(x)");
-    terminal.send(&report(WHEEL_UP, column, row + 5));
-    terminal.wait("closer profile", |rows| rows.iter().all(|row| *row != title));
-    terminal.send(&report(WHEEL_DOWN, column, row + 5));
-    terminal.wait_for("▸ Profile");
-    let (column, row) = place_of(&terminal, "Hurst exponent");
-    terminal.send(&(report(LEFT, column, row) + &format!("\x1b[<{LEFT};{column};{row}m")));
-    terminal.wait("row selected", |rows| {
-        rows.iter().any(|row| row.contains('›') && row.contains("Hurst exponent"))
-    });
     // A release, another button and a place outside have no effect.
     let before = terminal.text();
     terminal.send("\x1b[<2;20;10M\x1b[<2;20;10m\x1b[<0;900;900M\x1b[<35;20;10M");

@@ -50,7 +50,7 @@ fn escaped(text: &str) -> String {
 
 #[test]
 fn tables_are_those_of_the_program() {
-    check("docs/keys.md", "keys", &keys::markdown());
+    check("docs/keys.md", "keys", &keys::bindings().markdown());
     let plans = asperity::study::PLANS.iter().map(|plan| {
         let read = Plan::open(plan.name, &Changes::default()).unwrap();
         let cells = read.cells();

@@ -19,14 +19,11 @@ use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Seconds between typed characters.
 const TYPING: f64 = 0.15;
 
-/// A demo played frame by frame.
 pub struct Demo {
     explorer: Runtime,
     cues: VecDeque<Cue>,
-    /// Characters still to be typed.
     typing: VecDeque<char>,
     /// Seconds until the next cue.
     pause: f64,
@@ -88,12 +85,10 @@ impl Demo {
         Some(now)
     }
 
-    /// The explorer.
     pub fn app(&self) -> &App {
         &self.explorer.app
     }
 
-    /// Resizes the window.
     pub fn resize(&mut self, columns: u16, rows: u16) {
         self.explorer.act(Action::Resize(columns, rows));
     }
@@ -103,7 +98,6 @@ impl Demo {
         self.explorer.app.view.demo = Some(note);
     }
 
-    /// Plays for a time.
     fn play(&mut self, seconds: f64) {
         self.seconds += seconds;
         if seconds > 0.0 && self.explorer.app.manual.is_none() {

@@ -1,9 +1,7 @@
 //! Script of the demo.
 
-/// Step of the demo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cue {
-    /// Plays for a time in seconds.
     Wait(f64),
     /// Runs a command of the table of keys, by its name.
     Do(&'static str),
@@ -32,9 +30,9 @@ pub const TOUR: &[Cue] = &[
     Enter("20 µN"),
     Do("restart"),
     Wait(LOOP),
-    Do("toggle-loss"),
+    Do("toggle-dissipated-energy"),
     Wait(2.0),
-    Do("toggle-loss"),
+    Do("toggle-dissipated-energy"),
     Do("clear-ghosts"),
     Do("previous-stage"),
     Wait(0.5),

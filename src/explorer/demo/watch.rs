@@ -13,9 +13,6 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 /// Plays a demo at a number of frames per second until it is over or a key is pressed.
-///
-/// # Errors
-/// When the terminal refuses.
 pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     demo.set_note("any key ends the demo");
     let _guard = TerminalGuard::take(false)?;

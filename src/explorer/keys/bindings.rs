@@ -8,7 +8,6 @@ use std::fmt;
 /// Context of keys: the prompt chooses it or, without one, the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
-    /// Scene and panes.
     Explore,
     /// The same, with the map selected.
     Map,
@@ -20,10 +19,8 @@ pub enum Context {
     Line,
     /// A line being typed, with a list.
     List,
-    /// The question whether to overwrite a file.
     Overwrite,
     Help,
-    /// The question whether to leave with unsaved changes.
     Leave,
 }
 
@@ -31,19 +28,15 @@ pub enum Context {
 pub struct Row {
     /// Names of the keys, apart by blanks: `Shift+← H`, `1–9`.
     pub keys: &'static str,
-    /// The contexts in which they are valid.
     pub contexts: &'static [Context],
     /// Name in the configuration and in scripts.
     pub name: &'static str,
     /// One word for the footer; empty for none.
     pub label: &'static str,
-    /// A line for the help.
     pub help: &'static str,
-    /// The section of the help.
     pub section: &'static str,
     /// Place in the footer, the smallest first.
     pub rank: u8,
-    /// True if the list of commands has it.
     pub is_listed: bool,
     /// True if a successive command of the kind continues the same edit.
     pub merges: bool,
@@ -52,22 +45,15 @@ pub struct Row {
 }
 
 /// A row of the table, with the character of the key where it has one.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Command {
     pub row: &'static Row,
-    /// Character of the key.
     pub character: Option<char>,
 }
 
 impl fmt::Debug for Row {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(self.name)
-    }
-}
-
-impl fmt::Debug for Command {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}{}", self.row.name, self.character.map_or_else(String::new, |one| format!(" {one}")))
     }
 }
 
@@ -97,7 +83,6 @@ impl Row {
     }
 }
 
-/// A row of the table with its keys in use.
 #[derive(Clone, Debug)]
 pub struct Binding {
     pub row: &'static Row,
@@ -105,7 +90,6 @@ pub struct Binding {
 }
 
 impl Binding {
-    /// Names of the keys, apart by blanks.
     pub fn names(&self) -> String {
         self.keys.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(" ")
     }
@@ -132,7 +116,6 @@ impl Bindings {
         self.0.iter()
     }
 
-    /// The rows that are valid in a context.
     pub fn valid_in(&self, context: Context) -> impl Iterator<Item = &Binding> {
         self.rows().filter(move |binding| binding.row.contexts.contains(&context))
     }
@@ -143,7 +126,6 @@ impl Bindings {
         Some(Command { row: found.row, character })
     }
 
-    /// The rows of the list of commands.
     pub fn listed(&self) -> Vec<Binding> {
         self.rows().filter(|binding| binding.row.is_listed()).cloned().collect()
     }
@@ -156,26 +138,22 @@ impl Bindings {
         Some(Command { row: found.row, character })
     }
 
-    /// Keys and labels of the footer in a context, the most important first; adjacent rows with the same label are one
-    /// item.
+    /// Keys and rows of the footer in a context, the most important first; adjacent rows with the same label are one item.
     pub(super) fn footer(
         &self,
         context: Context,
         is_manual: bool,
         is_hidden: impl Fn(&'static Row) -> bool,
-    ) -> Vec<(String, &'static str)> {
+    ) -> Vec<(String, &'static Row)> {
         let is_shown = |binding: &&Binding| !binding.row.label.is_empty() && !is_hidden(binding.row);
         let mut rows: Vec<&Binding> = self.valid_in(context).filter(is_shown).collect();
         rows.sort_by_key(|binding| binding.row.place(is_manual));
         let items = rows.chunk_by(|one, next| one.row.label == next.row.label);
         let first = |binding: &&Binding| binding.keys.first().map_or("", |key| &key.name).to_owned();
-        items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row.label)).collect()
+        items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row)).collect()
     }
 
     /// Replaces the keys of an action. Ctrl+C always quits.
-    ///
-    /// # Errors
-    /// `action` or `keys`, which does not exist, and the reason.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
         let parsed = keys.iter().map(|name| {
             let allowed = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
@@ -199,6 +177,20 @@ impl Bindings {
         Ok(())
     }
 
+    /// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
+    pub fn markdown(&self) -> String {
+        let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
+        let mut section = "";
+        for Binding { row, .. } in self.rows() {
+            let shown = if row.section == section { "" } else { row.section };
+            section = row.section;
+            let keys: Vec<String> = row.keys.split(' ').map(|name| format!("`{name}`")).collect();
+            let action = if row.is_rebindable() { format!("`{}`", row.name) } else { String::new() };
+            text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
+        }
+        text
+    }
+
     /// A key with two actions in one context, and their names.
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         ANY.iter().find_map(|context| {
@@ -214,22 +206,6 @@ impl Bindings {
             None
         })
     }
-}
-
-/// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
-pub(super) fn markdown(rows: &Bindings) -> String {
-    let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
-    let mut section = "";
-    for Binding { row, .. } in rows.rows() {
-        let shown = if row.section == section { "" } else { row.section };
-        section = row.section;
-        // A bar would end the cell.
-        let keys: Vec<String> =
-            row.keys.split(' ').map(|name| format!("`{}`", name.replace('|', "\\|"))).collect();
-        let action = if row.is_rebindable() { format!("`{}`", row.name) } else { String::new() };
-        text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
-    }
-    text
 }
 
 #[cfg(test)]
@@ -264,14 +240,14 @@ mod tests {
     #[test]
     fn a_command_is_found_by_its_name_where_it_is_valid() {
         let bindings = bindings();
-        let name = |command: Option<Command>| command.map(|command| format!("{command:?}"));
-        assert_eq!(name(bindings.named("pull-coarse", Context::Explore)).as_deref(), Some("pull-coarse"));
+        let name = |command: Option<Command>| command.map(|command| (command.row.name, command.character));
+        assert_eq!(name(bindings.named("pull-coarse", Context::Explore)), Some(("pull-coarse", None)));
         assert_eq!(name(bindings.named("accept", Context::Explore)), None);
         assert_eq!(name(bindings.named("no such command", Context::Explore)), None);
         let three = KeyEvent::new(KeyCode::Char('3'), KeyModifiers::NONE);
-        assert_eq!(name(bindings.named("preset 3", Context::Explore)).as_deref(), Some("preset 3"));
-        assert_eq!(name(bindings.command(&three, Context::Explore)).as_deref(), Some("preset 3"));
-        assert_eq!(name(bindings.command(&three, Context::Parameters)).as_deref(), Some("start-value 3"));
+        assert_eq!(name(bindings.named("preset 3", Context::Explore)), Some(("preset", Some('3'))));
+        assert_eq!(name(bindings.command(&three, Context::Explore)), Some(("preset", Some('3'))));
+        assert_eq!(name(bindings.command(&three, Context::Parameters)), Some(("start-value", Some('3'))));
     }
 
     #[test]

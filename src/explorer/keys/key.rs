@@ -58,7 +58,6 @@ impl Key {
     }
 }
 
-/// Keys with names of their own.
 const NAMES: [(&str, KeyCode); 19] = [
     ("space", KeyCode::Char(' ')),
     ("↑", KeyCode::Up),

@@ -25,14 +25,11 @@ pub struct Entry {
     is_shown: fn(&App) -> bool,
 }
 
-/// Function of a row.
 #[derive(Clone, Copy)]
 enum Run {
-    /// Changes the state.
     Do(fn(&mut App)),
     /// The same, with the character of the key.
     Character(fn(&mut App, char)),
-    /// Edits the line being typed.
     Edit(InputRequest),
 }
 
@@ -47,18 +44,22 @@ pub(super) fn run(command: Command, app: &mut App) {
     }
 }
 
-/// All keys as the table has them.
 pub fn bindings() -> Bindings {
     Bindings::of(TABLE.iter().map(|entry| &entry.row))
 }
 
-/// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
-pub fn markdown() -> String {
-    bindings::markdown(&bindings())
+/// The row whose item of the footer is in a column of the screen.
+pub fn footer_row(app: &App, column: u16) -> Option<&'static Row> {
+    let mut next = 0;
+    footer(app).into_iter().find_map(|(keys, row)| {
+        let end = next + keys.chars().count() + 1 + row.label.chars().count();
+        let item = std::mem::replace(&mut next, end + 2)..end;
+        (item.contains(&column.into()) && end <= app.view.size.0.into()).then_some(row)
+    })
 }
 
-/// Keys and labels of the footer, the most important first; adjacent rows with the same label are one item.
-pub fn footer(app: &App) -> Vec<(String, &'static str)> {
+/// Keys and rows of the footer, the most important first; adjacent rows with the same label are one item.
+pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     let is_hidden =
         |row: &Row| TABLE.iter().any(|entry| std::ptr::eq(&entry.row, row) && !(entry.is_shown)(app));
     app.config.bindings.footer(app.keys(), app.manual.is_some(), is_hidden)
@@ -66,6 +67,8 @@ pub fn footer(app: &App) -> Vec<(String, &'static str)> {
 
 /// Without map and crosshair, where the arrows act on these.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
+/// Without the map.
+const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
 /// In the list of parameters these characters begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
 const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
@@ -103,7 +106,6 @@ const fn row(
     Entry { row, run, is_shown: always }
 }
 
-/// Further columns of a row.
 impl Entry {
     const fn rank(mut self, rank: u8) -> Entry {
         self.row.rank = rank;
@@ -162,8 +164,8 @@ static TABLE: &[Entry] = &[
     row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
     row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the path of manual loading as the loading of the scene", MANUAL).shown_if(is_manual),
 
-    row("↑ k", LIST, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
-    row("↓ j", LIST, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
+    row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
+    row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
     row("Home g", LIST, "first-parameter", Do(|app| edit::move_selection(app, i32::MIN)), "", "select the first parameter", PARAMETERS),
     row("End G", LIST, "last-parameter", Do(|app| edit::move_selection(app, i32::MAX)), "", "select the last parameter", PARAMETERS),
     row("← h", LIST, "decrease", Do(|app| stages::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
@@ -173,7 +175,6 @@ static TABLE: &[Entry] = &[
     row("Enter e", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
     row("0–9 - .", VALUES, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number, while the pane of parameters is selected; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
-    row("Z", LIST, "toggle-fold", Do(edit::toggle_fold), "", "fold the group of the selected parameter, or unfold it", PARAMETERS),
     row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
     row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS),
     row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS),
@@ -189,13 +190,12 @@ static TABLE: &[Entry] = &[
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
     row("&", EXPLORE, "toggle-side-by-side", Do(compare::toggle_side_by_side), "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
-    row("|", EXPLORE, "pin-other-use", Do(compare::pin_other_use), "", "keep this loop and take the other use of a measured profile: itself, or its equivalent line", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
 
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next()), "", "plot force, contact length or number of contact patches", LOOK),
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
-    row("a", EXPLORE, "toggle-loss", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
-    row("n", EXPLORE, "next-patch", Do(|app| look::go_to_fragment(app, Focus::After)), "fragment", "show the next contact patch", LOOK),
+    row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
+    row("n", EXPLORE, "next-patch", Do(|app| look::go_to_fragment(app, Focus::After)), "patch", "show the next contact patch", LOOK),
     row("p", EXPLORE, "previous-patch", Do(|app| look::go_to_fragment(app, Focus::Before)), "", "show the previous contact patch", LOOK),
     row("b", EXPLORE, "longest-patch", Do(|app| app.view.look.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
     row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.look.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
@@ -216,19 +216,16 @@ static TABLE: &[Entry] = &[
     row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Effect::Redraw)), "", "draw the whole screen again", LOOK),
     row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
     row("Ctrl+s", EXPLORE, "remember-appearance", Do(look::remember_appearance), "", "keep the present colours and markers in the configuration file", LOOK),
-    row("I", EXPLORE, "toggle-work", Do(|app| app.view.shows_work ^= true), "", "show springs and stage times in the status line, or contact, stiffness, pressure and energy", LOOK),
     row("T", EXPLORE, "next-theme", Do(look::next_theme), "", "change the colours", LOOK),
     row("M", EXPLORE, "next-marker", Do(look::next_marker), "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
 
-    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair: d, F, l, n on the force curve, x, z on profile and close-up", CROSS),
-    row("← h", CROSSHAIR, "crosshair-left", Do(|app| crosshair::move_by(app, -1, false)), "", "move the crosshair left: along the loading stage, or along the profile", CROSS),
+    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair, which reads the curves of the selected pane", CROSS),
+    row("← h", CROSSHAIR, "crosshair-left", Do(|app| crosshair::move_by(app, -1, false)), "", "move the crosshair left", CROSS),
     row("→ l", CROSSHAIR, "crosshair-right", Do(|app| crosshair::move_by(app, 1, false)), "move", "move the crosshair right", CROSS),
     row("Shift+← H", CROSSHAIR, "crosshair-left-coarse", Do(|app| crosshair::move_by(app, -1, true)), "", "move the crosshair left by a large step", CROSS),
     row("Shift+→ L", CROSSHAIR, "crosshair-right-coarse", Do(|app| crosshair::move_by(app, 1, true)), "", "move the crosshair right by a large step", CROSS),
     row("Home g", CROSSHAIR, "crosshair-start", Do(|app| crosshair::go_to_end(app, false)), "", "move the crosshair to the left end", CROSS),
     row("End G", CROSSHAIR, "crosshair-end", Do(|app| crosshair::go_to_end(app, true)), "", "move the crosshair to the right end", CROSS),
-    row("↑ k", CROSSHAIR, "crosshair-previous-stage", Do(|app| crosshair::go_to_stage(app, -1)), "", "move to the previous loading stage at the same indentation", CROSS),
-    row("↓ j", CROSSHAIR, "crosshair-next-stage", Do(|app| crosshair::go_to_stage(app, 1)), "stage", "move to the next loading stage at the same indentation", CROSS),
     row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
     row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ or e_el/γ, in place of profile and close-up", MAP).rank(2),

@@ -37,12 +37,9 @@ pub static ROW: PaneRow = PaneRow {
 /// Time for a whole measurement: that of `asperity cost`.
 const BUDGET: Duration = Duration::from_secs(10);
 
-/// The table of costs so far.
 #[derive(Clone, Debug, Default)]
 pub struct Costs {
-    /// The rows so far.
     pub table: Option<CostTable>,
-    /// Setting tried at present.
     pub trying: Option<String>,
 }
 
@@ -86,7 +83,6 @@ fn panel(app: &App, size: Size) -> Panel {
     Panel { head, foot: texts(app, Some(table), size), ..Panel::of_chart(title, chart) }
 }
 
-/// Reason why there is no plot.
 fn nothing_yet(app: &App) -> String {
     if app.is_computing() {
         return "the scene is computed first…".to_owned();
@@ -124,7 +120,6 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     chart
 }
 
-/// The knob of a scene and its setting.
 fn setting_of(numerics: &Numerics) -> (Knob, f64) {
     match (numerics.solver, numerics.edges) {
         (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -215,7 +210,6 @@ fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>>
     lines
 }
 
-/// The setting of the scene, and its error.
 fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
     let theme = app.view.appearance.theme;
     let numerics = app.edit.document.scene().numerics;

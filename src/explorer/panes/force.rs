@@ -1,5 +1,6 @@
 //! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
+use super::row::outcome;
 use super::{PaneRow, Place};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction};
@@ -11,7 +12,7 @@ use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::text::{Part, filled};
+use crate::explorer::view::text::filled;
 use crate::export::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
 use crate::scene::format_rounded;
 use ratatui::layout::Size;
@@ -20,6 +21,7 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
+    report: outcome,
     place: Place::Own,
     keys: Some(Context::Crosshair),
     help: &[(
@@ -42,10 +44,7 @@ fn panel(app: &App, size: Size) -> Panel {
     };
     let (theme, width, units) = (app.view.appearance.theme, usize::from(size.width), units(app));
     let legend = names(&chart, app.view.appearance);
-    let edge = reading(app).unwrap_or_else(|| match size.height {
-        WITH_HEAD.. => Vec::new(),
-        _ => legend.iter().take(1).cloned().collect(),
-    });
+    let edge = legend.iter().take(usize::from(size.height < WITH_HEAD)).cloned().collect();
     let mut head: Vec<Line<'static>> = spaced(legend, width).into_iter().collect();
     let mut texts = Vec::new();
     if app.is_current() {
@@ -70,7 +69,6 @@ fn panel(app: &App, size: Size) -> Panel {
     panel
 }
 
-/// Title of the pane.
 fn title(app: &App) -> String {
     let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation => "Force",
@@ -105,7 +103,6 @@ fn title(app: &App) -> String {
     format!("{name}{loss}{event}")
 }
 
-/// Units of the axes.
 fn units(app: &App) -> LoopUnits {
     let quantities = app.view.curve.quantities;
     match app.solved.as_ref().filter(|_| app.view.curve.normalised) {
@@ -117,38 +114,6 @@ fn units(app: &App) -> LoopUnits {
 /// Indentation at a number on the horizontal axis, m; `None` where that axis shows the force.
 pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
     app.indentations().and(units(app).indentation(x))
-}
-
-/// Loading stage and indentation, m, of the point of the curves nearest to a place on the axes.
-pub fn nearest(app: &App, (x, y): (f64, f64)) -> Option<(usize, f64)> {
-    let (chart, units) = (shown_chart(app)?, units(app));
-    let distance = |point: &CurvePoint| {
-        let at = units.place(point);
-        let across = chart.x.share(at.0) - chart.x.share(x);
-        across.hypot(chart.y.share(at.1) - chart.y.share(y))
-    };
-    let points =
-        app.legs().iter().enumerate().flat_map(|(leg, record)| record.curve.iter().map(move |at| (leg, at)));
-    let nearest = points.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
-    Some((nearest.0, nearest.1.indentation))
-}
-
-/// Readings of the crosshair.
-fn reading(app: &App) -> Option<Vec<Part>> {
-    app.view.crosshair?;
-    let point = app.present()?.point;
-    let [d, length] = [point.indentation, point.contact_length].map(|value| format_rounded(value, 3, "m"));
-    let mut parts = vec![
-        format!("d {d}"),
-        format!("F {}", format_rounded(app.without_rounding(point.force), 3, "N")),
-        format!("l {length}"),
-        format!("n {}", point.fragments),
-    ];
-    if app.manual.is_none() {
-        parts.push(format!("stage {} of {}", app.play.leg + 1, app.legs().len()));
-    }
-    let style = app.view.appearance.theme.style(Meaning::Cursor);
-    Some(parts.into_iter().map(|text| vec![Text::styled(text, style)]).collect())
 }
 
 /// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
@@ -207,10 +172,6 @@ fn chart(app: &App) -> Option<Chart> {
     if let Some(snapshot) = app.present() {
         let (x, y) = units.place(&snapshot.point);
         let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
-        if app.view.crosshair.is_some() {
-            let lines = [Shape::Upright(at.0), Shape::Level(at.1)];
-            chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
-        }
         let name = if app.manual.is_some() { "manual" } else { "now" };
         chart.layers.push(Layer::new(name.into(), Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
     }

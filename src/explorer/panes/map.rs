@@ -6,12 +6,13 @@ use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::map::Live;
 use crate::explorer::panel::{Panel, in_theme, names, shades};
-use crate::explorer::shown_map::study;
+use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
 use crate::scene::format_rounded;
-use crate::study::{Axis, Cell, Grid, Place, Quantity, Statistics, live_plan};
+use crate::study::{Axis, Cell, Grid, LiveMap, Place, Quantity, Statistics, live_plan};
 use crate::text::grouped;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -42,6 +43,21 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
+/// Most springs for the map of a demo, of hundreds of scenes.
+const MOST_SPRINGS: u64 = 1 << 12;
+
+/// Computes the missing cells of the live map; `None` for a scene without a map.
+fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
+    let plan = app.map.plan(&computed.scene)?;
+    let (key, is_long) = (format!("{plan:?}"), plan.scene.numerics.points > MOST_SPRINGS);
+    let begun = app.studies.value::<Live>().map(|live| live.map.clone());
+    Some(Study::new(key, is_long, move |_, stop, report| {
+        let mut map = begun.map_or_else(|| LiveMap::new(plan), Ok).map_err(|error| error.to_string())?;
+        map.compute(stop, &mut |map| report(Live::of(map)));
+        Ok(Live::of(&map))
+    }))
+}
+
 fn cells(app: &App) -> Exported<'_> {
     Some(("asperity", Box::new(app.grid()?.clone())))
 }
@@ -69,9 +85,9 @@ fn panel(app: &App, size: Size) -> Panel {
 /// Map of the regimes or of a quantity over two axes; `None` for a grid with one axis.
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
-    if let (true, Some(map)) = (mapped.is_regime(), chart.map_mut()) {
-        // The shades show the regimes.
-        map.contour = None;
+    if let Some(map) = chart.map_mut() {
+        // The shades show the regimes; in a map of another quantity letters would hide the boundary.
+        map.contour = map.contour.take().filter(|_| !mapped.is_regime());
         map.class_names.iter_mut().for_each(|class| class.letter = None);
     }
     Some(chart)
@@ -132,7 +148,6 @@ fn profiles(count: u64) -> String {
     if count == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(count)) }
 }
 
-/// Returns the reason why the map is missing.
 fn nothing_yet(app: &App) -> String {
     if let Err(why) = live_plan(app.edit.document.scene(), app.map.parameter) {
         return why.to_owned();
@@ -175,8 +190,8 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
             parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
         }
     } else {
-        // The first name is that of the axis.
-        parts.extend(names(chart, look).into_iter().skip(1));
+        // The last name is that of the boundary.
+        parts.extend(names(chart, look).pop().filter(|_| map.contour.is_some()));
     }
     let Some(study) = app.map.shown_study() else { return filled(parts, "  ", width) };
     let slices = study.study_map.slices();
@@ -249,7 +264,6 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
     lines
 }
 
-/// Protocol of a regime in words.
 fn protocol(regime: Quantity) -> &'static str {
     if regime == Quantity::RegimeAfterZeroForce { "after zero net force" } else { "from first touch" }
 }

@@ -12,20 +12,18 @@ mod preloads;
 mod profile;
 mod reversals;
 mod row;
-mod scene_spectra;
 mod section;
 mod sensitivity;
 mod spectrum;
 
+pub use crate::export::SceneSpectra;
 pub use accuracy::Costs;
-pub use force::{indentation_at, nearest};
-pub use parameters::parameter_in;
+pub use force::indentation_at;
 pub use preload_curve::{PROFILES, PreloadCurve};
 pub use row::{Exported, PATH_COMMAND, PaneRow};
-pub use scene_spectra::SceneSpectra;
-pub use section::spring_at;
 
 use super::app::App;
+use super::keys::Context;
 use super::layout::{Layout, inside};
 pub use super::pane::{Pane, Place};
 use super::panel::{self, Panel, Under};
@@ -57,8 +55,10 @@ impl Pane {
     /// Content of the pane for an area of this size within the frame, with the crosshair.
     pub fn panel(self, app: &App, size: Size) -> Panel {
         let mut panel = (self.row().panel)(app, size);
-        // The crosshairs of the other panes are at the shown state and at a spring.
-        if let (Some(position), Place::Large) = (app.view.crosshair, self.row().place) {
+        // The crosshair of profile and close-up is at a spring.
+        let is_chart =
+            self == app.view.pane && self.row().keys == Some(Context::Crosshair) && app.section().is_none();
+        if let Some(position) = app.view.crosshair.filter(|_| is_chart) {
             panel.read_at(position, app.view.appearance);
         }
         panel

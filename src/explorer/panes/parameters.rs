@@ -1,27 +1,27 @@
 //! The list of parameters and the meaning of the selected one.
 
+use super::row::outcome;
 use super::{PaneRow, Place};
 use crate::explorer::app::{App, Message};
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel};
-use crate::explorer::parameters::{Parameter, Setting, spelled};
+use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::search::letters_found;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::text::{Part, filled, fitted, found, wrapped_within};
-use crate::scene::format_quantity;
+use crate::explorer::view::text::{filled, fitted, wrapped_within};
+use crate::scene::{Effect, format_quantity};
 use ratatui::layout::Size;
-use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
 pub static ROW: PaneRow = PaneRow {
     place: Place::Own,
     panel,
+    report: outcome,
     keys: Some(Context::Parameters),
     help: &[(
         "Parameters",
-        "fields of the scene by use, in groups; ● marks an effect that is on, ▸ a folded group, = a derived value",
+        "fields of the scene by use, in groups; ● marks an effect that is on, ○ one that is off, = a derived value",
     )],
     ..PaneRow::EMPTY
 };
@@ -57,14 +57,7 @@ fn shown(app: &App) -> (Vec<usize>, usize) {
     if let Some(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) = &app.prompt {
         return (found.clone(), *selected);
     }
-    let rows = app.edit.listed();
-    let selected = rows.iter().position(|index| *index == app.edit.selected).unwrap_or(0);
-    (rows, selected)
-}
-
-/// The parameter in a row of the list.
-pub fn parameter_in(app: &App, row: usize) -> Option<usize> {
-    shown(app).0.get(row).copied()
+    ((0..app.edit.parameters.len()).collect(), app.edit.selected)
 }
 
 fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line<'static> {
@@ -89,52 +82,21 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
     let room = width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
     let name = name_within(parameter, room);
     let gap = width.saturating_sub(columns(&lead) + columns(&name) + columns(&value));
-    let rest = format!("{}{value}", " ".repeat(gap));
     let style = match (refused, selected) {
         (true, _) => theme.style(Meaning::Error),
         (false, true) => theme.style(Meaning::Selected),
         (false, false) => theme.style(Meaning::Text),
     };
-    let mut line = Line::styled(lead, style);
-    line.extend(marked_name(app, parameter, &name, style));
-    line.push_span(Span::styled(rest, style));
-    line
+    Line::styled(format!("{lead}{name}{}{value}", " ".repeat(gap)), style)
 }
 
-/// Name and symbol as far as shown, with the letters found by a search marked.
-fn marked_name(app: &App, parameter: &Parameter, shown: &str, style: Style) -> Part {
-    let query = match &app.prompt {
-        Some(Prompt { purpose: Purpose::Parameter { .. }, line, .. }) => line.text(),
-        _ => "",
-    };
-    let (theme, symbol) = (app.view.appearance.theme, parameter.field.symbol);
-    let (name, symbol) = shown.strip_suffix(symbol).map_or((shown, ""), |name| (name, symbol));
-    let has = |text: &str| !letters_found(text, query).is_empty();
-    // A Greek letter is found by its name as a whole.
-    let symbol = match has(&spelled(symbol)) && !has(symbol) {
-        true => vec![Span::styled(symbol.to_owned(), theme.found(style))],
-        false => found(symbol, query, style, theme),
-    };
-    found(name, query, style, theme).into_iter().chain(symbol).collect()
-}
-
-/// Marks before a name: first row of a group folded or not, effect on or off; other rows are indented.
-fn lead(app: &App, parameter: &Parameter) -> &'static str {
-    let is_on = parameter.effect.map(|effect| effect.is_on(app.edit.document.scene()));
-    match parameter.setting {
-        Setting::Switch(_) if is_on == Some(true) => return " ●",
-        Setting::Switch(_) => return " ○",
-        _ if !parameter.is_head() => return "  ",
-        _ => {}
-    }
-    match (app.edit.folded.contains(parameter.group), is_on) {
-        (false, None) => "▾",
-        (true, None) => "▸",
-        (false, Some(true)) => "▾●",
-        (true, Some(true)) => "▸●",
-        (false, Some(false)) => "▾○",
-        (true, Some(false)) => "▸○",
-    }
+/// Marks before a name: the first row of a group, an effect that is on or off; other rows are indented.
+fn lead(app: &App, parameter: &Parameter) -> String {
+    let (is_head, is_switch) = (parameter.is_head(), matches!(parameter.setting, Setting::Switch(_)));
+    let is_on = |effect: Effect| effect.is_on(app.edit.document.scene());
+    let effect = parameter.effect.filter(|_| is_head || is_switch);
+    let mark = effect.map_or(" ", |effect| if is_on(effect) { "●" } else { "○" });
+    format!("{}{mark}", if is_head { "─" } else { " " })
 }
 
 /// The row of a value being typed: its name, symbol and SI unit, as far as there is room, and the typed text.
@@ -146,13 +108,7 @@ fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: 
     };
     let named = if symbol.is_empty() { name } else { format!("{name} {symbol}") };
     let mark = lead.chars().next().unwrap_or(' ');
-    let labels = [
-        format!("{lead}{named}{unit}: "),
-        format!("{lead}{named}: "),
-        format!("{mark} {symbol}{unit}: "),
-        format!("{mark} {symbol}: "),
-        format!("{mark} "),
-    ];
+    let labels = [format!("{lead}{named}{unit}: "), format!("{mark} {symbol}{unit}: "), format!("{mark} ")];
     let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(line.text()) + 1) <= width;
     let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
     let room = width.saturating_sub(label.width());
@@ -240,11 +196,11 @@ fn explanation(app: &App, index: usize) -> Line<'static> {
     let Some(parameter) = app.edit.parameters.get(index) else { return Line::default() };
     let text = match parameter.setting {
         Setting::Switch(effect) => format!("{}: observed or not; t switches it", effect.name()),
-        Setting::Heading => format!("{}; Enter folds the group", parameter.field.meaning),
         _ if parameter.path == "loading" => format!(
             "{}: 10 µN, 3 loops 0 N to 10 µN, separation. ← → choose a protocol, Shift the number of its loops or reversals",
             parameter.field.meaning
         ),
+        Setting::Heading => parameter.field.meaning.to_owned(),
         _ => format!("{}. Allowed: {}", parameter.field.meaning, parameter.field.allowed()),
     };
     Line::styled(text, app.view.appearance.theme.style(Meaning::Quiet))

@@ -10,7 +10,6 @@ use crate::study::{Axis, Results};
 /// Number of preloads on the profile of the scene, and step between those on random profiles.
 const FINE: usize = 257;
 const EVERY: usize = 8;
-/// Random profiles of the mean.
 pub const PROFILES: usize = 16;
 /// Largest preload in preloads of the scene.
 const REACH: f64 = 2.0;
@@ -18,7 +17,6 @@ const REACH: f64 = 2.0;
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    /// The profile of the scene.
     pub own: Results,
     /// Random profiles at some of the preloads, that of the scene the first; `None` for a scene with one profile.
     pub random: Option<Results>,
@@ -26,9 +24,6 @@ pub struct PreloadCurve {
 
 impl PreloadCurve {
     /// The curve of a computed scene, still empty.
-    ///
-    /// # Errors
-    /// The reason why the scene has no such curve.
     pub fn new(computed: &SolvedScene) -> Result<Self, &'static str> {
         if computed.scene.numerics.solver != Solver::Exact {
             return Err("many preloads at once need the exact solver");
@@ -51,20 +46,15 @@ impl PreloadCurve {
         Ok(PreloadCurve { own: begin(1, &fine)?, random })
     }
 
-    /// Returns true once all profiles are computed.
     pub fn is_whole(&self) -> bool {
         self.own.is_whole(0) && self.random.as_ref().is_none_or(|random| random.is_whole(0))
     }
 
-    /// Number of computed random profiles.
     pub fn profiles(&self) -> usize {
         self.random.as_ref().map_or(0, |random| random.records_of(0).count())
     }
 
     /// Computes the missing part, the profile of the scene first. `report` receives the curve after each addition.
-    ///
-    /// # Errors
-    /// When a profile or its contact fails, or `stop` interrupts.
     pub fn compute(
         &mut self,
         simulation: &mut Simulation,

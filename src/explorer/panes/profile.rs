@@ -66,7 +66,6 @@ pub fn of_scene(
     panel
 }
 
-/// Points of the normal distribution.
 const POINTS: usize = 65;
 
 /// Density of heights in the bins of a histogram, and the normal distribution of the same mean and rms height.

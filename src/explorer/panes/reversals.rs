@@ -15,10 +15,8 @@ use ratatui::layout::Size;
 use ratatui::text::Line;
 use std::sync::Arc;
 
-/// Turning points of a map.
 const TURNS: usize = 64;
 
-/// Row of the pane with the Everett function.
 pub static EVERETT: PaneRow = PaneRow {
     panel: |app, size| panel(app, size, "Everett function E", everett_chart),
     report,

@@ -14,7 +14,6 @@ use std::sync::Arc;
 /// Command and result of an exported pane.
 pub type Exported<'a> = Option<(&'static str, Box<dyn Report + 'a>)>;
 
-/// Properties of one pane.
 pub struct PaneRow {
     /// Place in a window with room for all.
     pub place: Place,
@@ -22,7 +21,8 @@ pub struct PaneRow {
     pub panel: fn(&App, Size) -> Panel,
     /// Content as a figure for a file, where this is more than the chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
-    /// The command and the report that a table or a JSON file states; `None` while the result is missing.
+    /// The command and the report that a table or a JSON file states, where this is more than the curves of the figure;
+    /// `None` while the result is missing.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
     /// Keys of the selected pane; those of the crosshair, while this is shown.
     pub keys: Option<Context>,
@@ -38,7 +38,7 @@ impl PaneRow {
         place: Place::Large,
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
-        report: outcome,
+        report: |_| None,
         keys: None,
         studies: |_, _| Vec::new(),
         help: &[],
@@ -49,7 +49,7 @@ impl PaneRow {
 pub const PATH_COMMAND: &str = "asperity";
 
 /// The path of manual loading, else the outcome of the scene with its force curve.
-fn outcome(app: &App) -> Exported<'_> {
+pub fn outcome(app: &App) -> Exported<'_> {
     if let Some(ManualState { loading, path, stages, .. }) = &app.manual {
         return Some((PATH_COMMAND, Box::new(PathReport { loading, path, stages })));
     }

@@ -1,6 +1,6 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile, close-up and the scene beside.
 
-use crate::draw::{Figure, Ink, Layer, Shape, Span, value_label};
+use crate::draw::{Figure, Ink, Layer, Shape, Span, Stroke, value_label};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::{ContactSnapshot, Section};
@@ -19,6 +19,10 @@ pub fn panel(
     look: Appearance,
 ) -> Panel {
     let mut chart = section.chart(snapshot.line, z).with_symbols();
+    // Without colours the stroke separates the surface from the profile.
+    if let Some(surface) = chart.layers.first_mut() {
+        surface.shape = Shape::line(surface.shape.points(), Stroke::Dotted);
+    }
     let mut edge = names(&chart, look);
     // A row of signs shows the contact without colours.
     if let Some(sample) = edge.last_mut().and_then(|contact| contact.first_mut()) {
@@ -58,12 +62,6 @@ pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
 /// Position of the middle of a spring, m.
 pub fn position(line: LineFacts, spring: usize) -> f64 {
     (line.first + spring) as f64 * line.spacing + 0.5 * line.spacing
-}
-
-/// Spring at a position, within a section.
-pub fn spring_at(line: LineFacts, section: &Section, position: f64) -> usize {
-    let spring = ((position / line.spacing) as usize).saturating_sub(line.first);
-    spring.clamp(section.first, section.first + section.springs.saturating_sub(1))
 }
 
 /// Readings of the crosshair: position, height, and the gap or the stretch of the spring.

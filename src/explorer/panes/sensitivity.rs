@@ -15,7 +15,6 @@ use std::sync::Arc;
 /// Rows of a chart beside its bars: horizontal axis, its numbers and label, legend.
 const BESIDE: u16 = 4;
 
-/// Row of the pane.
 pub static ROW: PaneRow = PaneRow {
     panel,
     report,

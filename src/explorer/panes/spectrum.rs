@@ -1,6 +1,6 @@
 //! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
 
-use super::{PaneRow, SceneSpectra};
+use super::PaneRow;
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
@@ -8,7 +8,7 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{filled, wrapped};
-use crate::export::measured_adhesion_text;
+use crate::export::{SceneSpectra, measured_adhesion_text};
 use crate::scene::{Roughness, Scene, Solver, format_quantity};
 use crate::simulation::RunError;
 use crate::spectrum::Moment;
@@ -105,7 +105,6 @@ fn adhesion(app: &App) -> Option<String> {
     Some(format!("F_a of {force}{goes_on}"))
 }
 
-/// Random profiles of a measured surface.
 pub const PROFILES: usize = 16;
 
 /// Returns true if the profile of a scene is an equivalent line that adheres.

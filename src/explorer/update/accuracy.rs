@@ -2,14 +2,13 @@
 //! of a typed value.
 
 use super::{Effect, edit};
-use crate::accuracy::{Choice, ChoiceError, Estimate, Target, choose, estimate, parse_tolerance};
+use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
 use crate::explorer::app::{App, Message};
 use crate::explorer::editor::scene_of;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Finding, Study};
-use crate::scene::{Document, Scene, format_quantity};
-use crate::text::grouped;
+use crate::scene::{Document, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,14 +18,10 @@ const MOST_ESTIMATED: u64 = 1 << 17;
 /// Files of an explored scene are named by whole paths.
 const FOLDER: &str = "";
 
-/// Search of springs for a tolerance.
 #[derive(Clone, Debug)]
 pub struct Choosing {
-    /// The relative error.
     pub tolerance: f64,
-    /// Number of springs tried last.
     pub tried: Option<u64>,
-    /// Choice, or the reason for none.
     pub found: Option<Result<Choice, ChoiceError>>,
 }
 
@@ -75,7 +70,6 @@ fn choice(generation: u64, scene: Arc<Scene>, tolerance: f64) -> Study {
 
 const NOT_COMPUTED: &str = "not before the scene is computed";
 
-/// Asks for a tolerance.
 pub fn type_tolerance(app: &mut App) {
     if app.is_current() {
         app.ask(Purpose::Tolerance, "");
@@ -99,27 +93,21 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
 /// Stores a finding; the outcome of a search has further effects.
 pub fn found(app: &mut App, finding: Finding) {
     app.studies.take_in(finding);
-    if let Some(Choosing { tolerance, found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
+    if let Some(Choosing { found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
         app.studies.forget::<Choosing>();
         app.effects.push(Effect::Study);
         match found {
             Ok(choice) => take_over(app, &choice),
-            Err(error) => refuse(app, tolerance, &error),
+            Err(error) => {
+                app.set_error(error.to_string());
+                app.studies.set(app.edit.generation, Answer(error.to_string()), true);
+            }
         }
     }
 }
 
-/// Makes a choice an edit.
 fn take_over(app: &mut App, choice: &Choice) {
-    let sentence = choice.sentence();
     let numerics = app.edit.document.scene().numerics;
-    let short = format!(
-        "{} springs, edges {}: {} within {}",
-        grouped(choice.points),
-        choice.edges.name(),
-        if choice.target == Target::Curve { "curve" } else { "F_a" },
-        per_cent(choice.tolerance),
-    );
     let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
     if !is_so {
         let points = choice.points.to_string();
@@ -133,31 +121,7 @@ fn take_over(app: &mut App, choice: &Choice) {
     }
     // From finer solutions than those of an estimate.
     app.studies.set(app.edit.generation, choice.estimate(), true);
-    let already = if is_so { "as it is: " } else { "" };
-    app.set_done(format!("{already}{short}"));
+    let sentence = choice.sentence();
+    app.set_done(format!("{}{sentence}", if is_so { "as it is: " } else { "" }));
     app.studies.set(app.edit.generation, Answer(sentence), true);
-}
-
-/// States the accuracy within reach instead.
-fn refuse(app: &mut App, tolerance: f64, error: &ChoiceError) {
-    let sentence = error.to_string();
-    let short = match error {
-        ChoiceError::Unreached { best: Some(best), .. } => format!(
-            "{tolerance:e} is out of reach: {:.1e} with {} springs, edges {}",
-            best.error,
-            grouped(best.points),
-            best.edges.name()
-        ),
-        ChoiceError::Unreached { best: None, .. } => {
-            format!("{tolerance:e} cannot be checked: too few springs")
-        }
-        ChoiceError::Stepwise => "a tolerance needs numerics.solver: Exact".to_owned(),
-        ChoiceError::Run(_) | ChoiceError::Stopped => sentence.clone(),
-    };
-    app.set_error(short);
-    app.studies.set(app.edit.generation, Answer(sentence), true);
-}
-
-fn per_cent(share: f64) -> String {
-    format!("{} %", format_quantity(100.0 * share, "1"))
 }

@@ -2,13 +2,12 @@
 
 use super::edit;
 use crate::explorer::app::{App, Ghost, Pane};
-use crate::scene::{Document, Roughness};
+use crate::scene::Document;
 use std::sync::Arc;
 
-/// Most kept curves; more could not be distinguished.
-const MOST_GHOSTS: usize = 8;
+/// Most kept curves: each has a colour of its own.
+const MOST_GHOSTS: usize = 4;
 
-/// Removes all ghosts.
 pub fn clear(app: &mut App) {
     app.hide(Pane::Beside);
     app.ghosts.clear();
@@ -37,7 +36,6 @@ pub fn open_beside(app: &mut App, document: Document) {
     app.edit.past.clear();
 }
 
-/// The present loop as a ghost.
 fn ghost(app: &App) -> Option<Ghost> {
     Some(Ghost {
         document: app.edit.document.clone(),
@@ -46,7 +44,6 @@ fn ghost(app: &App) -> Option<Ghost> {
     })
 }
 
-/// Keeps the present loop as a ghost.
 pub fn pin(app: &mut App) {
     let Some(ghost) = ghost(app) else { return app.set_error("there is no curve yet to keep") };
     if app.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
@@ -60,20 +57,6 @@ pub fn pin(app: &mut App) {
     app.set_done(format!("kept as ghost {name}; x swaps it with the scene"));
 }
 
-/// Keeps the present loop as a ghost and takes the other use of a measured profile.
-pub fn pin_other_use(app: &mut App) {
-    let scene = app.edit.document.scene();
-    if !matches!(scene.roughness, Some(Roughness::Measured { .. })) {
-        return app.set_error("the roughness of this scene is not measured");
-    }
-    let as_line = !scene.measured_as_line();
-    pin(app);
-    if app.is_current() {
-        edit::change(app, "roughness.as_line", &as_line.to_string());
-    }
-}
-
-/// Swaps the scene and the newest ghost.
 pub fn swap(app: &mut App) {
     let Some(present) = ghost(app) else { return };
     let Some(last) = app.ghosts.pop() else {

@@ -17,13 +17,11 @@ pub fn find_parameter(app: &mut App) {
     edit::show_parameters(app)
 }
 
-/// Opens the list of scenes.
 pub fn open_library(app: &mut App) {
     app.ask(Purpose::Scene(Vec::new()), "");
     app.effects.push(Effect::List);
 }
 
-/// Stores the scenes that can be opened.
 pub fn listed(app: &mut App, entries: Vec<Entry>) {
     if let Some(prompt) = &mut app.prompt {
         prompt.purpose = Purpose::Scene(entries);
@@ -83,7 +81,6 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     Ok(())
 }
 
-/// Closes the prompt without a change.
 pub fn cancel(app: &mut App) {
     match app.prompt.take().map(|prompt| prompt.purpose) {
         Some(Purpose::Value) => edit::preview(app),
@@ -122,7 +119,6 @@ fn typed_in_line(app: &App) -> Option<String> {
     }
 }
 
-/// Returns true if a path is being typed.
 pub fn can_complete(app: &App) -> bool {
     typed_in_line(app).is_some()
 }

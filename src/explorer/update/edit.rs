@@ -21,13 +21,6 @@ pub fn move_selection(app: &mut App, rows: i32) {
     show_parameters(app);
 }
 
-/// Folds the group of the selected parameter, or unfolds it.
-pub fn toggle_fold(app: &mut App) {
-    app.edit.fold(!app.edit.is_folded());
-    show_parameters(app);
-}
-
-/// Opens the built-in scene of a digit.
 pub fn open_built_in(app: &mut App, digit: char) {
     let place = digit.to_digit(10).and_then(|digit| (digit as usize).checked_sub(1));
     if let Some(preset) = place.and_then(|place| presets().get(place)) {
@@ -67,7 +60,7 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
             app.set_done(way);
         }
         Setting::Switch(_) => return switch(app),
-        Setting::Heading => return toggle_fold(app),
+        Setting::Heading => app.set_done(way_of_changing(parameter)),
         Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
             let text = editable(app, parameter);
             app.ask(Purpose::Value, &text);
@@ -101,7 +94,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
 fn way_of_changing(parameter: &Parameter) -> String {
     let way = match (parameter.setting, parameter.field.step) {
         (Setting::Switch(_), _) => "a switch: t changes it",
-        (Setting::Heading, _) => "a group: Enter folds it",
+        (Setting::Heading, _) => "a group: its fields are in the rows below",
         (_, Step::Choice) => "a choice: ← → change it",
         _ => "not a number: Enter types it",
     };
@@ -115,16 +108,12 @@ pub fn show_parameters(app: &mut App) {
     }
 }
 
-/// Steps the selected value.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     show_parameters(app);
     let Some(parameter) = app.edit.parameter() else { return };
     match parameter.setting {
         Setting::Switch(_) => return switch(app),
-        Setting::Heading => {
-            app.edit.fold(steps < 0);
-            return;
-        }
+        Setting::Heading => return refuse(app, way_of_changing(parameter)),
         Setting::Field if matches!(parameter.field.range, Range::Text { .. }) => {
             return refuse(app, way_of_changing(parameter));
         }

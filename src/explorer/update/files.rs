@@ -9,7 +9,6 @@ use crate::scene::{Document, command_line};
 use crate::text::is_control;
 use std::path::{Path, PathBuf};
 
-/// Asks for the file to save to.
 pub fn ask_save(app: &mut App, then_quit: bool) {
     let name = app.edit.document.name();
     let is_file = Path::new(name).extension().is_some_and(|extension| extension == "ron");
@@ -17,7 +16,6 @@ pub fn ask_save(app: &mut App, then_quit: bool) {
     app.ask(Purpose::Save { then_quit }, &file);
 }
 
-/// Saves the scene.
 pub fn save(app: &mut App, path: PathBuf, then_quit: bool) -> Result<(), String> {
     check_extension(&path, &["ron"])?;
     write(app, path, Content::Scene, then_quit)
@@ -40,7 +38,6 @@ pub fn save_before_leaving(app: &mut App) {
     ask_save(app, true);
 }
 
-/// Asks for the name of the file to export to.
 pub fn ask_export(app: &mut App) {
     let name = Path::new(app.edit.document.name());
     let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
@@ -90,7 +87,6 @@ pub fn ask_quit(app: &mut App) {
     }
 }
 
-/// Copies the command that opens the present scene.
 pub fn copy_command(app: &mut App) {
     let command = command_line("asperity", app.edit.document.name(), app.edit.document.overrides());
     if command.contains(is_control) {

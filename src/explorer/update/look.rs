@@ -31,20 +31,17 @@ pub fn toggle_follow(app: &mut App) {
     }
 }
 
-/// Selects the next pane.
 pub fn next_pane(app: &mut App) {
     let panes = app.panes();
     let place = panes.iter().position(|pane| *pane == app.view.pane).unwrap_or(0);
     app.view.pane = panes[(place + 1) % panes.len()];
 }
 
-/// Changes the colours.
 pub fn next_theme(app: &mut App) {
     app.view.appearance.theme = app.view.appearance.theme.next();
     app.set_done(format!("colours: {}", app.view.appearance.theme.name()));
 }
 
-/// Changes the markers of the plots.
 pub fn next_marker(app: &mut App) {
     let mut marker = app.view.appearance.marker.next();
     if marker == Marker::Octant && app.view.lacks_octants {
@@ -56,7 +53,6 @@ pub fn next_marker(app: &mut App) {
     app.effects.push(Effect::Redraw);
 }
 
-/// Keeps colours and markers in the configuration file.
 pub fn remember_appearance(app: &mut App) {
     let Some(path) = app.config.path.clone() else {
         app.set_error("there is no configuration file: asperity was started with --no-config");

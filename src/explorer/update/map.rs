@@ -18,7 +18,6 @@ pub fn open(app: &mut App, opening: Opening) {
     }
 }
 
-/// Message where no study is open.
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
 /// Shows the map of the study, or the live map.

@@ -22,7 +22,7 @@ use super::editor::scene_of;
 use super::keys::{self, Command};
 use super::layout::Layout;
 use super::prompt::Purpose;
-use super::request::{Place, Request, SnapshotRequest};
+use super::request::{Request, SnapshotRequest};
 use super::snapshot::Report;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -57,7 +57,10 @@ fn apply(app: &mut App, action: Action) {
         Action::Remembered(Ok(path)) => {
             app.set_done(format!("colours and markers are kept in {}", path.display()));
         }
-        Action::Mouse(mouse) => mouse::act(app, mouse),
+        Action::Mouse(mouse) => {
+            mouse::act(app, mouse);
+            run_chosen(app);
+        }
     }
 }
 
@@ -80,7 +83,11 @@ fn run(app: &mut App, command: Command) {
         app.map.moving = moving;
     }
     keys::run(command, app);
-    // A command that was chosen in the list of commands.
+    run_chosen(app);
+}
+
+/// Runs a command chosen in the list of commands or in the footer.
+fn run_chosen(app: &mut App) {
     if let Some(chosen) = app.chosen.take() {
         run(app, chosen);
     }
@@ -137,19 +144,18 @@ fn awaited(app: &App) -> Awaited {
     (app.edit.generation, snapshot_request(app), moves)
 }
 
-/// Request for a snapshot in the panes.
 pub fn snapshot_request(app: &App) -> SnapshotRequest {
     let layout = Layout::of(app);
     let dots = app.view.appearance.marker.columns();
     SnapshotRequest {
         drive: app.drive(),
-        place: Place::Share(app.play.done),
+        done: app.play.done,
         profile_columns: dots * layout.profile_cells(),
         profile: app.view.profile,
         close_up_columns: dots * layout.close_up_cells(),
         strip_cells: layout.close_up_cells(),
         focus: app.view.look.focus,
         close_up_springs: app.view.look.springs,
-        crosshair: app.view.crosshair,
+        crosshair: app.view.crosshair.filter(|_| app.section().is_some()),
     }
 }

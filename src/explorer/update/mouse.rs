@@ -3,13 +3,21 @@
 use super::{crosshair, dialogue, edit, look, map, movement};
 use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::app::{App, Pane};
+use crate::explorer::keys::{Command, footer_row};
+use crate::explorer::layout::Layout;
 use crate::explorer::panel::Under;
-use crate::explorer::panes::{indentation_at, parameter_in, under};
+use crate::explorer::panes::{indentation_at, under};
 use crate::explorer::request::ManualMove;
 use ratatui::layout::Position;
 
-/// Performs a gesture of the mouse.
 pub fn act(app: &mut App, mouse: Mouse) {
+    if mouse.gesture == Gesture::Press
+        && Layout::of(app).footer.is_some_and(|footer| footer.y == mouse.row)
+        && app.view.demo.is_none()
+    {
+        app.chosen = footer_row(app, mouse.column).map(|row| Command { row, character: None });
+        return;
+    }
     if app.prompt.is_some() {
         if let Gesture::Wheel(turns) = mouse.gesture {
             dialogue::select(app, -turns);
@@ -52,18 +60,10 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
         }
         (Pane::Parameters, Under::Row(row)) if is_press => {
             app.begin();
-            let Some(row) = parameter_in(app, row) else { return };
-            // A second press on the first row of a group folds the group.
-            let is_again = row == app.edit.selected && app.edit.parameters[row].is_head();
             app.edit.select(row);
-            if is_again {
-                edit::toggle_fold(app);
-            }
         }
-        (Pane::Force, Under::Data(x, _)) if app.view.crosshair.is_none() || app.manual.is_some() => {
-            drag(app, here, x)
-        }
-        (_, Under::Data(x, y)) => crosshair::point_at(app, (x, y)),
+        (_, Under::Data(x, _)) if app.view.crosshair.is_some() => crosshair::point_at(app, x),
+        (Pane::Force, Under::Data(x, _)) => drag(app, here, x),
         _ => {}
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
+use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::scene::parse_quantity;
@@ -10,14 +11,12 @@ use std::time::Duration;
 
 /// Time of the animation for one loading stage, at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
-/// Steps of the animation in one leg.
 const STEPS: f64 = 120.0;
 /// Small and large steps of manual loading in the whole range of indentations.
 const HAND_STEPS: (f64, f64) = (400.0, 40.0);
 /// Most kept points of the path of manual loading.
 const PATH_KEPT: usize = 20_000;
 
-/// Begins manual loading, or returns to the loading of the scene.
 pub fn toggle_manual(app: &mut App) {
     if app.manual.take().is_none() {
         take(app, None);
@@ -31,7 +30,6 @@ pub fn push(app: &mut App, steps: i32, coarse: bool) {
     take(app, Some(ManualMove::By(f64::from(steps) * step)))
 }
 
-/// Pulls the body until nothing touches.
 pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
@@ -48,7 +46,6 @@ pub fn toggle_play(app: &mut App) {
     }
 }
 
-/// Moves the paused animation by steps.
 pub fn step(app: &mut App, steps: i32) {
     app.manual = None;
     app.play.playing = false;
@@ -56,7 +53,6 @@ pub fn step(app: &mut App, steps: i32) {
     advance(&mut app.play, f64::from(steps) / STEPS, legs);
 }
 
-/// Begins the animation again.
 pub fn restart(app: &mut App) {
     app.manual = None;
     app.play = Player::START;
@@ -84,7 +80,6 @@ pub fn go_to_pull_off(app: &mut App) {
     app.manual = None;
 }
 
-/// Advances the animation by a time.
 pub fn elapse(app: &mut App, time: Duration) {
     if !app.play.playing || app.legs().is_empty() || !app.is_current() {
         return;
@@ -138,8 +133,11 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
             manual.changed = travel.changed;
         }
         manual.released_energy = travel.released_energy;
-        if let Some(why) = &travel.refused {
-            app.set_error(why.clone());
+        let typed = std::mem::take(&mut manual.typed);
+        match &travel.refused {
+            Some(why) if typed.is_empty() || app.prompt.is_some() => app.set_error(why.clone()),
+            Some(why) => app.ask_again(Purpose::Force, &typed, why),
+            None => {}
         }
     }
     app.snapshot = Some(snapshot);
@@ -170,5 +168,8 @@ pub fn accept_force(app: &mut App, typed: &str) -> Result<(), String> {
     let force = parse_quantity(typed.trim(), "N");
     let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2e-6 to pull"))?;
     take(app, Some(ManualMove::ToForce(force)));
+    if let Some(manual) = &mut app.manual {
+        typed.clone_into(&mut manual.typed);
+    }
     Ok(())
 }

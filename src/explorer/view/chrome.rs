@@ -1,6 +1,5 @@
 //! The lines around the panes: title, status, footer.
 
-use super::stages;
 use super::text::{filled, fitted, wrapped_within};
 use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
@@ -174,9 +173,7 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
         // Without tensile force.
         facts.push(of_loop(format!("F_max {}{error}", force(largest)), Meaning::Title));
     }
-    if app.view.shows_work {
-        facts.extend(work(app).into_iter().map(of_state));
-    } else if let Some(snapshot) = snapshot {
+    if let Some(snapshot) = snapshot {
         let CurvePoint { indentation, force: pressing, contact_length, .. } = snapshot.point;
         let title = if is_wide && app.manual.is_some() { "manual: " } else { "" };
         let place = format!(
@@ -205,7 +202,7 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
     if let Some(coefficient) = figures.adhesion_coefficient {
         facts.push(of_loop(format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
     }
-    if let Some(snapshot) = snapshot.filter(|_| !app.view.shows_work) {
+    if let Some(snapshot) = snapshot {
         facts.extend(response(app, snapshot).into_iter().map(of_state));
         if let Some(energy) = figures.dissipated_energy {
             facts.push(of_loop(format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
@@ -229,21 +226,6 @@ fn response(app: &App, snapshot: &ContactSnapshot) -> Vec<String> {
     parts
 }
 
-/// Springs in contact, and the times of the computing stages.
-fn work(app: &App) -> Vec<String> {
-    let mut parts = Vec::new();
-    if let Some((snapshot, solved)) = app.present().zip(app.solved.as_ref()) {
-        let CurvePoint { springs, fragments, .. } = snapshot.point;
-        let (springs, all) = (grouped(springs), grouped(solved.outcome.line.points as u64));
-        parts.push(format!("{springs} of {all} springs in {}", patches(fragments)));
-    }
-    // Times of the last run only: a kept profile and tree take none.
-    if app.view.shows_times && !app.is_computing() {
-        parts.extend(stages::times(app));
-    }
-    parts
-}
-
 /// The estimated error of the headline: `…` while awaited, `None` without an estimate.
 fn error(app: &App) -> Option<String> {
     match app.studies.value::<Estimate>() {
@@ -263,7 +245,6 @@ fn choosing(app: &App) -> Line<'static> {
     Line::raw(format!("trying for {tolerance:e}{tried}…"))
 }
 
-/// Springs and patches in contact.
 fn contact(point: CurvePoint) -> String {
     format!("{} in {}", counted(point.springs, "spring"), patches(point.fragments))
 }
@@ -277,7 +258,6 @@ fn counted(number: u64, thing: &str) -> String {
     format!("{} {thing}{plural}", grouped(number))
 }
 
-/// Least columns for the traffic of the connection.
 const TRAFFIC_FROM: u16 = 80;
 /// Least columns for the frames as well: the keys come first.
 const TRAFFIC_WITH_FRAMES: u16 = 100;
@@ -298,8 +278,8 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     let traffic = traffic.unwrap_or_default();
     let columns = Span::raw(traffic.as_str()).width();
     let items = footer_keys(app).into_iter();
-    let items = items.map(|(keys, label)| {
-        vec![Span::styled(keys, theme.style(Meaning::Key)), Span::raw(format!(" {label}"))]
+    let items = items.map(|(keys, row)| {
+        vec![Span::styled(keys, theme.style(Meaning::Key)), Span::raw(format!(" {}", row.label))]
     });
     let room = usize::from(width) - if columns > 0 { columns + 2 } else { 0 };
     let mut line = filled(items.collect(), "  ", room).into_iter().next().unwrap_or_default();

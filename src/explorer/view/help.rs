@@ -16,7 +16,6 @@ const BESIDE_FROM: u16 = 56;
 /// Columns before a help text below its keys.
 const INDENT: usize = 4;
 
-/// Draws the help.
 pub fn draw(area: Rect, app: &App, scroll: u16, buffer: &mut Buffer) {
     let mut head = lines(inside(area).width, app);
     head.drain(..usize::from(scroll.min(end(head.len(), area))));
@@ -24,7 +23,6 @@ pub fn draw(area: Rect, app: &App, scroll: u16, buffer: &mut Buffer) {
     panel::draw(&panel, area, false, app.view.appearance, buffer);
 }
 
-/// Lines that the help can be scrolled down.
 pub fn help_end(app: &App) -> u16 {
     let area = Layout::of(app).body();
     end(lines(inside(area).width, app).len(), area)

@@ -2,8 +2,7 @@
 
 mod chrome;
 mod help;
-mod library;
-mod palette;
+mod lists;
 pub mod stages;
 pub mod text;
 
@@ -18,7 +17,6 @@ use super::theme::{Marker, Theme};
 use ratatui::Frame;
 use ratatui::style::Modifier;
 
-/// Draws the whole screen.
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
     // The window may have another size than the state by now.
     let area = frame.area();
@@ -30,7 +28,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     let list = app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose));
     match list {
         Some((prompt, Purpose::Help)) => help::draw(panes, app, prompt.selected as u16, buffer),
-        Some((prompt, Purpose::Scene(entries))) => library::draw(panes, look, prompt, entries, buffer),
+        Some((prompt, Purpose::Scene(entries))) => lists::draw_scenes(panes, look, prompt, entries, buffer),
         _ => {
             for &(pane, area) in &layout.panes {
                 let panel = pane.panel(app, inside(area).as_size());
@@ -39,7 +37,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
         }
     }
     if let Some((prompt, Purpose::Command(entries))) = list {
-        palette::draw(panes, look, prompt, entries, buffer);
+        lists::draw_commands(panes, look, prompt, entries, buffer);
     }
     crate::draw::dry(buffer);
     panel::draw_lines(&[chrome::status(app, area.width)], layout.status, buffer);

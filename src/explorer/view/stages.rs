@@ -7,7 +7,6 @@ use crate::scene::format_rounded;
 use crate::simulation::{Plan, Stage, Timings};
 use ratatui::text::{Line, Span};
 
-/// A timed part of a run.
 struct Part {
     name: &'static str,
     /// Its stages, any of which needs the part. Line and curve always run.
@@ -41,12 +40,6 @@ fn parts(app: &App) -> Option<(&Timings, [Timed; PARTS.len()])> {
         (if is_stepwise { "steps" } else { name }, time)
     };
     Some((timings, PARTS.map(part)))
-}
-
-/// Names and times of the parts that ran.
-pub fn times(app: &App) -> Vec<String> {
-    let parts = parts(app).into_iter().flat_map(|(_, parts)| parts);
-    parts.filter_map(|(name, time)| Some(format!("{name} {}", time?))).collect()
 }
 
 /// The stages in as many lines as needed, as far as there is room.

@@ -3,8 +3,6 @@
 //! ratatui breaks lines as well, but overruns its area, and panics, where a word has wide characters or
 //! begins with a combining mark, as in titles and typed values.
 
-use crate::explorer::search::letters_found;
-use crate::explorer::theme::Theme;
 use crate::text::belong_together;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
@@ -106,18 +104,6 @@ pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Li
         }
     }
     lines
-}
-
-/// A text with the letters found by a query marked.
-pub fn found(text: &str, query: &str, style: Style, theme: Theme) -> Part {
-    let letters = letters_found(text, query);
-    let is_found = |(index, character)| (letters.binary_search(&index).is_ok(), character);
-    let characters: Vec<(bool, char)> = text.chars().enumerate().map(is_found).collect();
-    let spans = characters.chunk_by(|(one, _), (next, _)| one == next).map(|run| {
-        let style = if run[0].0 { theme.found(style) } else { style };
-        Span::styled(run.iter().map(|(_, character)| character).collect::<String>(), style)
-    });
-    spans.collect()
 }
 
 #[cfg(test)]

@@ -53,19 +53,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
 }
 
 #[test]
-fn the_plot_has_room_for_its_ghosts() {
-    let mut driver = pressed("");
-    driver.select("loading");
-    driver.press("j c");
-    driver.enter("2 µN");
-    let high = |driver: &Driver| driver.text().contains("20 ┤");
-    assert!(high(&driver), "the larger loop is seen as well: {}", driver.text());
-    driver.press("C");
-    assert!(!high(&driver), "{}", driver.text());
-}
-
-#[test]
-fn one_loop_is_kept_once_and_eight_at_most() {
+fn one_loop_is_kept_once_and_four_at_most() {
     let mut driver = pressed("c c");
     assert_eq!(driver.app.ghosts.len(), 1);
     assert!(message(&driver).contains("kept already"), "{}", message(&driver));
@@ -74,7 +62,7 @@ fn one_loop_is_kept_once_and_eight_at_most() {
     assert_eq!(driver.app.ghosts.len(), 2);
     driver.press("C");
     let mut scenes = Vec::new();
-    for _ in 0..10 {
+    for _ in 0..6 {
         driver.press("l c");
         scenes.push(driver.app.edit.document.clone());
     }

@@ -1,10 +1,9 @@
 //! Edits of the scene by keys, undone and redone.
 
 use super::common::driver::Driver;
-use super::common::scenes::{rough, smooth};
-use super::{is_up_to_date, mid_retraction, pressed};
+use super::common::scenes::rough;
+use super::{is_up_to_date, pressed};
 use asperity::explorer::app::Message;
-use asperity::explorer::layout::Layout;
 
 #[test]
 fn keys_step_a_value_finely_and_coarsely() {
@@ -101,20 +100,6 @@ fn a_built_in_scene_can_be_taken_back_like_any_edit() {
 }
 
 #[test]
-fn reseeding_gives_another_line_that_is_stated() {
-    let mut driver = pressed("");
-    let before = driver.app.solved.clone().unwrap();
-    driver.select("roughness.seed");
-    driver.press("R");
-    let seed = driver.app.edit.document.scene().seed().unwrap().to_string();
-    assert!(seed != "1" && driver.text().contains(&seed), "{}", driver.text());
-    assert!(is_up_to_date(&driver.app));
-    assert_ne!(driver.outcome().history, before.outcome.history);
-    driver.press("u");
-    assert_eq!(driver.outcome().history, before.outcome.history);
-}
-
-#[test]
 fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
     let mut driver = pressed("");
     let scene = |driver: &Driver| driver.app.edit.document.scene().clone();
@@ -136,20 +121,6 @@ fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
     assert_eq!((waves(&driver).first, waves(&driver).last), (2, 128));
     driver.press("u u u u");
     assert_eq!(scene(&driver), before);
-}
-
-#[test]
-fn a_smooth_scene_has_no_line_to_draw_anew() {
-    let mut driver = mid_retraction(smooth());
-    let before = driver.app.edit.document.clone();
-    driver.press("R");
-    assert_eq!(driver.app.edit.document, before);
-    assert!(is_up_to_date(&driver.app));
-    // No other field is marked for that error.
-    assert!(!driver.app.is_refused());
-    let status = Layout::of(&driver.app).status;
-    let row = driver.rows()[usize::from(status.y)].clone();
-    assert!(row.contains("no random profile"), "{row}");
 }
 
 #[test]

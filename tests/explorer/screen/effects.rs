@@ -1,7 +1,7 @@
 //! Effects switched on and off, and the two forms of adhesion.
 
 use super::common::driver::Driver;
-use super::common::scenes::{changed, one_spring, rough, smooth};
+use super::common::scenes::{changed, one_spring, rough};
 use super::{generation, is_up_to_date, pressed};
 use asperity::explorer::app::Message;
 use asperity::scene::{Adhesion, Effect};
@@ -66,35 +66,6 @@ fn an_effect_goes_and_comes_back_as_it_was() {
 }
 
 #[test]
-fn a_row_of_an_effect_switches_the_same_effect_off_and_on() {
-    for (path, head) in [
-        ("roughness.seed", "roughness"),
-        ("roughness.rms_height", "roughness"),
-        ("form.angle", "form"),
-        ("adhesion.kappa", "adhesion"),
-        ("adhesion.work", "adhesion"),
-        ("loading.3.0", "loading"),
-        ("loading.2.0", "loading"),
-    ] {
-        let mut driver = full();
-        if path == "loading.3.0" {
-            driver = Driver::start(changed(
-                &rough(),
-                &[("loading", "[ToForce(1.0e-5), ToSeparation, ToForce(2.0e-5), ToForce(1.0e-6)]")],
-            ));
-        }
-        let text = driver.app.edit.document.text().to_owned();
-        select(&mut driver, path);
-        driver.press("t");
-        let off: Vec<Effect> = Effect::ALL.into_iter().filter(|effect| !is_on(&driver, *effect)).collect();
-        assert_eq!(driver.app.edit.parameter().unwrap().path, head, "{path}: {off:?}");
-        driver.press("t");
-        assert_eq!(driver.app.edit.document.text(), text, "{path}: {off:?}");
-        assert!(is_up_to_date(&driver.app), "{path}");
-    }
-}
-
-#[test]
 fn a_switch_that_cannot_be_made_says_why() {
     let mut driver = Driver::start(one_spring());
     let before = driver.app.edit.document.clone();
@@ -116,16 +87,6 @@ fn a_switch_that_cannot_be_made_says_why() {
     select(&mut driver, "roughness.hurst");
     driver.press("t");
     assert!(!is_on(&driver, Effect::Roughness));
-}
-
-#[test]
-fn without_roughness_the_same_adhesion_is_left() {
-    let mut driver = pressed("");
-    let work = driver.outcome().governing.work_of_adhesion.unwrap();
-    select(&mut driver, "roughness");
-    driver.press("t");
-    let left = driver.app.edit.document.scene().adhesion.unwrap();
-    assert_eq!(left, Adhesion::by_work(work));
 }
 
 /// κ and γ of the computed scene, and γ by eq. (11): h⟨∇z⟩E*/κ².
@@ -183,15 +144,4 @@ fn a_scene_that_gives_kappa_may_be_given_the_work() {
         driver.press("Esc");
         assert_eq!(governing(&driver).0, 8.0);
     }
-}
-
-#[test]
-fn kappa_says_nothing_of_a_smooth_body() {
-    let mut driver = Driver::start(smooth());
-    let before = driver.app.edit.document.clone();
-    select(&mut driver, "adhesion.kappa");
-    assert!(row(&driver).contains("none"), "it does not wait for a value: {}", row(&driver));
-    driver.enter("3");
-    assert_eq!(driver.app.edit.document, before);
-    assert!(driver.text().contains("without roughness"), "{}", driver.text());
 }

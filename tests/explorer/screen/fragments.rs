@@ -52,21 +52,6 @@ fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
     assert_eq!(number(&driver), first + 1);
 }
 
-#[test]
-fn the_close_up_is_looked_at_from_near_and_from_far() {
-    let mut driver = pressed("");
-    let springs = |driver: &Driver| driver.snapshot().close_up.section.springs;
-    let before = springs(&driver);
-    driver.press("+");
-    assert_eq!(springs(&driver), before / 2);
-    driver.press("- -");
-    assert_eq!(springs(&driver), before * 2);
-    (0..20).for_each(|_| drop(driver.press("-")));
-    assert_eq!(springs(&driver), 1024);
-    (0..20).for_each(|_| drop(driver.press("=")));
-    assert!((1..=16).contains(&springs(&driver)));
-}
-
 /// Contact patches, from a picture with a column for each spring.
 fn fragments(driver: &mut Driver) -> Vec<Patch> {
     let (size, pane) = (driver.app.view.size, driver.app.view.pane);

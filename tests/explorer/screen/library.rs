@@ -1,7 +1,7 @@
 //! Choosing a scene from the library.
 
 use super::common::driver::Driver;
-use super::common::scenes::{rough, smooth};
+use super::common::scenes::smooth;
 use super::{is_up_to_date, pressed};
 
 use asperity::explorer::prompt::{Prompt, Purpose};
@@ -67,16 +67,6 @@ fn all_scenes_are_listed_and_found_as_one_types() {
 }
 
 #[test]
-fn the_selected_scene_is_seen_before_it_is_opened() {
-    let (_folder, mut driver) = opened();
-    driver.type_text("mine");
-    assert!(driver.text().contains("smooth-sphere"), "{}", driver.text());
-    assert_eq!(driver.app.edit.document.scene(), rough().scene(), "looking is not opening");
-    driver.press("Enter");
-    assert_eq!(driver.app.edit.document.scene(), smooth().scene());
-}
-
-#[test]
 fn enter_opens_and_escape_leaves() {
     let (folder, mut driver) = opened();
     let before = driver.app.edit.document.clone();
@@ -123,15 +113,4 @@ fn a_broken_file_is_listed_with_its_error_and_not_opened() {
         "{}",
         driver.status()
     );
-}
-
-#[test]
-fn a_file_that_has_changed_since_is_listed_anew() {
-    let (folder, mut driver) = opened();
-    driver.press("Esc");
-    fs::write(folder.path().join("broken.ron"), rough().text()).unwrap();
-    driver.press("o");
-    driver.type_text("broken");
-    driver.press("Enter");
-    assert_eq!(driver.app.edit.document.text(), rough().text());
 }

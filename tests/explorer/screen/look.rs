@@ -4,10 +4,8 @@ use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{mid_retraction, pressed};
 use asperity::explorer::app::Pane;
-use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::snapshot::Section;
 use asperity::scene::format_quantity;
-use ratatui::layout::Position;
 
 fn profile(driver: &Driver) -> Section {
     driver.snapshot().profile.clone()
@@ -74,23 +72,6 @@ fn the_profile_follows_the_close_up() {
     assert!(!driver.text().contains("· follows"));
 }
 
-#[test]
-fn the_close_up_is_moved_along_where_the_profile_is_not_chosen() {
-    let mut driver = pressed("f");
-    let first = |driver: &Driver| driver.snapshot().close_up.section.first;
-    let before = first(&driver);
-    let springs = driver.app.view.look.springs;
-    driver.press(")");
-    assert_eq!(first(&driver), before + springs / 4);
-    driver.press("(");
-    assert_eq!(first(&driver), before);
-    (0..200).for_each(|_| drop(driver.press("(")));
-    assert_eq!(first(&driver), 0);
-    (0..200).for_each(|_| drop(driver.press(")")));
-    assert_eq!(first(&driver), 1024 - springs);
-    assert_eq!(seen(&driver), (0, 1024), "the profile stays");
-}
-
 /// The text of the pane of the curve on the whole screen.
 fn curve(driver: &mut Driver) -> String {
     driver.press("z");
@@ -125,12 +106,8 @@ fn the_curve_has_three_views_in_two_units() {
     assert!(text.contains("d/h") && !text.contains("F_a,max"), "{text}");
 }
 
-fn is_braille(character: char) -> bool {
-    ('\u{2801}'..='\u{28ff}').contains(&character)
-}
-
 #[test]
-fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
+fn the_dissipated_energy_is_shaded_and_stated() {
     let mut driver = mid_retraction(smooth());
     driver.press("z");
     let before = driver.screen();
@@ -139,19 +116,6 @@ fn the_loss_is_shaded_inside_the_loop_and_nowhere_else() {
     let energy: f64 = format!("{energy:.2e}").parse().unwrap();
     let title = format!("ΔW {}", format_quantity(energy, "J"));
     assert!(driver.text().contains(&title), "{title}\n{}", driver.text());
-    // Each changed cell lies between two cells of the branches, but for the cell beside a steep one.
-    let shaded = driver.screen();
-    let area = inside(Layout::of(&driver.app).panes[0].1);
-    let drawn: Vec<Position> =
-        area.positions().filter(|cell| before[*cell].symbol().starts_with(is_braille)).collect();
-    let mut changed = 0;
-    for cell in area.positions().filter(|cell| shaded[*cell] != before[*cell]) {
-        let beside = || drawn.iter().filter(|at| at.x.abs_diff(cell.x) <= 1);
-        let is_inside = beside().any(|at| at.y <= cell.y + 1) && beside().any(|at| at.y + 1 >= cell.y);
-        assert!(is_inside, "{cell}\n{}", driver.text());
-        changed += 1;
-    }
-    assert!(changed > 50, "{changed} cells\n{}", driver.text());
     driver.press("a");
     assert_eq!(driver.screen(), before);
     // A loop that is not closed has no dissipated energy yet.

@@ -7,7 +7,7 @@ use asperity::explorer::layout::Layout;
 use asperity::explorer::theme::{Appearance, Choice, Marker, Theme};
 use clap::ValueEnum;
 use ratatui::buffer::{Buffer, Cell};
-use ratatui::style::{Color, Modifier};
+use ratatui::style::Color;
 use std::collections::HashSet;
 
 /// All colours on a screen, each once.
@@ -58,21 +58,6 @@ fn the_plain_theme_has_no_colours_and_the_others_only_the_sixteen() {
         }
         assert!(!unreadable(*theme).iter().any(|colour| used.contains(colour)), "{theme:?}");
     }
-}
-
-#[test]
-fn strong_contrast_is_bold_and_nothing_in_it_is_dim() {
-    let mut driver = pressed("c L");
-    driver.app.view.appearance.theme = Theme::HighContrast;
-    let screen = driver.screen();
-    assert!(screen.content.iter().all(|cell| !cell.modifier.contains(Modifier::DIM)));
-    assert!(screen.content.iter().all(|cell| cell.modifier.contains(Modifier::BOLD)));
-    // Elsewhere only elements in the background are dim, and without colours only.
-    let driver = pressed("T T T T");
-    assert_eq!(driver.app.view.appearance.theme, Theme::Plain);
-    let screen = driver.screen();
-    let dim = screen.content.iter().filter(|cell| cell.modifier.contains(Modifier::DIM));
-    assert!(dim.clone().any(|cell| cell.symbol() == "│") && dim.clone().all(|cell| cell.symbol() != "▼"));
 }
 
 #[test]

@@ -13,7 +13,8 @@ fn manual(driver: &Driver) -> &ManualState {
 
 /// Types a target force.
 fn go(driver: &mut Driver, force: &str) {
-    driver.press("F");
+    // A refused force stays in the prompt.
+    driver.press("Esc F");
     driver.type_text(force);
     driver.press("Enter");
 }
@@ -116,19 +117,18 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     for (typed, force) in [("-1", "-1 N"), ("-1e6 µN", "-1 N"), ("-3 mN", "-3 mN")] {
         go(&mut driver, typed);
         let expected = format!("the contact detaches before {force}; smallest force within reach: -");
-        let status = driver.status();
-        assert!(status.contains(&expected), "{typed}: {status}");
+        assert!(driver.refusal().is_some_and(|why| why.contains(&expected)), "{typed}: {}", driver.status());
         assert_eq!(driver.point(), before, "a refused force moves nothing");
     }
     // The named force can be reached, and one smaller in its last digit cannot.
-    let status = driver.status();
-    let (least, unit) = status.rsplit("reach: ").next().unwrap().split_once(' ').unwrap();
+    let refusal = driver.refusal().unwrap().to_owned();
+    let (least, unit) = refusal.rsplit("reach: ").next().unwrap().split_once(' ').unwrap();
     let (least, digits): (f64, usize) = (least.parse().unwrap(), least.split('.').nth(1).map_or(0, str::len));
     let beyond = least - 10.0_f64.powi(-(digits as i32)) * 2.0;
     go(&mut driver, &format!("{beyond:.digits$} {unit}"));
     assert!(driver.status().contains("the contact detaches before"), "{}", driver.status());
     go(&mut driver, &format!("{least} {unit}"));
-    assert!(driver.app.message.is_none(), "{:?}", driver.app.message);
+    assert!(driver.app.prompt.is_none(), "{:?}", driver.refusal());
     let after = driver.point();
     assert!(driver.app.manual.is_some() && after.springs > 0, "{after:?}");
     let newtons = asperity::scene::parse_quantity(&format!("{least} {unit}"), "N").unwrap();
@@ -142,6 +142,7 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     driver.press("S");
     go(&mut driver, "-1 µN");
     assert!(driver.status().contains("needs a contact"), "{}", driver.status());
+    driver.press("Esc");
     for nonsense in ["", "strong", "1 kg", "NaN"] {
         let at_first = driver.point();
         go(&mut driver, nonsense);
@@ -160,13 +161,13 @@ fn a_force_far_beyond_full_contact_is_refused() {
         driver.press("d");
         let before = driver.point();
         go(&mut driver, "1e30");
-        let status = driver.status();
-        assert!(status.contains("N is far beyond full contact at "), "{status}");
+        let refusal = driver.refusal().unwrap_or_default().to_owned();
+        assert!(refusal.contains("N is far beyond full contact at "), "{refusal}");
         assert_eq!(driver.point(), before);
         // The bound itself is allowed, and there all springs are in contact.
-        let largest = status.rsplit("at most ").next().unwrap().to_owned();
-        go(&mut driver, &largest);
-        assert!(driver.app.message.is_none(), "{largest}: {:?}", driver.app.message);
+        let largest = refusal.rsplit("at most ").next().unwrap();
+        go(&mut driver, largest);
+        assert!(driver.app.prompt.is_none(), "{largest}: {:?}", driver.refusal());
         let springs = driver.outcome().line.points as u64;
         assert_eq!(driver.point().springs, springs);
     }
@@ -205,28 +206,4 @@ fn playing_gives_it_back() {
             assert!(!driver.elapse(0.1).is_empty());
         }
     }
-}
-
-#[test]
-fn without_a_curve_there_is_nothing_to_take() {
-    let mut driver = Driver::open(rough());
-    for keys in ["d", "]", "{", "S"] {
-        assert!(driver.press(keys).is_empty(), "{keys}");
-        assert!(driver.app.manual.is_none(), "{keys}");
-    }
-    let mut driver = pressed("");
-    driver.select("loading");
-    driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
-    driver.press("d ]");
-    assert!(driver.app.manual.is_none());
-}
-
-#[test]
-fn time_does_not_move_manual_loading() {
-    let mut driver = Driver::start(changed(&rough(), &[("loading", "[ToForce(1.0e-5)]")]));
-    driver.elapse(2.0);
-    driver.press("d");
-    let at_first = driver.point();
-    assert!(driver.elapse(1.0).is_empty());
-    assert_eq!(driver.point(), at_first);
 }

@@ -2,11 +2,9 @@
 
 use super::common::driver::Driver;
 use super::common::scenes::rough;
-use super::{mid_retraction, pressed, row_with};
+use super::{mid_retraction, pressed};
 use asperity::explorer::app::Pane;
 use asperity::explorer::keys::{Context, bindings};
-use ratatui::buffer::Cell;
-use ratatui::style::Modifier;
 use std::fs;
 
 /// Opens the list and types a query.
@@ -109,31 +107,5 @@ fn a_path_is_completed() {
         driver.type_text(&format!("{base}zzz"));
         driver.press("Tab");
         assert!(driver.status().contains("no file or folder"), "{}", driver.status());
-    }
-}
-
-#[test]
-fn letters_that_are_found_are_marked_in_every_list() {
-    let marked = |driver: &Driver, text: &str| -> String {
-        let screen = driver.screen();
-        let cells = row_with(&screen, text).iter();
-        cells.filter(|cell| cell.modifier.contains(Modifier::UNDERLINED)).map(Cell::symbol).collect()
-    };
-    for size in [(120, 40), (60, 20)] {
-        let mut driver = pressed("");
-        driver.resize(size);
-        query(&mut driver, "");
-        driver.type_text("loop area");
-        assert_eq!(marked(&driver, "shade the area"), "arealoop", "each word at its place");
-        driver.press("Esc /");
-        driver.type_text("hurs");
-        assert_eq!(marked(&driver, "›  Hurst"), "Hurs", "{size:?}");
-        driver.press("Ctrl+u");
-        driver.type_text("kappa");
-        assert_eq!(marked(&driver, "κ"), "κ", "a Greek letter is found by its name");
-        driver.press("Esc o");
-        driver.type_text("rough sph");
-        assert!(marked(&driver, "› rough-sphere").starts_with("roughsph"), "{size:?}");
-        driver.press("Esc");
     }
 }

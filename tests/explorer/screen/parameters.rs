@@ -1,19 +1,10 @@
 //! The list of parameters: its order, its groups, its visible part, and the search.
 
-use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough, smooth, without_adhesion};
 use super::{SIZES, default_scene, mid_retraction, pressed};
 use asperity::explorer::app::{App, Pane};
 use asperity::explorer::keys::Context;
-use asperity::explorer::layout::Layout;
 use asperity::scene::Document;
-
-/// Rows of the thumb of the scroll bar.
-fn thumb(driver: &Driver) -> Vec<u16> {
-    let area = Layout::of(&driver.app).pane(Pane::Parameters).expect("the pane is shown");
-    let screen = driver.screen();
-    (area.y..area.bottom()).filter(|y| screen[(area.right() - 1, *y)].symbol() == "█").collect()
-}
 
 fn selected(app: &App) -> &str {
     &app.edit.parameter().expect("a parameter is selected").path
@@ -21,77 +12,6 @@ fn selected(app: &App) -> &str {
 
 fn scenes() -> [Document; 5] {
     [default_scene(), rough(), smooth(), punch(), without_adhesion()]
-}
-
-#[test]
-fn a_group_folds_to_its_first_row_and_unfolds_for_what_is_selected() {
-    let mut driver = pressed("");
-    let all = driver.app.edit.listed().len();
-    assert_eq!(all, driver.app.edit.parameters.len());
-    // Rows of a group except the first.
-    let rows = |group: &str| driver.app.edit.parameters.iter().filter(|one| one.group == group).count() - 1;
-    let (roughness, title, adhesion) = (rows("roughness"), rows("title"), rows("adhesion"));
-    driver.press("Z");
-    assert_eq!(selected(&driver.app), "roughness", "the first row takes the selection");
-    assert_eq!(driver.app.edit.listed().len(), all - roughness);
-    assert!(driver.pane(Pane::Parameters).iter().any(|row| row.contains("▸●roughness")), "{}", driver.text());
-    assert!(!driver.pane(Pane::Parameters).iter().any(|row| row.contains("Hurst")), "{}", driver.text());
-    // Keys of motion skip folded rows.
-    driver.press("j");
-    assert_eq!(selected(&driver.app), "numerics");
-    driver.press("k k");
-    assert_eq!(selected(&driver.app), "loading.1");
-    // An edit and its undoing leave the group folded.
-    driver.press("l u");
-    assert_eq!(driver.app.edit.listed().len(), all - roughness);
-    driver.press("j Z");
-    assert_eq!(driver.app.edit.listed().len(), all);
-    driver.press("Z G Z g Z");
-    assert_eq!(driver.app.edit.listed().len(), all - roughness - title - adhesion);
-    driver.press("G");
-    assert_eq!(selected(&driver.app), "title");
-    // A search also finds folded rows.
-    driver.press("/ h u r s t Enter");
-    assert_eq!(
-        (selected(&driver.app), driver.app.edit.listed().len()),
-        ("roughness.hurst", all - title - adhesion)
-    );
-}
-
-#[test]
-fn a_heading_folds_by_its_own_keys() {
-    let mut driver = pressed("");
-    driver.select("numerics");
-    let text = driver.app.edit.document.text().to_owned();
-    let all = driver.app.edit.listed().len();
-    for (key, folded) in
-        [("Enter", true), ("Enter", false), ("h", true), ("h", true), ("l", false), ("t", false)]
-    {
-        driver.press(key);
-        assert_eq!(driver.app.edit.listed().len() < all, folded, "{key}");
-        assert_eq!(driver.app.edit.document.text(), text);
-    }
-}
-
-#[test]
-fn a_scroll_bar_says_that_rows_are_out_of_sight() {
-    for size in [(120, 40), (80, 24), (60, 20), (40, 12)] {
-        let mut driver = mid_retraction(rough());
-        driver.resize(size);
-        driver.app.view.pane = Pane::Parameters;
-        driver.press("g");
-        let top = thumb(&driver);
-        assert!(!top.is_empty(), "{size:?}\n{}", driver.text());
-        driver.press("G");
-        let end = thumb(&driver);
-        assert!(end.last() > top.last() && end.first() > top.first(), "{size:?}: {top:?} {end:?}");
-    }
-    // No scroll bar if all rows are visible.
-    let mut driver = mid_retraction(rough());
-    driver.resize((120, 60));
-    driver.app.view.pane = Pane::Parameters;
-    driver.press("z g");
-    assert!(thumb(&driver).is_empty(), "{}", driver.text());
 }
 
 #[test]

@@ -42,19 +42,6 @@ fn the_animation_plays_to_its_end_and_stops() {
 }
 
 #[test]
-fn nothing_is_played_while_there_is_no_curve() {
-    let mut driver = pressed("");
-    driver.select("loading");
-    driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
-    driver.press("r");
-    for _ in 0..3 {
-        assert!(driver.elapse(0.1).is_empty(), "that of another scene is not played");
-    }
-    driver.press("u");
-    assert_eq!(driver.elapse(0.1), [Effect::Ask]);
-}
-
-#[test]
 fn the_animation_is_paused_stepped_and_begun_again() {
     let mut driver = Driver::start(rough());
     driver.elapse(1.0);

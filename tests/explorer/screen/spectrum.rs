@@ -3,7 +3,7 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
-use asperity::explorer::app::{Message, Pane};
+use asperity::explorer::app::Pane;
 use asperity::explorer::panes::SceneSpectra;
 use asperity::explorer::studies::Study;
 use asperity::explorer::update::Effect;
@@ -47,39 +47,6 @@ fn measured(file: &Path) -> Document {
     let roughness = format!("Measured(file: {:?}, as_line: false)", file.to_str().unwrap());
     let scene = changed(&rough(), &[("roughness", &roughness), ("adhesion", "(work: 0.05)")]);
     Document::parse(scene.text(), "measured").unwrap()
-}
-
-#[test]
-fn the_profile_itself_is_compared_with_its_equivalent_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("stylus.txt");
-    // The whole scan: the length of the equivalent line follows from the number of its points.
-    let document = measured(&file)
-        .set_all(&[("length".to_owned(), "512 µm".to_owned()), ("form".to_owned(), "None".to_owned())]);
-    let mut driver = Driver::start(document.unwrap());
-    let equivalent = driver.app.edit.document.clone();
-    driver.press("|");
-    assert_eq!(driver.app.ghosts.last().unwrap().document, equivalent);
-    assert!(driver.app.edit.document.scene().measured_as_line());
-    let figures = driver.outcome().figures;
-    assert!(figures.adhesion_force.is_some());
-    assert!(driver.text().contains("profile as line"), "{}", driver.text());
-    // Back again, the loop of the profile itself is kept as well.
-    driver.press("|");
-    assert_eq!(driver.app.edit.document.scene(), equivalent.scene());
-    assert_eq!(driver.app.ghosts.len(), 2);
-    // A missing file, and roughness that is not measured.
-    let mut driver = Driver::start(equivalent);
-    std::fs::remove_file(&file).unwrap();
-    driver.press("|");
-    let message = |driver: &Driver| match &driver.app.message {
-        Some(Message::Error(text)) => text.clone(),
-        other => panic!("{other:?}"),
-    };
-    assert!(message(&driver).contains("stylus.txt"));
-    let mut other = Driver::start(rough());
-    other.press("|");
-    assert!(message(&other).contains("not measured") && other.app.ghosts.is_empty());
 }
 
 #[test]

@@ -135,15 +135,6 @@ fn the_scene_follows_to_the_next_preload() {
 }
 
 #[test]
-fn a_preload_in_units_that_follow_from_h_goes_with_the_mark() {
-    let (_folder, mut driver) = opened_with(&PLAN.replace("rms_height: 2.0e-7", "rms_gradient: 0.1"));
-    let before = preload(&driver);
-    driver.press("Right");
-    assert!(preload(&driver) > 1.01 * before, "{before} {}", preload(&driver));
-    assert!(!driver.text().contains("no longer"), "{}", driver.text());
-}
-
-#[test]
 fn the_computed_map_can_be_had_instead() {
     let (_folder, mut driver) = opened();
     let charts = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
@@ -171,30 +162,6 @@ fn the_computed_map_can_be_had_instead() {
         driver.press(key);
         assert!(driver.status().contains("! no study is open"), "{}", driver.status());
     }
-}
-
-#[test]
-fn a_scene_without_kappa_has_no_mark() {
-    let (_folder, mut driver) = opened();
-    driver.press("Tab Tab");
-    driver.select("adhesion");
-    driver.press("t");
-    assert!(driver.text().contains("no mark: the scene has no adhesion"), "{}", driver.text());
-    assert!(driver.text().contains("Study small"));
-    driver.press("m Left X");
-    assert!(driver.app.edit.document.scene().adhesion.is_none());
-    driver.screen();
-}
-
-#[test]
-fn cells_that_are_missing_are_blank() {
-    let folder = tempfile::tempdir().unwrap();
-    let study = begun(folder.path(), PLAN);
-    asperity::study::merge(&study, true).unwrap();
-    let mut driver = Driver::start(Opening::of(folder.path().to_str().unwrap()).unwrap());
-    assert!(driver.text().contains("the study was merged without this cell"), "{}", driver.text());
-    driver.press("V V Right");
-    driver.screen();
 }
 
 #[test]

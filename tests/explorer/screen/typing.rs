@@ -42,30 +42,6 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
 }
 
 #[test]
-fn what_is_typed_can_be_edited_pasted_and_left() {
-    let mut driver = pressed("");
-    driver.select("length");
-    driver.press("e Home Delete");
-    driver.type_text("3");
-    driver.press("End");
-    driver.act(Action::Paste("\n".to_owned()));
-    driver.press("Enter");
-    assert_eq!(driver.app.edit.document.scene().length, 3e-4);
-    let before = driver.app.edit.document.clone();
-    driver.press("e Ctrl+u 7 Esc");
-    assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
-    // In a value, letters are typed.
-    driver.press("e Ctrl+u q u");
-    assert_eq!(driver.app.keys(), Context::Line);
-    assert!(driver.text().contains("qu"), "{}", driver.text());
-    driver.press("Ctrl+c");
-    assert_eq!((&driver.app.edit.document, driver.app.keys()), (&before, Context::Explore));
-    // Typing the present value changes nothing.
-    driver.press("e Enter");
-    assert_eq!(driver.app.edit.document.scene(), before.scene());
-}
-
-#[test]
 fn what_is_chosen_and_typed_is_seen_in_the_smallest_window() {
     for size in SIZES {
         for pane in ["", "Tab", "Tab Tab", "Tab Tab Tab"] {

@@ -1,37 +1,6 @@
 //! Windows that grow and shrink, and panes that take the whole of them.
 
-use super::{SIZES, pressed};
-use asperity::explorer::app::Pane;
-use asperity::explorer::layout::Layout;
-
-#[test]
-fn every_pane_can_have_the_whole_screen() {
-    let mut driver = pressed("");
-    let all = Layout::of(&driver.app).panes.len();
-    assert_eq!(all, 4);
-    for _ in 0..4 {
-        driver.press("z");
-        assert_eq!(Layout::of(&driver.app).panes.len(), 1);
-        assert_eq!(Layout::of(&driver.app).panes[0].0, driver.app.view.pane);
-        driver.press("z Tab");
-        assert_eq!(Layout::of(&driver.app).panes.len(), 4);
-    }
-    assert_eq!(driver.app.view.pane, Pane::Force);
-}
-
-#[test]
-fn a_small_window_keeps_the_chosen_pane() {
-    for size in SIZES {
-        let mut driver = pressed("");
-        driver.resize(size);
-        for _ in 0..4 {
-            let layout = Layout::of(&driver.app);
-            let shown = layout.pane(driver.app.view.pane).expect("the chosen pane is shown");
-            assert!(shown.width > 0 && shown.height > 0);
-            driver.press("Tab");
-        }
-    }
-}
+use super::pressed;
 
 #[test]
 fn a_screen_grows_back_to_what_it_was() {

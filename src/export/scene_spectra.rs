@@ -1,6 +1,6 @@
 //! Spectra of a computed scene: of its measured files, as expected of the line, and of the heights of the line.
 
-use crate::export::{Spectra, SpectrumPoint};
+use super::spectrum_figure::{Spectra, SpectrumPoint};
 use crate::memory::check_room;
 use crate::scene::{Form, Scene};
 use crate::simulation::{Outcome, RunError, Simulation};
@@ -18,6 +18,7 @@ const BYTES: u64 = 40;
 /// Spectra of a scene, and the moments of its measured surface with their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
+    /// Measured spectra, and those of the line and of its heights.
     pub spectra: Spectra,
     /// Moments of the equivalent line; `None` for a roughness that is not measured, or is the line itself.
     pub moments: Option<LineMoments>,
@@ -29,7 +30,7 @@ impl SceneSpectra {
     /// Spectra of a scene whose files are named from the working folder.
     ///
     /// # Errors
-    /// When its profile cannot be made again.
+    /// When the line of the scene cannot be made.
     pub fn new(scene: &Scene, outcome: &Outcome, simulation: &mut Simulation) -> Result<Self, RunError> {
         let (line, ..) = simulation.make_line(scene)?;
         let mut missing = None;
