@@ -4,6 +4,7 @@ use super::loop_chart::force_figure;
 use super::report::{Json, Report};
 use super::summary::summary;
 use crate::accuracy::{Choice, Estimate};
+use crate::analysis::displacements;
 use crate::draw::Figure;
 use crate::io::{Table, object};
 use crate::scene::{Observer, Scene};
@@ -65,6 +66,8 @@ impl Report for RunReport<'_> {
             "adhesion_coefficient": figures.adhesion_coefficient,
             "pull_off_indentation": figures.pull_off_indentation,
             "dissipated_energy": figures.dissipated_energy,
+            "loop_area"?: outcome.instrument.map(|one| one.loop_area),
+            "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
             "tabor_number": outcome.tabor_number,
             "steep_waves"?: outcome.steep_waves,
             "curve": curve(outcome),
@@ -89,20 +92,31 @@ impl Report for RunReport<'_> {
     }
 }
 
-/// The force curve in SI units, with the numbers of the loading stages from 0.
+/// The force curve in SI units, with the numbers of the loading stages from 0, and the displacement of an instrument that
+/// is not rigid.
 fn curve(outcome: &Outcome) -> Table<'_> {
-    let points = || {
+    let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
+    let points = move || {
         let legs = outcome.history.legs.iter().zip(0_u64..);
-        legs.flat_map(|(leg, number)| leg.curve.iter().map(move |point| (number, point)))
+        legs.flat_map(move |(leg, number)| {
+            let displacements = displacements(leg, stiffness.unwrap_or(f64::INFINITY));
+            leg.curve
+                .iter()
+                .zip(displacements)
+                .map(move |(point, displacement)| (number, point, displacement))
+        })
     };
-    Table::of(points)
-        .whole("leg", |(number, _)| *number)
-        .real("indentation", |(_, point)| point.indentation)
-        .real("force", |(_, point)| point.force)
-        .real("contact_length", |(_, point)| point.contact_length)
-        .whole("fragments", |(_, point)| point.fragments)
-        .real("stored_energy", |(_, point)| point.stored_energy)
-        .done()
+    let table = Table::of(points)
+        .whole("leg", |(number, ..)| *number)
+        .real("indentation", |(_, point, _)| point.indentation)
+        .real("force", |(_, point, _)| point.force)
+        .real("contact_length", |(_, point, _)| point.contact_length)
+        .whole("fragments", |(_, point, _)| point.fragments)
+        .real("stored_energy", |(_, point, _)| point.stored_energy);
+    match stiffness {
+        Some(_) => table.real("displacement", |(.., displacement)| *displacement).done(),
+        None => table.done(),
+    }
 }
 
 /// Position x and height z of every spring under the body, m.

@@ -109,6 +109,11 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
+    if let Some(instrument) = outcome.instrument {
+        sheet.quantity("loading stiffness k", instrument.stiffness, "N/m");
+        sheet.quantity("pull-off displacement", instrument.pull_off_displacement, "m");
+        sheet.quantity("loop area ∮F dD", instrument.loop_area, "J");
+    }
 }
 
 /// The regimes by both protocols in one sentence.
@@ -219,6 +224,7 @@ fn loading(legs: &[Move]) -> String {
     let words = |leg: &Move| match *leg {
         Move::ToForce(force) => format!("to {}", format_quantity(force, "N")),
         Move::ToIndentation(indentation) => format!("to d = {}", format_quantity(indentation, "m")),
+        Move::ToDisplacement(displacement) => format!("to D = {}", format_quantity(displacement, "m")),
         Move::ToTouch => "to first touch".into(),
         Move::ToZeroForce => "to zero force".into(),
         Move::ToSeparation => "to separation".into(),

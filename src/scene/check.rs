@@ -337,6 +337,10 @@ impl Found<'_> {
             format!("too many points: samples × loading stages ({stages}) must not exceed {MOST_SAMPLES}");
         let (is_met, path) = (stages.saturating_mul(numerics.samples) <= MOST_SAMPLES, "numerics.samples");
         self.require(is_met, &[path, "loading"], path, &allowed, &reason);
+        let is_met = numerics.solver == Solver::Exact || scene.loading_stiffness.is_none();
+        let reason =
+            "the stepwise solver moves the body itself: numerics.solver: Exact, or no loading_stiffness";
+        self.require(is_met, &[], "loading_stiffness", "", reason);
         let is_met = numerics.solver == Solver::Exact || numerics.edges == Edges::Grid;
         let reason = "the stepwise solver moves whole springs: edges: Grid";
         self.require(is_met, &[], "numerics.edges", "", reason);

@@ -147,12 +147,23 @@ pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .quantity("indentation of stage", "d", "m")
     .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
+/// The displacement of a loading stage [`ToDisplacement`](super::Move::ToDisplacement), at `loading.0.0` for the first
+/// stage.
+pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
+    .of("ToDisplacement")
+    .quantity("displacement of stage", "D", "m")
+    .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
+
+/// The fields of the targets of loading stages.
+pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
+
 impl Move {
     /// Field and value of the target, if the stage has a numeric target.
     pub fn field(&self) -> Option<(&'static Field, f64)> {
         match *self {
             Move::ToForce(force) => Some((&LEG_FORCE, force)),
             Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
+            Move::ToDisplacement(displacement) => Some((&LEG_DISPLACEMENT, displacement)),
             Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
         }
     }
@@ -215,6 +226,7 @@ pub fn stage_targets(loading: &[Move], format: fn(f64, &str) -> String) -> Strin
     let target = |stage: &Move| match *stage {
         Move::ToForce(force) => format(force, "N"),
         Move::ToIndentation(indentation) => format(indentation, "m"),
+        Move::ToDisplacement(displacement) => format!("D {}", format(displacement, "m")),
         Move::ToTouch => "touch".to_owned(),
         Move::ToZeroForce => "0 N".to_owned(),
         Move::ToSeparation => "separation".to_owned(),
@@ -224,6 +236,9 @@ pub fn stage_targets(loading: &[Move], format: fn(f64, &str) -> String) -> Strin
 
 /// A loading stage in RON, by its target.
 fn read_stage(target: &str) -> Result<String, QuantityError> {
+    if let Some(displacement) = target.strip_prefix("D ") {
+        return Ok(format!("ToDisplacement({})", parse_quantity(displacement, "m").map(ron_float)?));
+    }
     let quantity = |unit| parse_quantity(target, unit).map(ron_float);
     Ok(match target {
         "touch" => "ToTouch".to_owned(),
@@ -250,6 +265,8 @@ mod tests {
         for row in [
             "adhesion.work|50mJ/m2|0.05",
             "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToZeroForce, ToIndentation(-5.0e-9), ToSeparation]",
+            "loading|D 1 µm, D -50nm|[ToDisplacement(1.0e-6), ToDisplacement(-5.0e-8)]",
+            "loading_stiffness|40 mN/m|0.04",
             "adhesion.work| 50 mN/m |0.05",
             "adhesion|30 mJ/m²|(work: 0.03)",
             "adhesion|(kappa: 2.0)|(kappa: 2.0)",

@@ -43,7 +43,14 @@ const ROUGHNESS: Range = Choice(&[
     "Measured(file: \"line.csv\")",
 ]);
 const STAGES: Range = List {
-    of: &["ToForce(1.0e-5)", "ToIndentation(1.0e-7)", "ToTouch", "ToZeroForce", "ToSeparation"],
+    of: &[
+        "ToForce(1.0e-5)",
+        "ToIndentation(1.0e-7)",
+        "ToDisplacement(1.0e-7)",
+        "ToTouch",
+        "ToZeroForce",
+        "ToSeparation",
+    ],
     least: 1,
     most: 100_000,
 };
@@ -159,6 +166,8 @@ pub const FIELDS: &[Field] = &[
         .meaning("elastic energy that pressing the bodies flat takes, over the work of adhesion: adhesion is strong for small e_el/γ"),
     row("adhesion.range", Range::closed(1e-12, 1e-3)).quantity("range of attraction", "z₀", "m").default("None")
         .meaning("range of the attraction, for the Tabor number alone; default: 0.3 nm"),
+    row("loading_stiffness", Range::closed(1e-12, 1e12)).quantity("loading stiffness", "k", "N/m").default("None")
+        .meaning("stiffness of the instrument, such as a cantilever, that moves the body: D = d + F/k; default: rigid, D = d"),
     row("loading", STAGES).default("[ToZeroForce, ToSeparation]")
         .meaning("loading stages in their order, from separation"),
     row("numerics", Range::Group).default("()")
@@ -179,11 +188,11 @@ pub const FIELDS: &[Field] = &[
 
 #[cfg(test)]
 mod tests {
-    use super::super::field::{LEG_FORCE, LEG_INDENTATION};
+    use super::super::field::LEG_FIELDS;
     use super::*;
 
     fn all() -> impl Iterator<Item = &'static Field> {
-        FIELDS.iter().chain([&LEG_FORCE, &LEG_INDENTATION])
+        FIELDS.iter().chain(LEG_FIELDS)
     }
 
     #[test]

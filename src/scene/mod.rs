@@ -48,7 +48,7 @@ pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub(crate) use errors::{did_you_mean, nearest};
-pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step, stage_targets};
+pub use field::{Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, Step, stage_targets};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
 pub(crate) use library::built_in;
 pub use library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};

@@ -37,6 +37,9 @@ pub struct Scene {
     pub roughness: Option<Roughness>,
     /// Adhesion; `None`: no adhesion.
     pub adhesion: Option<Adhesion>,
+    /// Stiffness k of the instrument that moves the body, N/m; `None`: rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loading_stiffness: Option<f64>,
     /// Loading history from separation: consecutive loading stages.
     #[serde(default = "default_loading")]
     pub loading: Vec<Move>,

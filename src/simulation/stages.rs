@@ -3,7 +3,9 @@
 use super::loading::load;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
+use crate::analysis::{
+    Figures, Governing, InstrumentFigures, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number,
+};
 use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Patch, Springs, Work};
 use crate::memory::check_room;
 use crate::reference::smooth_adhesion_force;
@@ -236,7 +238,8 @@ impl Simulation {
         interrupted()?;
 
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
-        let contact = Contact::of(Arc::clone(&self.springs), edges, foundation, hess);
+        let contact = Contact::of(Arc::clone(&self.springs), edges, foundation, hess)
+            .with_loading_stiffness(scene.loading_stiffness.unwrap_or(f64::INFINITY));
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
@@ -293,6 +296,7 @@ impl Simulation {
             steep_waves: SteepWaves::of(scene, &governing),
             regime: regime(zero_load_adhesion_force),
             regime_after_zero_force: regime(zero_force_adhesion_force),
+            instrument: scene.loading_stiffness.map(|k| InstrumentFigures::of(&history, &figures, k)),
             figures,
             history,
             fragments,

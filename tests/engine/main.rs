@@ -8,6 +8,7 @@ mod body;
 mod closed_forms;
 mod equilibrium;
 mod hard_cases;
+mod instrument;
 mod large_lines;
 mod laws;
 mod levels;

@@ -6,7 +6,7 @@ use super::generated::{check, compare, pages_in, read, root};
 use super::program::{asperity_in, json, table};
 use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::explorer::keys;
-use asperity::scene::{Document, FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
+use asperity::scene::{Document, FIELDS, LEG_FIELDS, LEG_FORCE, Range, presets};
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Plan, Quantity};
 use std::path::{Path, PathBuf};
@@ -66,7 +66,7 @@ fn tables_are_those_of_the_program() {
         [format!("`{}`", preset.name), document.scene().notice.clone()]
     });
     check("docs/scene-file.md", "scenes", &markdown(["scene", "what it shows"], scenes));
-    let legs = [&LEG_FORCE, &LEG_INDENTATION];
+    let legs = LEG_FIELDS;
     let fields = FIELDS.iter().chain(legs).filter(|field| field.range != Range::Group).map(|field| {
         let of = field.variant.map_or(String::new(), |variant| format!(" ({variant})"));
         let code = |text: &str| if text.is_empty() { String::new() } else { format!("`{text}`") };

@@ -179,7 +179,7 @@ static TABLE: &[Entry] = &[
     row("|", EXPLORE, "pin-other-use", Do(compare::pin_other_use), "", "keep this loop and take the other use of a measured profile: itself, or its equivalent line", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
 
-    row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next()), "", "plot force, contact length or number of contact patches", LOOK),
+    row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force over d, or over D of an instrument that is not rigid; contact length; number of contact patches", LOOK),
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
     row("a", EXPLORE, "toggle-loss", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
     row("n", EXPLORE, "next-patch", Do(|app| look::go_to_fragment(app, Focus::After)), "fragment", "show the next contact patch", LOOK),

@@ -89,6 +89,13 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
         Move::ToForce(force) => is_at(force),
         Move::ToZeroForce => is_at(0.0),
         Move::ToIndentation(indentation) => end.indentation == indentation,
+        Move::ToDisplacement(at) => match outcome.instrument {
+            Some(instrument) if end.springs > 0 => {
+                let error = (end.displacement(instrument.stiffness) - at).abs();
+                error <= rounding / instrument.stiffness + ROUNDING * (at.abs() + end.indentation.abs())
+            }
+            _ => end.indentation == at,
+        },
         Move::ToTouch => end.indentation == 0.0,
         Move::ToSeparation => (end.springs, end.fragments) == (0, 0),
     };
