@@ -188,6 +188,9 @@ impl Field {
             let stages = typed.split(',').map(|stage| read_stage(stage.trim()));
             return Ok(format!("[{}]", stages.collect::<Result<Vec<_>, _>>()?.join(", ")));
         }
+        if self.path == "form" && is_file_name(typed) {
+            return Ok(format!("Table(file: {})", ron_string(typed)));
+        }
         let is_omitted = self.range == FILE_NAME && (typed.is_empty() || typed == "None");
         let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
         if matches!(self.range, Range::Text { .. }) && !is_omitted && !is_quoted {

@@ -116,7 +116,10 @@ impl Simulation {
         // Measured heights are already in metres.
         let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough.and_then(|rough| rough.modes);
-        let key = LineKey { roughness, scale, length, points, form: scene.form };
+        if let Some(form) = &scene.form {
+            form.load(self.maker.folder(), length)?;
+        }
+        let key = LineKey { roughness, scale, length, points, form: scene.form.clone() };
         if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
             let line = self.lay_line(scene, &key)?;
             self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));

@@ -18,3 +18,4 @@ mod scene;
 mod simulation;
 mod stepwise;
 mod sums;
+mod table;
