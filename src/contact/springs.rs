@@ -121,6 +121,11 @@ impl Contact {
         self.loading_stiffness / self.foundation.spring_stiffness()
     }
 
+    /// The same springs and edges on another foundation under another rule.
+    pub(crate) fn with_rule(&self, foundation: Foundation, hess: Option<HessRule>) -> Self {
+        Self::of(Arc::clone(&self.springs), self.edges, foundation, hess)
+    }
+
     /// Springs along the line.
     pub fn springs(&self) -> &Arc<Springs> {
         &self.springs

@@ -246,6 +246,15 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
+    /// Contact of a checked scene before its loading, and its governing parameters.
+    ///
+    /// # Errors
+    /// Insufficient memory or an unreadable measured profile.
+    pub(crate) fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
+        let made = self.prepare(&Plan::of(scene), scene, &|| false)?;
+        Ok((made.contact, made.governing))
+    }
+
     /// Runs a checked scene by its plan. `stop` is polled now and then; `after` sees each stage of the scene's own
     /// loading.
     ///
