@@ -20,7 +20,7 @@ Examples:
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
-retraction. Parameters: work, closing_work, modulus, offset, zero, stiffness, radius.";
+retraction. docs/experiment.md lists the parameters.";
 
 /// Arguments of `fit`.
 #[derive(Args, Debug)]

@@ -3,7 +3,6 @@
 mod baseline;
 mod bootstrap;
 mod curve;
-mod displacement;
 mod error;
 mod fit;
 mod model;

@@ -1,8 +1,8 @@
 //! The force that a scene has at the measured displacements, for any values of its parameters.
 
-use super::displacement::DisplacementCurve;
 use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
+use crate::analysis::DisplacementCurve;
 use crate::contact::{Contact, ContactError, CurvePoint, Direction, Foundation, HessRule, Leg};
 use crate::scene::{Form, Scene};
 use crate::simulation::Simulation;
@@ -35,7 +35,7 @@ impl<'a> Model<'a> {
         let radius = values[Parameter::Radius as usize];
         if self.contact.as_ref().is_none_or(|(_, made)| *made != radius) {
             self.contact = None;
-            if let Some(of) = self.scene.form.as_mut().and_then(radius_of) {
+            if let Some(of) = self.scene.form.as_mut().and_then(Form::radius_mut) {
                 *of = radius;
             }
             self.contact = Some((self.simulation.contact(&self.scene)?.0, radius));
@@ -161,14 +161,4 @@ fn over(
         Direction::Unloading => points.iter().rev().copied().chain(free).collect(),
     };
     DisplacementCurve::new(direction, &points, stiffness)
-}
-
-/// Radius of a form that has one.
-pub(super) fn radius_of(form: &mut Form) -> Option<&mut f64> {
-    match form {
-        Form::Paraboloid { radius } | Form::WavySphere { radius, .. } | Form::Punch { radius } => {
-            Some(radius)
-        }
-        _ => None,
-    }
 }

@@ -1,6 +1,5 @@
 //! The scene of a fit: the values from which a search begins, and the document with those found.
 
-use super::model::radius_of;
 use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
 use crate::analysis::Governing;
@@ -17,13 +16,26 @@ fn change(path: &str, value: f64) -> Change {
 pub(super) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let closing = governing.closing_work.unwrap_or(work);
-    let radius = scene.form.and_then(|mut form| radius_of(&mut form).copied()).unwrap_or(0.0);
-    [work, closing, governing.effective_modulus, 0.0, 0.0, stiffness_of(scene), radius]
+    let radius = radius_of(scene).unwrap_or(0.0);
+    [
+        work,
+        closing,
+        governing.effective_modulus,
+        0.0,
+        0.0,
+        scene.loading_stiffness.unwrap_or(f64::INFINITY),
+        radius,
+    ]
 }
 
-/// Stiffness of the instrument of a scene, N/m; infinite if it is rigid.
-fn stiffness_of(_scene: &Scene) -> f64 {
-    f64::INFINITY
+/// Radius of the form of a scene, m, if it has one.
+pub(super) fn radius_of(scene: &Scene) -> Option<f64> {
+    scene.form.clone()?.radius_mut().copied()
+}
+
+/// Largest work of adhesion on closing that a scene allows, J/m².
+pub(super) fn most_on_closing(scene: &Scene) -> f64 {
+    scene.adhesion.and_then(|adhesion| adhesion.closing_work).unwrap_or(f64::INFINITY)
 }
 
 /// The document with works of adhesion in place of κ or e_el/γ, and with the amplitude of the roughness that these set.
@@ -74,7 +86,7 @@ pub(super) fn with_values(
     let turns = curve.turns();
     let stages: String = turns[..turns.len() - 1]
         .iter()
-        .map(|turn| format!("ToIndentation({}), ", ron_float(turn - values[Parameter::Offset as usize])))
+        .map(|turn| format!("ToDisplacement({}), ", ron_float(turn - values[Parameter::Offset as usize])))
         .collect();
     let loading = ("loading".to_owned(), format!("[{stages}ToSeparation]"));
     let changes: Vec<Change> =

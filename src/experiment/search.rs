@@ -52,7 +52,7 @@ pub(super) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
     /// Largest work of adhesion on closing, J/m².
-    pub closing_work: f64,
+    pub most_on_closing: f64,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
@@ -65,7 +65,7 @@ impl Space<'_> {
             values[coordinate.parameter as usize] = coordinate.value(at, &values);
             if coordinate.parameter == Parameter::Work {
                 let work = values[Parameter::Work as usize];
-                values[Parameter::ClosingWork as usize] = work.min(self.closing_work);
+                values[Parameter::ClosingWork as usize] = work.min(self.most_on_closing);
             }
         }
         values

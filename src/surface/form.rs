@@ -129,6 +129,16 @@ impl Form {
         }
     }
 
+    /// Radius that scales the form, m; `None` for all but spheres and punches.
+    pub(crate) fn radius_mut(&mut self) -> Option<&mut f64> {
+        match self {
+            Form::Paraboloid { radius } | Form::WavySphere { radius, .. } | Form::Punch { radius } => {
+                Some(radius)
+            }
+            _ => None,
+        }
+    }
+
     /// Curvature at the summit, 1/m; `None` for cones and power laws, and for tables alike, which have none or none at their
     /// tip.
     pub(crate) fn summit_curvature(&self) -> Option<f64> {
