@@ -36,6 +36,7 @@ pub struct ContactBuilder<'p> {
     effective_modulus: f64,
     work: f64,
     closing_work: Option<f64>,
+    loading_stiffness: f64,
     edges: Edges,
     samples: usize,
 }
@@ -53,8 +54,9 @@ impl Contact {
     #[must_use]
     pub fn builder(profile: &Profile, material: Material) -> ContactBuilder<'_> {
         let effective_modulus = material.effective_modulus();
-        let edges = Edges::SubCell;
-        ContactBuilder { profile, effective_modulus, work: 0.0, closing_work: None, edges, samples: 512 }
+        let (edges, loading_stiffness) = (Edges::SubCell, f64::INFINITY);
+        let (work, closing_work, samples) = (0.0, None, 512);
+        ContactBuilder { profile, effective_modulus, work, closing_work, loading_stiffness, edges, samples }
     }
 
     /// Loads the separated body, one loading stage after the other.
@@ -101,6 +103,13 @@ impl ContactBuilder<'_> {
         ContactBuilder { closing_work: Some(work), ..self }
     }
 
+    /// Stiffness k of the instrument that moves the body, N/m; by default infinite, a rigid one. Stages
+    /// [`Move::ToDisplacement`] then prescribe D = d + F/k; see [`crate::analysis::DisplacementCurve`].
+    #[must_use]
+    pub fn loading_stiffness(self, stiffness: f64) -> Self {
+        ContactBuilder { loading_stiffness: stiffness, ..self }
+    }
+
     /// Edge model of the contact patches.
     #[must_use]
     pub fn edges(self, edges: Edges) -> Self {
@@ -118,7 +127,7 @@ impl ContactBuilder<'_> {
     /// # Errors
     /// [`Error::Value`] for a value out of range, [`Error::Run`] without enough memory.
     pub fn build(self) -> Result<Contact, Error> {
-        let ContactBuilder { profile, effective_modulus, work, edges, samples, .. } = self;
+        let ContactBuilder { profile, effective_modulus, work, loading_stiffness, edges, samples, .. } = self;
         let closing = self.closing_work.unwrap_or(work);
         let positive = |value: f64| value.is_finite() && value > 0.0;
         let refuse = |name, value, allowed| Err(Error::Value { name, value, allowed });
@@ -131,10 +140,14 @@ impl ContactBuilder<'_> {
         if !(0.0..=work).contains(&closing) {
             return refuse("closing work", closing, "from 0 J/m² to the work of adhesion");
         }
+        if loading_stiffness.is_nan() || loading_stiffness <= 0.0 {
+            return refuse("loading stiffness", loading_stiffness, "above 0 N/m, infinite: rigid");
+        }
         let foundation =
             Foundation { spacing: profile.spacing(), effective_modulus, length: profile.length() };
         let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
-        let contact = contact::Contact::new(Arc::clone(&profile.line.gaps), edges, foundation, hess);
+        let contact = contact::Contact::new(Arc::clone(&profile.line.gaps), edges, foundation, hess)
+            .with_loading_stiffness(loading_stiffness);
         if hess.is_some() {
             contact.springs().tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
         }

@@ -79,7 +79,12 @@ pub fn smooth_adhesion_force(form: Option<&Form>, length: f64, effective_modulus
     let Some(form) = form.map(|form| form.without_waves()) else { return flat };
     let of_shape = match form.flat_end() {
         Some(radius) => Some(flat_punch(radius, effective_modulus, work)),
-        None => PowerLaw::of(&form, effective_modulus, work).map(|body| -body.force_controlled_pull_off().1),
+        None => match form.table() {
+            Some(table) => table.adhesion_force(0.5 * length, effective_modulus, work),
+            None => {
+                PowerLaw::of(&form, effective_modulus, work).map(|body| -body.force_controlled_pull_off().1)
+            }
+        },
     };
     of_shape.map_or(flat, |force| force.min(flat))
 }

@@ -64,7 +64,9 @@ impl SteepWaves {
 
     /// Finds the waves of an adhesive scene that are too steep; `None` for any other scene.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
-        let Some(Form::WavySphere { radius, amplitude, wavelength }) = scene.form else { return None };
+        let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
+            return None;
+        };
         let stretch = governing.adhesive_work()? / governing.effective_modulus;
         let ratio = wavelength.powi(2) / (amplitude * radius);
         let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);

@@ -1,7 +1,7 @@
 //! Arguments of the program.
 
 use super::{
-    check, compare, completions, config, cost, demo, explore, line, plan, presets, reversals, run,
+    check, compare, completions, config, cost, demo, explore, fit, line, plan, presets, reversals, run,
     sensitivity, surface, sweep,
 };
 use clap::{Parser, Subcommand};
@@ -52,6 +52,8 @@ pub enum Command {
     Reversals(reversals::ReversalsArguments),
     /// Change each number of a scene by 10 %: adhesion force, adhesion without a preload, dissipated energy
     Sensitivity(sensitivity::SensitivityArguments),
+    /// Fit a scene to a measured force curve: work of adhesion and other parameters with errors
+    Fit(fit::FitArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(demo::DemoArguments),
     /// List the computing stages of a scene with their cost, and those it skips

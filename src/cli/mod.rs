@@ -12,6 +12,7 @@ mod cost;
 mod demo;
 mod error;
 mod explore;
+mod fit;
 mod line;
 mod output;
 mod plan;
@@ -114,6 +115,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Compare(arguments)) => compare::compare(arguments, stdout),
         Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),
         Some(Command::Sensitivity(arguments)) => sensitivity::sensitivity(arguments, stdout),
+        Some(Command::Fit(arguments)) => fit::fit(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),
         Some(Command::Sweep(arguments)) => sweep::sweep(arguments, stdout),

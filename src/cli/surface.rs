@@ -168,6 +168,7 @@ impl SurfaceArguments {
             form: None,
             roughness: Some(Roughness::Measured(measured)),
             adhesion: self.work.map(Adhesion::by_work),
+            loading_stiffness: None,
             loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
             numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
             observe: Vec::new(),

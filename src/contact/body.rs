@@ -80,7 +80,7 @@ impl Body {
     pub fn move_to(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let Some(motion) = self.plan(target)? else { return Ok(None) };
         let state = match (motion.leg.direction(), motion.goal) {
-            (Direction::Unloading, Goal::Separation) => ContactState::free(motion.low),
+            (Direction::Unloading, Goal::Separation(at)) => ContactState::free(at.unwrap_or(motion.low)),
             (Direction::Unloading, _) => motion.leg.state(motion.low)?,
             (Direction::Loading, _) => motion.leg.state(motion.high)?,
         };
@@ -115,7 +115,8 @@ impl Body {
 
     /// Finds the motion to a target.
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
-        let Some((direction, goal)) = plan(target, self.point())? else { return Ok(None) };
+        let stiffness = self.leg.contact().loading_stiffness;
+        let Some((direction, goal)) = plan(target, self.point(), stiffness)? else { return Ok(None) };
         let (at, separated) = (self.state.indentation, self.is_separated());
         if let (Goal::Indentation(to), true) = (goal, separated)
             && to < 0.0
@@ -127,11 +128,7 @@ impl Body {
         let leg = self.leg_in(direction)?;
         // Nothing touches below d = 0.
         let from = if separated { at.max(0.0) } else { at };
-        let to = match goal {
-            Goal::Indentation(indentation) => indentation,
-            Goal::Separation => leg.end().min(from),
-            Goal::Force(force) => leg.reach_force(force, from, &mut self.work)?,
-        };
+        let (to, goal) = leg.reach(goal, from, &mut self.work)?;
         let (low, high) = if direction == Direction::Loading { (from, to) } else { (to, from) };
         Ok(Some(Motion { leg, low, high, goal }))
     }
@@ -149,7 +146,7 @@ impl Body {
         let Motion { leg, low, high, goal } = motion;
         let (before, touches) = (self.point(), self.is_separated());
         let loads = leg.direction() == Direction::Loading;
-        let separates = !loads && matches!(goal, Goal::Separation);
+        let separates = !loads && matches!(goal, Goal::Separation(_));
         // A loading to a force needs no search: the force is below its target until then.
         let ends_at_largest = loads && matches!(goal, Goal::Force(_));
         let (grid, stride) =
@@ -161,14 +158,24 @@ impl Body {
             in_parallel(is_long, || leg.sample(grid), || leg.squared_stretch(from, high));
         let sampled = sampled?;
         let last = sampled.len() - 1;
-        self.state = match (loads, separates) {
+        let work = &mut self.work;
+        // Where an instrument that is not rigid loses the contact.
+        let loosest = match loads || leg.contact().loading_stiffness.is_infinite() {
+            true => None,
+            false => Some(leg.least_displaced(&sampled, work)?.point(leg.contact().foundation)),
+        };
+        self.state = match (loads, goal) {
             (true, _) => sampled[last],
-            (false, true) => ContactState::free(low),
-            (false, false) => sampled[0],
+            (false, Goal::Separation(at)) => {
+                let lost = || loosest.map(|point| point.displacement(leg.contact().loading_stiffness));
+                ContactState::free(at.or_else(lost).unwrap_or(low))
+            }
+            (false, _) => sampled[0],
         };
         let chosen = sampled.iter().enumerate();
         let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
-        let curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
+        let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
+        loosest.into_iter().for_each(|point| LegRecord::insert(&mut curve, point));
         let work = &mut self.work;
         let extremes = if loads {
             let largest =

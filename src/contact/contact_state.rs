@@ -48,6 +48,17 @@ impl ContactState {
         ContactState { indentation, ..ContactState::default() }
     }
 
+    /// The contact with this number of springs beside it that are compressed by the indentation: their force is
+    /// F + k d. An instrument of stiffness k, displaced by D, holds the body where that force is k D.
+    #[inline]
+    pub fn beside(&self, springs: f64) -> Self {
+        if springs == 0.0 {
+            return *self;
+        }
+        let compression = self.compression + springs * self.indentation;
+        ContactState { compression, length: self.length + springs, ..*self }
+    }
+
     /// The point of the curve on this foundation.
     pub fn point(&self, foundation: Foundation) -> CurvePoint {
         CurvePoint {

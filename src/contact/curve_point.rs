@@ -28,3 +28,10 @@ pub struct CurvePoint {
     /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
     pub stored_energy: f64,
 }
+
+impl CurvePoint {
+    /// Displacement D = d + F/k, m, of an instrument of this stiffness k, N/m, that holds the body here.
+    pub fn displacement(&self, stiffness: f64) -> f64 {
+        self.indentation + self.force / stiffness
+    }
+}

@@ -10,8 +10,8 @@ pub struct LegRecord {
     pub target: Move,
     /// Direction of the motion.
     pub direction: Direction,
-    /// The curve along the leg: its samples, and the point of the smallest force of an unloading leg. A jump into or
-    /// out of contact has the points before and after.
+    /// The curve along the leg: its samples, and the points of the smallest force and the smallest displacement of an
+    /// unloading leg. A jump into or out of contact has the points before and after.
     pub curve: Vec<CurvePoint>,
     /// Largest force on the leg, exact to rounding (loading legs).
     pub largest: CurvePoint,
@@ -49,6 +49,14 @@ impl LegRecord {
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
 
+    /// Inserts a point into an ascending curve, unless the curve has one there.
+    pub(super) fn insert(curve: &mut Vec<CurvePoint>, point: CurvePoint) {
+        let place = curve.partition_point(|other| other.indentation < point.indentation);
+        if curve.get(place).is_none_or(|other| other.indentation > point.indentation) {
+            curve.insert(place, point);
+        }
+    }
+
     /// Records a motion in a direction: ascending points of its curve, its smallest and largest force, the body before
     /// and after it, and the released elastic energy, J.
     pub(super) fn moved(
@@ -61,10 +69,7 @@ impl LegRecord {
         let changed = after.springs.abs_diff(before.springs);
         let (attached, detached) = if direction == Direction::Loading { (changed, 0) } else { (0, changed) };
         if direction == Direction::Unloading {
-            let place = curve.partition_point(|point| point.indentation < smallest.indentation);
-            if curve.get(place).is_none_or(|point| point.indentation > smallest.indentation) {
-                curve.insert(place, smallest);
-            }
+            LegRecord::insert(&mut curve, smallest);
             curve.reverse();
         }
         let free = |indentation| CurvePoint { indentation, ..CurvePoint::default() };
@@ -75,6 +80,8 @@ impl LegRecord {
         }
         if after.springs == 0 && end.springs > 0 {
             curve.push(free(end.indentation));
+            // The instrument, no longer deflected, moves the free body on.
+            curve.extend(Some(after).filter(|after| after.indentation < end.indentation));
         }
         LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
     }

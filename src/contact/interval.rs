@@ -27,6 +27,8 @@ pub struct Piece {
 /// Part of a leg between two indentations, with its events.
 pub struct Interval {
     slides: bool,
+    /// Springs of the instrument beside the contact; see [`ContactState::beside`].
+    instrument: f64,
     scale: GapScale,
     /// First its contact at the lowest indentation; then, once sorted, its events.
     steps: Rc<Vec<Step>>,
@@ -40,11 +42,11 @@ pub struct Interval {
 pub struct Intervals(Vec<Interval>);
 
 impl Intervals {
-    /// Takes intervals between the contact at their ends.
-    pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale) -> Self {
+    /// Takes intervals between the contact at their ends, with springs of an instrument beside it.
+    pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let of = |&[low, high]: &[ContactState; 2]| {
             let steps = Rc::new(vec![Step { threshold: low.indentation, totals: low.totals }]);
-            Interval { slides, scale, steps, pieces: Vec::new(), low, high }
+            Interval { slides, instrument, scale, steps, pieces: Vec::new(), low, high }
         };
         Intervals(ends.iter().map(of).collect())
     }
@@ -134,13 +136,14 @@ impl Interval {
         let mut edges = EdgeSum::default();
         self.sliders(from).for_each(|slider| edges.add(slider.edge_cells(at)));
         ContactState::new(self.slides, at, self.totals(from), edges.total(), &self.scale)
+            .beside(self.instrument)
     }
 
     /// Growth of the compression of the contact from the lower end on with the indentation, in cells.
     fn stiffness(&self, at: f64) -> f64 {
         let from = self.low.indentation;
         let edges: f64 = self.sliders(from).map(|slider| slider.stiffness(at)).sum();
-        self.totals(from).whole(self.slides) as f64 + edges
+        self.totals(from).whole(self.slides) as f64 + edges + self.instrument
     }
 
     /// Indentation of the smallest force of the contact from the lower end on, up to `last`, m.

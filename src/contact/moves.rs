@@ -9,6 +9,9 @@ pub enum Move {
     ToForce(f64),
     /// To this indentation, m (0 at first touch).
     ToIndentation(f64),
+    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, k the loading stiffness of the
+    /// contact. Of a rigid instrument D is the indentation.
+    ToDisplacement(f64),
     /// To the indentation of first touch, d = 0.
     ToTouch,
     /// Until the force is zero; from separation, beyond touch until the force is back at zero.

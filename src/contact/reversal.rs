@@ -46,9 +46,10 @@ impl Body {
         let loading = self.leg_in(Direction::Loading)?;
         let mut turns = Vec::with_capacity(targets.len());
         for (index, &target) in targets.iter().enumerate() {
-            let at = match plan(target, CurvePoint::default()) {
-                Ok(Some((_, Goal::Force(force)))) => loading.reach_force(force, 0.0, &mut self.work),
-                Ok(Some((_, Goal::Indentation(at)))) if at >= 0.0 => Ok(at),
+            let at = match plan(target, CurvePoint::default(), loading.contact().loading_stiffness) {
+                Ok(Some((Direction::Loading, goal))) => {
+                    loading.reach(goal, 0.0, &mut self.work).map(|(at, _)| at)
+                }
                 Ok(_) => Err(ContactError::NoContact),
                 Err(reason) => Err(reason),
             };
@@ -70,12 +71,12 @@ impl Body {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
         loading.count(&mut self.work);
-        let balanced = loading.reach_force(0.0, 0.0, &mut self.work);
+        let balanced = loading.reach(Goal::Force(0.0), 0.0, &mut self.work);
         let mut adhesion = |at| Ok(self.reverse(&loading, loading.state(at)?, &[])?.adhesion_force());
         let at_touch = adhesion(0.0)?;
         let at_zero_force = match balanced {
             Err(ContactError::OutOfReach) => None,
-            at => adhesion(at?)?,
+            at => adhesion(at?.0)?,
         };
         // The passes for F_a(0) count separately.
         let work = &mut self.work;

@@ -22,6 +22,8 @@ pub struct Contact {
     pub(super) foundation: Foundation,
     pub(super) edges: Edges,
     pub(super) hess: Option<HessRule>,
+    /// Stiffness k of the instrument that moves the body, N/m; infinite: rigid.
+    pub(super) loading_stiffness: f64,
     closing: Arc<OnceLock<Closing>>,
 }
 
@@ -100,7 +102,28 @@ impl Contact {
 
     /// Creates a contact of springs that other contacts may share.
     pub fn of(springs: Arc<Springs>, edges: Edges, foundation: Foundation, hess: Option<HessRule>) -> Self {
-        Contact { springs, foundation, edges, hess, closing: Arc::default() }
+        let loading_stiffness = f64::INFINITY;
+        Contact { springs, foundation, edges, hess, loading_stiffness, closing: Arc::default() }
+    }
+
+    /// The same contact under an instrument of this stiffness, N/m, above zero; infinite: rigid.
+    #[must_use]
+    pub fn with_loading_stiffness(self, loading_stiffness: f64) -> Self {
+        Contact { loading_stiffness, ..self }
+    }
+
+    /// Stiffness of the instrument in units of the stiffness of one spring; zero for a rigid one, whose displacement is
+    /// the indentation.
+    pub(super) fn instrument_springs(&self) -> f64 {
+        if self.loading_stiffness.is_infinite() {
+            return 0.0;
+        }
+        self.loading_stiffness / self.foundation.spring_stiffness()
+    }
+
+    /// The same springs and edges on another foundation under another rule.
+    pub(crate) fn with_rule(&self, foundation: Foundation, hess: Option<HessRule>) -> Self {
+        Self::of(Arc::clone(&self.springs), self.edges, foundation, hess)
     }
 
     /// Springs along the line.

@@ -161,8 +161,8 @@ impl<'a> Stepwise<'a> {
             Goal::Force(force) if direction == Direction::Loading => {
                 force / (self.contact.foundation.spring_stiffness() * self.holds.len() as f64)
             }
-            Goal::Force(_) => start,
-            Goal::Separation => -self.contact.rule().stretch(Direction::Unloading),
+            Goal::Force(_) | Goal::Displacement(_) => start,
+            Goal::Separation(_) => -self.contact.rule().stretch(Direction::Unloading),
         };
         if !end.is_finite() {
             return Err(ContactError::OutOfReach);
@@ -221,7 +221,7 @@ impl<'a> Stepwise<'a> {
                     return Err(ContactError::DetachesBefore { smallest: smallest.force });
                 }
                 Goal::Force(force) => point.force <= force,
-                Goal::Separation => !holds,
+                Goal::Separation(_) | Goal::Displacement(_) => !holds,
             };
             if reached {
                 break;
@@ -247,7 +247,8 @@ impl<'a> Stepwise<'a> {
 impl Solver for Stepwise<'_> {
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let here = self.point();
-        match plan(target, here)? {
+        // Its instrument is rigid: no goal is a displacement.
+        match plan(target, here, f64::INFINITY)? {
             None => Ok(LegRecord::still(target, here)),
             Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
                 self.state.indentation = end;

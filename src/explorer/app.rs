@@ -364,6 +364,11 @@ impl App {
         self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
     }
 
+    /// Returns true for a shown scene whose instrument is not rigid.
+    pub fn deflects(&self) -> bool {
+        self.solved.as_ref().is_some_and(|computed| computed.outcome.instrument.is_some())
+    }
+
     /// Returns a force of the shown scene, N; zero where it is a rounding error of the largest marked force, as after a
     /// stage to zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! The chart of force loops: the same in figures of scenes and in the explorer.
 
-use crate::analysis::{Mark, marks};
+use crate::analysis::{DisplacementCurve, DisplacementPoint, Mark, marks};
 use crate::contact::{CurvePoint, Direction, LegRecord};
 use crate::draw::{
     Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
@@ -12,15 +12,21 @@ use crate::simulation::Outcome;
 pub enum LoopQuantities {
     #[default]
     ForceIndentation,
+    /// Force over the displacement of the instrument.
+    ForceDisplacement,
     LengthForce,
     /// Number of contact patches over indentation.
     FragmentsIndentation,
 }
 
 impl LoopQuantities {
-    pub fn next(self) -> Self {
+    /// The next quantities, with displacements where an instrument `deflects`.
+    pub fn next(self, deflects: bool) -> Self {
         match self {
-            LoopQuantities::ForceIndentation => LoopQuantities::LengthForce,
+            LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
+            LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => {
+                LoopQuantities::LengthForce
+            }
             LoopQuantities::LengthForce => LoopQuantities::FragmentsIndentation,
             LoopQuantities::FragmentsIndentation => LoopQuantities::ForceIndentation,
         }
@@ -31,6 +37,8 @@ impl LoopQuantities {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoopUnits {
     quantities: LoopQuantities,
+    /// Loading stiffness, N/m; `None`: rigid.
+    stiffness: Option<f64>,
     /// RMS height h, m.
     indentation: Option<f64>,
     /// Ideal adhesion force F_a,max, N.
@@ -46,7 +54,8 @@ struct Quantity {
     symbol: &'static str,
     unit: &'static str,
     over: Option<(f64, &'static str)>,
-    of: fn(&CurvePoint) -> f64,
+    /// Its value at a point, with a loading stiffness, N/m.
+    of: fn(&CurvePoint, f64) -> f64,
 }
 
 impl Quantity {
@@ -61,26 +70,39 @@ impl LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
 
-    /// The parameters of a scene that it has; else SI units.
-    pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome) -> LoopUnits {
-        let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
+    /// With the instrument of a scene, and with the parameters that the scene has where the chart is `normalised`; else SI
+    /// units.
+    pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
+        let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
         LoopUnits {
+            stiffness: outcome.instrument.map(|instrument| instrument.stiffness),
             quantities,
             indentation: positive(outcome.governing.amplitude.map(|amplitude| amplitude.rms_height)),
             force: positive(outcome.ideal_adhesion_force),
-            length: Some(outcome.line.length),
+            length: positive(Some(outcome.line.length)),
         }
     }
 
     /// Place of a point of a curve in the chart.
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
-        let [x, y] = self.quantities().map(|one| (one.of)(point) / one.over.map_or(1.0, |(over, _)| over));
+        let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
+        let [x, y] =
+            self.quantities().map(|one| (one.of)(point, stiffness) / one.over.map_or(1.0, |(over, _)| over));
         (x, y)
     }
 
-    /// Indentation at a number on the horizontal axis, m; `None` where that axis shows the force.
+    /// Returns true for a mark on the curve: an instrument that is not rigid jumps over states of contact.
+    pub fn shows(&self, mark: Mark) -> bool {
+        self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
+    }
+
+    /// Indentation at a number on the horizontal axis, m; `None` where that axis shows another quantity.
     pub fn indentation(&self, x: f64) -> Option<f64> {
-        (self.quantities != LoopQuantities::LengthForce).then(|| x * self.indentation.unwrap_or(1.0))
+        let is_over_indentation = matches!(
+            self.quantities,
+            LoopQuantities::ForceIndentation | LoopQuantities::FragmentsIndentation
+        );
+        is_over_indentation.then(|| x * self.indentation.unwrap_or(1.0))
     }
 
     /// Symbols of the horizontal and the vertical quantity: `d` and `F`, `d/h` and `F/F_a,max`.
@@ -94,12 +116,15 @@ impl LoopUnits {
         let one = |name, symbol, unit, over, of| Quantity { name, symbol, unit, over, of };
         let over = |value: Option<f64>, symbol| value.map(|value| (value, symbol));
         let indentation =
-            one("indentation", "d", "m", over(self.indentation, "h"), |point| point.indentation);
-        let force = one("force", "F", "N", over(self.force, "F_a,max"), |point| point.force);
-        let length = one("contact length", "l", "m", over(self.length, "L"), |point| point.contact_length);
-        let patches = one("contact patches", "n", "1", None, |point| point.fragments as f64);
+            one("indentation", "d", "m", over(self.indentation, "h"), |point, _| point.indentation);
+        let displacement =
+            one("displacement", "D", "m", over(self.indentation, "h"), CurvePoint::displacement);
+        let force = one("force", "F", "N", over(self.force, "F_a,max"), |point, _| point.force);
+        let length = one("contact length", "l", "m", over(self.length, "L"), |point, _| point.contact_length);
+        let patches = one("contact patches", "n", "1", None, |point, _| point.fragments as f64);
         match self.quantities {
             LoopQuantities::ForceIndentation => [indentation, force],
+            LoopQuantities::ForceDisplacement => [displacement, force],
             LoopQuantities::LengthForce => [force, length],
             LoopQuantities::FragmentsIndentation => [indentation, patches],
         }
@@ -110,8 +135,8 @@ impl LoopUnits {
         let x = Span::around(places.iter().map(|place| place.0), 0.06);
         let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
         // There is no negative length or number.
-        let low = if self.quantities == LoopQuantities::ForceIndentation { y.low } else { 0.0 };
         let [across, up] = self.quantities();
+        let low = if up.symbol == "F" { y.low } else { 0.0 };
         [(x, across), (Span { low, ..y }, up)].map(|(span, one)| {
             let (symbol, unit) = one.symbol_and_unit();
             Axis::new(AxisScale::Linear, span, one.name, &symbol, unit)
@@ -124,6 +149,8 @@ impl LoopUnits {
 pub struct ForceLoop<'a> {
     /// Curves with their directions.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
+    /// Stiffness of the instrument that passes parts of them in jumps, N/m; `None`: no jumps.
+    pub stiffness: Option<f64>,
     /// Remarkable points; those of a loop without a name are in the legend.
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name in the legend.
@@ -138,7 +165,46 @@ impl<'a> ForceLoop<'a> {
     /// The loop of a loading history with its marks.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
-        ForceLoop { curves, marks: marks(legs), name: None, forces: true, ink: None, stroke: None }
+        ForceLoop {
+            curves,
+            stiffness: None,
+            marks: marks(legs),
+            name: None,
+            forces: true,
+            ink: None,
+            stroke: None,
+        }
+    }
+
+    /// The loop of an outcome with its marks.
+    pub fn of_outcome(outcome: &'a Outcome) -> ForceLoop<'a> {
+        let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
+        ForceLoop { stiffness, ..ForceLoop::new(&outcome.history.legs) }
+    }
+
+    /// Lines of the curves with their directions, and true for a jump of the instrument.
+    fn lines(&self, units: LoopUnits) -> Vec<(Direction, Vec<(f64, f64)>, bool)> {
+        let units = LoopUnits { stiffness: self.stiffness.or(units.stiffness), ..units };
+        let mut lines = Vec::new();
+        for &(direction, curve) in &self.curves {
+            match self.stiffness.filter(|_| units.quantities == LoopQuantities::ForceDisplacement) {
+                None => {
+                    lines.push((direction, curve.iter().map(|point| units.place(point)).collect(), false))
+                }
+                Some(stiffness) => {
+                    let curve = DisplacementCurve::new(direction, curve, stiffness);
+                    let place = |&DisplacementPoint { indentation, force, .. }: &DisplacementPoint| {
+                        units.place(&CurvePoint { indentation, force, ..CurvePoint::default() })
+                    };
+                    let line = |part: &[DisplacementPoint], jumps| {
+                        (direction, part.iter().map(place).collect(), jumps)
+                    };
+                    lines.extend(curve.steady_parts().map(|part| line(part, false)));
+                    lines.extend(curve.jumps().map(|part| line(part, true)));
+                }
+            }
+        }
+        lines
     }
 
     fn layers(&self, units: LoopUnits) -> Vec<Layer> {
@@ -156,12 +222,13 @@ impl<'a> ForceLoop<'a> {
                 Some(_) => Label::default(),
             };
             let (ink, stroke) = (self.ink.unwrap_or(ink), self.stroke.unwrap_or(stroke));
-            for (_, curve) in self.curves.iter().filter(|curve| curve.0 == direction) {
-                let points = curve.iter().map(|point| units.place(point)).collect();
-                layers.push(Layer::new(name.clone(), ink, Shape::line(points, stroke)));
+            for (_, points, jumps) in self.lines(units).into_iter().filter(|line| line.0 == direction) {
+                let (name, stroke) =
+                    if jumps { (Label::default(), Stroke::Dashed) } else { (name.clone(), stroke) };
+                layers.push(Layer::new(name, ink, Shape::line(points, stroke)));
             }
         }
-        for (mark, point) in &self.marks {
+        for (mark, point) in self.marks.iter().filter(|(mark, _)| units.shows(*mark)) {
             let name = match self.name {
                 None if self.forces => mark_name(*mark, point.force),
                 None => Label::plain(mark.name()),
@@ -176,8 +243,8 @@ impl<'a> ForceLoop<'a> {
 
 /// Chart of loops, the lowest first, with a line at zero.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
-    let points = loops.iter().flat_map(|one| &one.curves).flat_map(|(_, curve)| curve.iter());
-    let places: Vec<(f64, f64)> = points.map(|point| units.place(point)).collect();
+    let lines = loops.iter().flat_map(|one| one.lines(units));
+    let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
     let [x, y] = units.axes(&places);
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
     layers.extend(loops.iter().flat_map(|one| one.layers(units)));

@@ -7,6 +7,7 @@ mod check;
 mod comparison;
 mod cost;
 mod ensemble;
+mod fit;
 mod loop_chart;
 mod map;
 mod parameters;
@@ -34,6 +35,7 @@ pub use scene_spectra::SceneSpectra;
 pub(crate) use comparison::{Comparison, adhesion_forces};
 pub(crate) use cost::CostReport;
 pub(crate) use ensemble::LinesReport;
+pub(crate) use fit::FitReport;
 pub(crate) use loop_chart::{
     ForceLoop, LoopQuantities, LoopUnits, force_figure, force_panels, loop_chart, sign,
 };

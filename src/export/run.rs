@@ -4,9 +4,10 @@ use super::loop_chart::force_figure;
 use super::report::{Json, Report};
 use super::summary::summary;
 use crate::accuracy::{Choice, Estimate};
+use crate::analysis::displacements;
 use crate::contact::CurvePoint;
 use crate::draw::Figure;
-use crate::io::{Table, object};
+use crate::io::{Table, TableOf, object};
 use crate::scene::{Move, Observer, Scene};
 use crate::simulation::Outcome;
 use crate::surface::Line;
@@ -66,6 +67,8 @@ impl Report for RunReport<'_> {
             "adhesion_coefficient": figures.adhesion_coefficient,
             "pull_off_indentation": figures.pull_off_indentation,
             "dissipated_energy": figures.dissipated_energy,
+            "loop_area"?: outcome.instrument.map(|one| one.loop_area),
+            "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
             "tabor_number": outcome.tabor_number,
             "steep_waves"?: outcome.steep_waves,
             "curve": self.table(),
@@ -82,10 +85,18 @@ impl Report for RunReport<'_> {
     }
 
     fn table(&self) -> Option<Table<'_>> {
+        let stiffness = self.outcome.instrument.map(|instrument| instrument.stiffness);
         let legs = || self.outcome.history.legs.iter().zip(0_u64..);
-        Some(curve(move || {
-            legs().flat_map(|(leg, number)| leg.curve.iter().map(move |point| (number, point)))
-        }))
+        let table = curve(move || {
+            legs().flat_map(move |(leg, number)| {
+                let displacements = displacements(leg, stiffness.unwrap_or(f64::INFINITY));
+                leg.curve.iter().zip(displacements).map(move |(point, at)| (number, point, at))
+            })
+        });
+        Some(match stiffness {
+            Some(_) => table.real("displacement", |(.., displacement)| *displacement).done(),
+            None => table.done(),
+        })
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -110,21 +121,25 @@ impl Report for PathReport<'_> {
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        Some(curve(|| self.stages.iter().map(|stage| *stage as u64).zip(self.path)))
+        let points = || self.stages.iter().zip(self.path);
+        Some(curve(move || points().map(|(stage, point)| (*stage as u64, point, point.indentation))).done())
     }
 }
 
-/// A force curve in SI units, its points with the numbers of their loading stages from 0.
-fn curve<'a, I: Iterator<Item = (u64, &'a CurvePoint)> + 'a>(points: impl Fn() -> I + 'a) -> Table<'a> {
-    Table::of(points)
-        .whole("leg", |(number, _)| *number)
-        .real("indentation", |(_, point)| point.indentation)
-        .real("force", |(_, point)| point.force)
-        .real("contact_length", |(_, point)| point.contact_length)
-        .whole("fragments", |(_, point)| point.fragments)
-        .real("stored_energy", |(_, point)| point.stored_energy)
-        .done()
+/// A force curve in SI units: its points with the numbers of their loading stages from 0, and the displacements of the
+/// instrument.
+fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, CurveRow<'a>> {
+    Table::of(rows)
+        .whole("leg", |(number, ..)| *number)
+        .real("indentation", |(_, point, _)| point.indentation)
+        .real("force", |(_, point, _)| point.force)
+        .real("contact_length", |(_, point, _)| point.contact_length)
+        .whole("fragments", |(_, point, _)| point.fragments)
+        .real("stored_energy", |(_, point, _)| point.stored_energy)
 }
+
+/// Number of the loading stage, a point of its curve, and the displacement of the instrument, m.
+type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 
 /// Position x and height z of every spring under the body, m.
 impl Report for Line {

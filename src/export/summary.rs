@@ -6,7 +6,7 @@ use crate::analysis::{
     INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,
 };
 use crate::contact::Work;
-use crate::scene::{Move, Scene, format_quantity, loading_text};
+use crate::scene::{Form, Move, Scene, format_quantity, loading_text};
 use crate::simulation::{Outcome, Timings};
 use crate::text::grouped;
 
@@ -107,8 +107,17 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("at zero force F_a(F=0)", outcome.zero_force_adhesion_force, "N");
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
     sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
+    let table =
+        scene.form.as_ref().and_then(Form::table).filter(|_| outcome.governing.adhesive_work().is_some());
+    let falls = table.and_then(|table| table.falls_from(0.5 * scene.length));
+    sheet.row_of("equivalent profile", falls.map(falling));
     sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
     dissipated_energy(sheet, outcome);
+    if let Some(instrument) = outcome.instrument {
+        sheet.quantity("loading stiffness k", instrument.stiffness, "N/m");
+        sheet.quantity("pull-off displacement", instrument.pull_off_displacement, "m");
+        sheet.quantity("loop area ∮F dD", instrument.loop_area, "J");
+    }
 }
 
 /// The regimes by both protocols in one sentence.
@@ -208,6 +217,14 @@ fn steep_waves(waves: SteepWaves) -> String {
          short against the contact pull off at {jkr_factor:.2} F_smooth",
         format_quantity(ratio, "1"),
         SteepWaves::LEAST_RATIO,
+    )
+}
+
+/// Warning of an equivalent profile that falls from a distance from the axis on, m.
+fn falling(from: f64) -> String {
+    format!(
+        "falls at {} from the axis: by the rule of Hess inner springs detach first; by the theory of JKR the edge recedes",
+        format_quantity(from, "m"),
     )
 }
 

@@ -161,7 +161,7 @@ impl Found<'_> {
 
     fn check_form(&mut self) {
         let (scene, spacing) = (self.scene, self.scene.spacing());
-        let (Some(form), half) = (scene.form, scene.length / 2.0) else { return };
+        let (Some(form), half) = (&scene.form, scene.length / 2.0) else { return };
         let (body, grid) = (["form", "length"], ["form", "length", "numerics.points"]);
         if let Some(radius) = form.flat_end() {
             let reason =
@@ -174,7 +174,11 @@ impl Found<'_> {
             let has_springs = !scene.springs_under_body().is_empty();
             return self.require(has_springs, &grid, "form.radius", "", &reason);
         }
-        if let Form::WavySphere { wavelength, .. } = form {
+        if let Form::Table { unit, .. } = form {
+            let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
+            self.require(is_unit, &["form"], "form.unit", UnitError::ALLOWED, "unit of the table");
+        }
+        if let &Form::WavySphere { wavelength, .. } = form {
             let shortest = SPRINGS_PER_WAVE as f64 * spacing;
             let allowed = format!("at least {} m", ron_float(shortest));
             let reason =
@@ -337,6 +341,10 @@ impl Found<'_> {
             format!("too many points: samples × loading stages ({stages}) must not exceed {MOST_SAMPLES}");
         let (is_met, path) = (stages.saturating_mul(numerics.samples) <= MOST_SAMPLES, "numerics.samples");
         self.require(is_met, &[path, "loading"], path, &allowed, &reason);
+        let is_met = numerics.solver == Solver::Exact || scene.loading_stiffness.is_none();
+        let reason =
+            "the stepwise solver moves the body itself: numerics.solver: Exact, or no loading_stiffness";
+        self.require(is_met, &[], "loading_stiffness", "", reason);
         let is_met = numerics.solver == Solver::Exact || numerics.edges == Edges::Grid;
         let reason = "the stepwise solver moves whole springs: edges: Grid";
         self.require(is_met, &[], "numerics.edges", "", reason);

@@ -226,6 +226,16 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
+    /// This document with other names of its measured files, in canonical form if one of them changes.
+    ///
+    /// # Errors
+    /// All invalid values.
+    pub fn moved_to(&self, rename: impl Fn(&str) -> String) -> Result<Document, SceneErrors> {
+        let mut scene = self.scene.clone();
+        scene.rename_measured_files(rename);
+        if scene == self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
+    }
+
     /// Path of a file named in the scene, relative to the scene's own file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)

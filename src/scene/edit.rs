@@ -1,7 +1,7 @@
 //! Change of one field in the text of a scene, with every comment preserved.
 
 use super::errors::did_you_mean;
-use super::field::{Field, LEG_FORCE, LEG_INDENTATION};
+use super::field::{Field, LEG_FIELDS};
 use super::fields::{FIELDS, field};
 use super::range::{Range, choice_name};
 use super::text::{NOT_ONE_VALUE, Text};
@@ -11,7 +11,7 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
     if parent.starts_with("loading.") {
-        return [&LEG_FORCE, &LEG_INDENTATION].into_iter().find(|field| field.variant == variant);
+        return LEG_FIELDS.into_iter().find(|field| field.variant == variant);
     }
     field(path, variant).or_else(|| field(path, None))
 }

@@ -113,11 +113,11 @@ impl Effect {
 fn may_pull(loading: &[Move]) -> bool {
     let mut reached = f64::NEG_INFINITY;
     loading.iter().enumerate().any(|(index, stage)| {
-        // The indentation of a force is unknown: it may be shallower or deeper than any other.
+        // The indentation of a force or a displacement is unknown: it may be shallower or deeper than any other.
         let (to, pulls) = match *stage {
             Move::ToIndentation(to) => (to, to < reached),
             Move::ToTouch => (0.0, 0.0 < reached),
-            Move::ToForce(_) | Move::ToZeroForce => (f64::INFINITY, true),
+            Move::ToForce(_) | Move::ToZeroForce | Move::ToDisplacement(_) => (f64::INFINITY, true),
             Move::ToSeparation => (f64::NEG_INFINITY, true),
         };
         reached = reached.max(to);
@@ -129,7 +129,7 @@ fn may_pull(loading: &[Move]) -> bool {
 pub(super) fn pressing(loading: &[Move]) -> Move {
     let pressure = |stage: &Move| match *stage {
         Move::ToForce(force) if force > 0.0 => (2, force),
-        Move::ToIndentation(to) if to > 0.0 => (1, to),
+        Move::ToIndentation(to) | Move::ToDisplacement(to) if to > 0.0 => (1, to),
         _ => (0, 0.0),
     };
     let less = |one: &&Move, other: &&Move| {

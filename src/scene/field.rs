@@ -152,6 +152,15 @@ pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
 pub(crate) const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), touch, zero force or separation",
 );
+/// The displacement of a loading stage [`ToDisplacement`](super::Move::ToDisplacement), at `loading.0.0` for the first
+/// stage.
+pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
+    .of("ToDisplacement")
+    .quantity("displacement of stage", "D", "m")
+    .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
+
+/// The fields of the targets of loading stages.
+pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
 impl Move {
     /// Field and value of the target, if the stage has a numeric target.
@@ -159,6 +168,7 @@ impl Move {
         match *self {
             Move::ToForce(force) => Some((&LEG_FORCE, force)),
             Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
+            Move::ToDisplacement(displacement) => Some((&LEG_DISPLACEMENT, displacement)),
             Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
         }
     }
@@ -183,6 +193,9 @@ impl Field {
         if self.path == "loading" && self.variant.is_none() && ron::from_str::<Vec<Move>>(typed).is_err() {
             let stages: Vec<_> = read_loading(typed)?.iter().map(stage_in_ron).collect();
             return Ok(format!("[{}]", stages.join(", ")));
+        }
+        if self.path == "form" && is_file_name(typed) {
+            return Ok(format!("Table(file: {})", ron_string(typed)));
         }
         let is_omitted = self.range == FILE_NAME && (typed.is_empty() || typed == "None");
         let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
@@ -231,6 +244,7 @@ mod tests {
         for row in [
             "adhesion.work|50mJ/m2|0.05",
             "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToForce(0.0), ToIndentation(-5.0e-9), ToSeparation]",
+            "loading_stiffness|40 mN/m|0.04",
             "adhesion.work| 50 mN/m |0.05",
             "adhesion|30 mJ/m²|(work: 0.03)",
             "adhesion|(kappa: 2.0)|(kappa: 2.0)",

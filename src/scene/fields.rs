@@ -46,6 +46,7 @@ const FORMS: Range = Choice(&[
     "Power(coefficient: 1.0e7, exponent: 3.0)",
     "WavySphere(radius: 1.0e-3, amplitude: 1.0e-8, wavelength: 1.0e-5)",
     "Punch(radius: 2.0e-5)",
+    "Table(file: \"tip.csv\")",
 ]);
 const ROUGHNESS: Range = Choice(&[
     "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)",
@@ -94,6 +95,10 @@ pub const FIELDS: &[Field] = &[
         .meaning("distance λ from crest to crest of the waves, at least four springs"),
     row("form.radius", Range::above(0.0, 5.0)).of("Punch").quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),
+    row("form.file", FILE_NAME).of("Table").name("table of the form")
+        .meaning("file of the depths f of a body of revolution at ascending radii r from 0, relative to the scene file"),
+    row("form.unit", UNIT).of("Table").name("unit of the table").default("\"\"")
+        .meaning("unit of lengths where the table states none: m, mm, um, nm; default: m"),
     row("roughness", ROUGHNESS).default("None")
         .meaning("roughness of the rigid profile; default: smooth"),
     row("roughness.hurst", Range::between(0.0, 1.0)).of("SelfAffine").quantity("Hurst exponent", "H", "1")
@@ -163,6 +168,8 @@ pub const FIELDS: &[Field] = &[
         .meaning("elastic energy that pressing the bodies flat takes, over the work of adhesion: adhesion is strong for small e_el/γ"),
     row("adhesion.range", Range::closed(1e-12, 1e-3)).quantity("range of attraction", "z₀", "m").default("None")
         .meaning("range of the attraction, for the Tabor number alone; default: 0.3 nm"),
+    row("loading_stiffness", Range::closed(1e-12, 1e12)).quantity("loading stiffness", "k", "N/m").default("None")
+        .meaning("stiffness of the instrument, such as a cantilever, that moves the body: D = d + F/k; default: rigid, D = d"),
     row("loading", List { of: &STAGES, least: 1, most: MOST_STAGES }).default("[ToZeroForce, ToSeparation]")
         .meaning("loading stages in their order, from separation"),
     row("numerics", Range::Group).default("()")
@@ -183,11 +190,11 @@ pub const FIELDS: &[Field] = &[
 
 #[cfg(test)]
 mod tests {
-    use super::super::field::{LEG_FORCE, LEG_INDENTATION};
+    use super::super::field::LEG_FIELDS;
     use super::*;
 
     fn all() -> impl Iterator<Item = &'static Field> {
-        FIELDS.iter().chain([&LEG_FORCE, &LEG_INDENTATION])
+        FIELDS.iter().chain(LEG_FIELDS)
     }
 
     #[test]

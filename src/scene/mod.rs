@@ -51,7 +51,7 @@ pub use effects::Effect;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub(crate) use errors::{did_you_mean, nearest};
 pub(crate) use field::STAGE;
-pub use field::{Field, LEG_FORCE, LEG_INDENTATION, Step};
+pub use field::{Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, Step};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSIONS, field};
 pub(crate) use library::built_in;
 pub use library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};

@@ -38,6 +38,9 @@ pub struct Scene {
     pub roughness: Option<Roughness>,
     /// Adhesion; `None`: no adhesion.
     pub adhesion: Option<Adhesion>,
+    /// Stiffness k of the instrument that moves the body, N/m; `None`: rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub loading_stiffness: Option<f64>,
     /// Loading history from separation: consecutive loading stages.
     #[serde(default = "default_loading")]
     pub loading: Vec<Move>,
@@ -132,7 +135,7 @@ impl Scene {
     /// Indices of the springs under the body: all of them but those beside a punch.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
-        self.form.map_or(0..points, |form| form.springs_under(self.length, points))
+        self.form.as_ref().map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
     /// Spectrum of a self-affine roughness on the length of the scene; `None` without one. Of wavelengths λ the modes are
@@ -185,9 +188,13 @@ impl Scene {
         self.measured().map_or_else(MeasuredOptions::default, options)
     }
 
-    /// Files of the measured surfaces, relative to the scene file.
+    /// Files of the measured surfaces, and of the table of the form, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
-        self.measured().map_or_else(Vec::new, |measured| measured.faces().concat())
+        let mut files = self.measured().map_or_else(Vec::new, |measured| measured.faces().concat());
+        if let Some(Form::Table { file, .. }) = &self.form {
+            files.push(file);
+        }
+        files
     }
 
     /// Paths of the files of each face, with names relative to `folder`.
@@ -196,8 +203,11 @@ impl Scene {
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
     }
 
-    /// Renames the files of the measured surfaces.
+    /// Renames the files of the measured surfaces and of the form.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
+        if let Some(Form::Table { file, .. }) = &mut self.form {
+            *file = rename(file);
+        }
         if let Some(Roughness::Measured(Measured { file, further_files, opposite, .. })) = &mut self.roughness
         {
             for name in std::iter::once(file).chain(further_files).chain(opposite) {

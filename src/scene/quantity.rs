@@ -13,6 +13,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("J", "unit of energy", "J, mJ, µJ, nJ"),
     ("Pa", "unit of pressure", "Pa, kPa, MPa, GPa"),
     ("J/m²", "unit of energy per area", "J/m², mJ/m², N/m, mN/m"),
+    ("N/m", "unit of stiffness", "N/m, mN/m, kN/m"),
     ("rad", "unit of angle", "rad, mrad, °"),
     ("s", "unit of time", "s, ms, µs"),
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi"),
@@ -271,7 +272,7 @@ mod tests {
         #[test]
         fn all_digits_are_read_back(bits in any::<u64>(), decades in -30..30_i32, size in 1.0..10.0_f64) {
             for value in [f64::from_bits(bits), size * 10_f64.powi(decades), -size].into_iter().filter(|v| v.is_finite()) {
-                for unit in ["Pa", "m", "J/m²", "N", "rad", "1", "m^(1−n)"] {
+                for unit in ["Pa", "m", "J/m²", "N", "N/m", "rad", "1", "m^(1−n)"] {
                     let text = exact_quantity(value, unit);
                     prop_assert_eq!(parse_quantity(&text, unit), Ok(value), "{}", text);
                 }

@@ -26,13 +26,19 @@ pub struct StageKind {
 
 /// All kinds, in the order in which a key changes them. Of the kinds with one unit the first is written as its number
 /// alone, the others as their word and their number.
-pub const STAGE_KINDS: [StageKind; 5] = [
+pub const STAGE_KINDS: [StageKind; 6] = [
     StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
     StageKind {
         example: "ToIndentation(1.0e-7)",
         word: "indentation",
         unit: "m",
         stage: Move::ToIndentation,
+    },
+    StageKind {
+        example: "ToDisplacement(1.0e-7)",
+        word: "displacement",
+        unit: "m",
+        stage: Move::ToDisplacement,
     },
     StageKind { example: "ToTouch", word: "touch", unit: "", stage: |_| Move::ToTouch },
     StageKind { example: "ToZeroForce", word: "zero force", unit: "", stage: |_| Move::ToZeroForce },
@@ -53,7 +59,7 @@ pub(super) const STAGES: [&str; STAGE_KINDS.len()] = {
 pub fn kind_and_number(stage: &Move) -> (usize, Option<f64>) {
     let is_same = |kind: &StageKind| discriminant(&(kind.stage)(0.0)) == discriminant(stage);
     let number = match *stage {
-        Move::ToForce(number) | Move::ToIndentation(number) => Some(number),
+        Move::ToForce(number) | Move::ToIndentation(number) | Move::ToDisplacement(number) => Some(number),
         Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
     };
     (STAGE_KINDS.iter().position(is_same).unwrap_or_default(), number)
@@ -271,10 +277,12 @@ mod tests {
             ("20", 1, ToIndentation(20.0)),
             ("50m", 0, ToForce(0.05)),
             ("5 nm", 0, ToIndentation(5e-9)),
+            ("5 nm", 2, ToDisplacement(5e-9)),
+            ("displacement -5 nm", 0, ToDisplacement(-5e-9)),
             ("force 5 µN", 1, ToForce(5e-6)),
-            ("ToForce(5 µN)", 3, ToForce(5e-6)),
-            ("ToTouch", 3, ToTouch),
-            ("2e-6", 3, ToForce(2e-6)),
+            ("ToForce(5 µN)", 4, ToForce(5e-6)),
+            ("ToTouch", 4, ToTouch),
+            ("2e-6", 4, ToForce(2e-6)),
         ] {
             assert_eq!(read_stage(text, Some(usual)), Ok(stage), "{text}");
         }

@@ -1,6 +1,6 @@
 //! Outcome of a computed scene.
 
-use crate::analysis::{Figures, Governing, Regime, SteepWaves};
+use crate::analysis::{Figures, Governing, InstrumentFigures, Regime, SteepWaves};
 use crate::contact::{History, Patch};
 use crate::surface::Histogram;
 use serde::Serialize;
@@ -30,6 +30,8 @@ pub struct Outcome {
     pub regime_after_zero_force: Option<Regime>,
     /// Headline figures of the loading history.
     pub figures: Figures,
+    /// Figures over the displacement of the instrument; `None` for a rigid one.
+    pub instrument: Option<InstrumentFigures>,
     /// The loading history itself.
     pub history: History,
     /// Patches in contact after each loading stage, if observed.

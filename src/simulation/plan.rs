@@ -157,7 +157,7 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
     let (once, each_stage, line) = ((Some(1), springs), (None, springs), (Some(1), points));
     let solver = if adhesive { STEPWISE } else { NO_ADHESION };
     let solved = when(exact && adhesive, "adhesion with the exact solver", solver);
-    let form = match scene.form {
+    let form = match &scene.form {
         None => Err("no form: nominally flat"),
         Some(form) if form.flat_end().is_some() => Ok("form: the springs under the punch"),
         Some(_) => Ok("form"),

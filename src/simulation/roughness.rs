@@ -64,6 +64,11 @@ impl RoughnessMaker {
         RoughnessMaker { folder, measured, ..RoughnessMaker::default() }
     }
 
+    /// Folder of the files of the scenes.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// Releases the memory of former roughness.
     pub fn emptied(self) -> Self {
         RoughnessMaker::new(self.folder, self.measured)
@@ -72,7 +77,7 @@ impl RoughnessMaker {
     /// Returns the parameters of the roughness of a scene; `None` without roughness.
     pub fn key(&self, scene: &Scene) -> Option<RoughnessKey> {
         let points = scene.numerics.points as usize;
-        let shift = scene.form.map_or(0.0, |form| form.shift(points as u64));
+        let shift = scene.form.as_ref().map_or(0.0, |form| form.shift(points as u64));
         let source = match (scene.spectrum(), &scene.roughness) {
             (Some(spectrum), _) => Source::SelfAffine(spectrum),
             (None, roughness) => {

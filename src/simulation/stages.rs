@@ -3,7 +3,9 @@
 use super::loading::load;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
-use crate::analysis::{Figures, Governing, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number};
+use crate::analysis::{
+    Figures, Governing, InstrumentFigures, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number,
+};
 use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Patch, Springs, Work};
 use crate::memory::check_room;
 use crate::reference::smooth_adhesion_force;
@@ -114,7 +116,10 @@ impl Simulation {
         // Measured heights are already in metres.
         let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough.and_then(|rough| rough.modes);
-        let key = LineKey { roughness, scale, length, points, form: scene.form };
+        if let Some(form) = &scene.form {
+            form.load(self.maker.folder(), length)?;
+        }
+        let key = LineKey { roughness, scale, length, points, form: scene.form.clone() };
         if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
             let line = self.lay_line(scene, &key)?;
             self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
@@ -236,8 +241,18 @@ impl Simulation {
         interrupted()?;
 
         let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
-        let contact = Contact::of(Arc::clone(&self.springs), edges, foundation, hess);
+        let contact = Contact::of(Arc::clone(&self.springs), edges, foundation, hess)
+            .with_loading_stiffness(scene.loading_stiffness.unwrap_or(f64::INFINITY));
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
+    }
+
+    /// Contact of a checked scene before its loading, and its governing parameters.
+    ///
+    /// # Errors
+    /// Insufficient memory or an unreadable measured profile.
+    pub(crate) fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
+        let made = self.prepare(&Plan::of(scene), scene, &|| false)?;
+        Ok((made.contact, made.governing))
     }
 
     /// Runs a checked scene by its plan. `stop` is polled now and then; `after` sees each stage of the scene's own
@@ -293,6 +308,7 @@ impl Simulation {
             steep_waves: SteepWaves::of(scene, &governing),
             regime: regime(zero_load_adhesion_force),
             regime_after_zero_force: regime(zero_force_adhesion_force),
+            instrument: scene.loading_stiffness.map(|k| InstrumentFigures::of(&history, &figures, k)),
             figures,
             history,
             fragments,

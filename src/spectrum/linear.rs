@@ -2,7 +2,7 @@
 
 /// Cholesky factor of a symmetric positive definite matrix.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Cholesky {
+pub(crate) struct Cholesky {
     size: usize,
     /// Lower triangle, row by row of the full matrix.
     factor: Vec<f64>,

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The measured file of a plan, that of the first face, if its scene has one.
 pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
-    plan.scene.measured_files().first().map(PathBuf::from)
+    plan.scene.measured().map(|measured| PathBuf::from(&measured.file))
 }
 
 /// The plan with the present hash of its measured file.

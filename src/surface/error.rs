@@ -23,6 +23,14 @@ pub enum SurfaceError {
         /// Fault, with its row if known.
         reason: String,
     },
+    /// The table of a form could not be read, or ends within the profile.
+    #[error("form.file = {file:?}: {reason}")]
+    FormTable {
+        /// The file.
+        file: String,
+        /// Fault, with its place if known.
+        reason: String,
+    },
     /// No spring lies under the punch, with the smallest allowed radius, m: the diameter is rounded to whole cells.
     #[error(
         "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {0:e} m"

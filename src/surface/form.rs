@@ -1,13 +1,17 @@
 //! Macroscopic forms, and their MDR transforms g(x) of profiles f(r).
 
+use super::SurfaceError;
 use super::struve::struve_0;
+use super::table::{FormTable, Rows};
+use crate::topography::UnitError;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
+use std::path::Path;
 use strum::IntoStaticStr;
 
 /// Macroscopic form of the rigid body; its axis is on the spring ⌊N/2⌋ ([`Form::spring_on_axis`]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
     /// Paraboloid r²/2R, the sphere of Hertz and JKR.
@@ -41,9 +45,50 @@ pub enum Form {
         /// Radius a, m.
         radius: f64,
     },
+    /// Body of revolution from a file of radii and depths.
+    Table {
+        /// The file, relative to the scene file.
+        file: String,
+        /// Unit where the file states none; empty: m.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        unit: String,
+        /// Its rows; see [`Form::load`].
+        #[serde(skip)]
+        rows: Rows,
+    },
 }
 
 impl Form {
+    /// Reads the table of a form from a folder, unless it is known, for a profile of this length, m. All copies of the form
+    /// then have the table; other forms have none. Without its table a form is flat.
+    ///
+    /// # Errors
+    /// [`SurfaceError::FormTable`].
+    pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
+        let Form::Table { file, unit, rows } = self else { return Ok(()) };
+        let refused = |reason: &dyn ToString| SurfaceError::FormTable {
+            file: folder.join(file).display().to_string(),
+            reason: reason.to_string(),
+        };
+        if rows.0.get().is_none() {
+            let unit = Some(unit.as_str()).filter(|unit| !unit.is_empty()).map(str::parse).transpose();
+            let unit = unit.map_err(|error: UnitError| refused(&error))?;
+            let table = FormTable::read(&folder.join(file), unit).map_err(|error| refused(&error))?;
+            rows.0.get_or_init(|| table);
+        }
+        let reach = self.table().map_or(0.0, FormTable::reach);
+        if 0.5 * length <= reach * (1.0 + 1e-9) {
+            return Ok(());
+        }
+        let allowed = 2.0 * reach;
+        Err(refused(&format!("the table ends at r = {reach:e} m; allowed: length at most {allowed:e} m")))
+    }
+
+    /// The table of a form, if it has one that is read.
+    pub(crate) fn table(&self) -> Option<&FormTable> {
+        if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
+    }
+
     /// Index of the spring on the axis of every form, ⌊N/2⌋ of N = `points` springs. With the axis between two
     /// springs a form would be blunt by half a cell, an error of first order in force, indentation and energy.
     pub fn spring_on_axis(points: u64) -> u64 {
@@ -77,14 +122,25 @@ impl Form {
 
     /// The form without its waves.
     #[must_use]
-    pub fn without_waves(self) -> Form {
+    pub fn without_waves(&self) -> Form {
         match self {
-            Form::WavySphere { radius, .. } => Form::Paraboloid { radius },
-            form => form,
+            &Form::WavySphere { radius, .. } => Form::Paraboloid { radius },
+            form => form.clone(),
         }
     }
 
-    /// Curvature at the summit, 1/m; `None` for cones and power laws, which have none or none at their tip.
+    /// Radius that scales the form, m; `None` for all but spheres and punches.
+    pub(crate) fn radius_mut(&mut self) -> Option<&mut f64> {
+        match self {
+            Form::Paraboloid { radius } | Form::WavySphere { radius, .. } | Form::Punch { radius } => {
+                Some(radius)
+            }
+            _ => None,
+        }
+    }
+
+    /// Curvature at the summit, 1/m; `None` for cones and power laws, and for tables alike, which have none or none at their
+    /// tip.
     pub(crate) fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
@@ -93,6 +149,7 @@ impl Form {
             }
             Form::Punch { .. } => Some(0.0),
             Form::Cone { .. } | Form::Power { .. } => None,
+            Form::Table { .. } => self.table()?.summit_curvature(),
         }
     }
 
@@ -114,10 +171,11 @@ impl Form {
                 x * x / radius + PI * PI * amplitude / wavelength * x * struve_0(2.0 * PI * x / wavelength)
             }
             Form::Punch { .. } => 0.0,
+            Form::Table { .. } => self.table().map_or(0.0, |table| table.mdr_profile(x)),
         }
     }
 
-    /// Coefficient c, m^(1−n), and exponent n of a form with the profile g(x) = c |x|ⁿ; `None` for a punch and for waves.
+    /// Coefficient c, m^(1−n), and exponent n of a form with the profile g(x) = c |x|ⁿ; `None` for a punch, waves and tables.
     pub(crate) fn power_law(&self) -> Option<(f64, f64)> {
         match *self {
             Form::Paraboloid { radius } => Some((radius.recip(), 2.0)),
@@ -125,7 +183,7 @@ impl Form {
             Form::Power { coefficient, exponent } => {
                 Some((power_law_factor(exponent) * coefficient, exponent))
             }
-            Form::WavySphere { .. } | Form::Punch { .. } => None,
+            Form::WavySphere { .. } | Form::Punch { .. } | Form::Table { .. } => None,
         }
     }
 

@@ -92,7 +92,12 @@ impl Line {
             Some(form) => {
                 // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
                 let axis = Form::spring_on_axis(points as u64) as f64;
-                let depth = |index: usize| form.mdr_profile((index as f64 - axis) * spacing);
+                let depths = form.table().map(|table| table.depths(spacing, points / 2 + 1)).transpose();
+                let depths = depths.map_err(|_| SurfaceError::OutOfMemory(points))?;
+                let depth = |index: usize| match &depths {
+                    Some(depths) => depths[index.abs_diff(points / 2)],
+                    None => form.mdr_profile((index as f64 - axis) * spacing),
+                };
                 (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
             }
         }

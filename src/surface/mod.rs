@@ -12,6 +12,7 @@ mod phases;
 mod roughness;
 mod spectrum;
 mod struve;
+mod table;
 
 pub use amplitude::Amplitude;
 pub use equivalent::{EquivalentLine, Face, MeasuredRoughness, read_faces};
@@ -24,3 +25,4 @@ pub use phases::phases;
 pub use roughness::Synthesizer;
 pub use spectrum::SelfAffine;
 pub use struve::struve_0;
+pub use table::{FormTable, Rows};

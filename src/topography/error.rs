@@ -65,7 +65,7 @@ pub(super) fn gathered(
 }
 
 /// Text of a file for a message: one line of limited length.
-pub(super) fn shown(text: &str) -> String {
+pub(crate) fn shown(text: &str) -> String {
     let short = match text.char_indices().nth(MOST_SHOWN) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),

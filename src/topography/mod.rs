@@ -18,12 +18,14 @@ mod reading;
 mod sdf;
 mod sur;
 mod surface;
-mod text;
+pub(crate) mod text;
 mod unit;
 mod x3p;
 
 pub use error::TopographyError;
-pub(crate) use error::{Place, refused};
+pub(crate) use error::{Place, refused, shown};
+pub(crate) use npy::columns as npy_columns;
+pub(crate) use open::unpacked;
 pub use open::{content, parse, read};
 pub use reading::ReadOptions;
 pub use surface::{Cut, Topography};

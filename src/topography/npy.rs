@@ -11,29 +11,85 @@ pub(super) use crate::io::npy::SIGNATURE;
 
 /// Reads an array of format version 1, 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let mut data = Bytes::new(bytes, Order::Little);
-    data.take(SIGNATURE.len())?;
-    let length = match data.take(2)?[0] {
-        1 => data.size(Number::U16)?,
-        2 | 3 => data.size(Number::U32)?,
-        other => return Err(refused(Place::Byte(6), format!("version {other}"), "1, 2 or 3")),
-    };
-    let header = Header::parse(&String::from_utf8_lossy(data.take(length)?))?;
-    data.order = header.order;
-    let points = header.shape.iter().fold(1, |points: usize, axis| points.saturating_mul(*axis));
-    let values = data.numbers(points, header.number)?;
+    let (mut header, mut data) = Header::read(bytes)?;
+    let [(_, number), ref others @ ..] = header.fields[..] else { return Err(no_field()) };
+    if others.len() > 1 || others.iter().any(|other| other.1 != number) {
+        let fault = "other fields than one or two of the same type";
+        return Err(refused(Place::Byte(10), fault, "heights, or positions and heights"));
+    }
+    if others.len() == 1 {
+        // Fields of a point are consecutive, like the columns of a row.
+        header.shape.push(2);
+    }
+    let points = header.points();
+    let values = data.numbers(points, number)?;
     header.into_reading(values)
+}
+
+/// Reads the columns of an array of two or more, with their names: fields of points, or the shorter one of two axes.
+pub(crate) fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), TopographyError> {
+    let (header, mut data) = Header::read(bytes)?;
+    let Header { fields, shape, is_column_major, .. } = &header;
+    if let (true, &[points]) = (fields.len() > 1, &shape[..]) {
+        let names = fields.iter().map(|(name, _)| name.clone()).collect();
+        let size = fields.iter().map(|(_, number)| number.size()).sum::<usize>();
+        let mut rows = data.part(points.saturating_mul(size))?;
+        let mut columns = vec![Vec::new(); fields.len()];
+        for column in &mut columns {
+            column.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory(points))?;
+        }
+        for _ in 0..points {
+            for ((_, number), column) in fields.iter().zip(&mut columns) {
+                column.push(rows.number(*number)?);
+            }
+        }
+        return Ok((names, columns));
+    }
+    let (&[rows, of_row], &[(_, number)]) = (&shape[..], &fields[..]) else {
+        let fault = format!("an array with {} axes", shape.len());
+        return Err(refused(Place::Byte(10), fault, "points with fields, or 2 axes"));
+    };
+    let values = data.numbers(header.points(), number)?;
+    let (row_step, step) = if *is_column_major { (1, rows) } else { (of_row, 1) };
+    let (count, points) = (rows.min(of_row), rows.max(of_row));
+    let (along, between) = if rows >= of_row { (row_step, step) } else { (step, row_step) };
+    let column = |column: usize| (0..points).map(|point| values[point * along + column * between]).collect();
+    Ok((Vec::new(), (0..count).map(column).collect()))
+}
+
+fn no_field() -> TopographyError {
+    refused(Place::Byte(10), "an array without fields", "numbers")
 }
 
 /// Content of the header.
 struct Header {
-    number: Number,
+    /// Names and types of the fields of a point; one without a name for an array of numbers.
+    fields: Vec<(String, Number)>,
     order: Order,
     is_column_major: bool,
     shape: Vec<usize>,
 }
 
 impl Header {
+    /// Reads the header of a file, and returns it with the bytes behind it.
+    fn read(bytes: &[u8]) -> Result<(Self, Bytes<'_>), TopographyError> {
+        let mut data = Bytes::new(bytes, Order::Little);
+        data.take(SIGNATURE.len())?;
+        let length = match data.take(2)?[0] {
+            1 => data.size(Number::U16)?,
+            2 | 3 => data.size(Number::U32)?,
+            other => return Err(refused(Place::Byte(6), format!("version {other}"), "1, 2 or 3")),
+        };
+        let header = Header::parse(&String::from_utf8_lossy(data.take(length)?))?;
+        data.order = header.order;
+        Ok((header, data))
+    }
+
+    /// Number of the values.
+    fn points(&self) -> usize {
+        self.shape.iter().fold(1, |points: usize, axis| points.saturating_mul(*axis))
+    }
+
     /// Reads `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, in any order.
     fn parse(text: &str) -> Result<Self, TopographyError> {
         let wrong = |what: &str| {
@@ -48,34 +104,40 @@ impl Header {
         };
         let descr = entry("descr")?;
         let is_list = descr.starts_with('[');
-        let types = if is_list { field_types(descr) } else { quoted(descr).map(|name| vec![name]) };
+        let types = if is_list { field_types(descr) } else { quoted(descr).map(|name| vec![("", name)]) };
         let types =
             types.ok_or_else(|| wrong(if is_list { "fields that are not understood" } else { "no type" }))?;
-        let [descr, ref others @ ..] = types[..] else { return Err(wrong("no field")) };
-        if others.len() > 1 || others.iter().any(|other| *other != descr) {
-            return Err(wrong("other fields than one or two of the same type"));
-        }
-        let (order, name) = match descr.split_at_checked(1) {
-            Some(("<" | "|", name)) => (Order::Little, name),
-            Some((">", name)) => (Order::Big, name),
-            _ => return Err(wrong("no order of bytes")),
-        };
-        let number = match name {
-            "f8" => Number::F64,
-            "f4" => Number::F32,
-            "i1" => Number::I8,
-            "i2" => Number::I16,
-            "i4" => Number::I32,
-            "i8" => Number::I64,
-            "u1" => Number::U8,
-            "u2" => Number::U16,
-            "u4" => Number::U32,
-            "u8" => Number::U64,
-            _ => {
-                let fault = format!("numbers of type {:?}", shown(descr));
-                return Err(refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8"));
+        let mut order = None;
+        let mut fields = Vec::new();
+        for (field, descr) in types {
+            let (of_field, name) = match descr.split_at_checked(1) {
+                Some(("<", name)) => (Some(Order::Little), name),
+                Some((">", name)) => (Some(Order::Big), name),
+                Some(("|", name)) => (None, name),
+                _ => return Err(wrong("no order of bytes")),
+            };
+            if order.is_some() && of_field.is_some() && of_field != order {
+                return Err(wrong("two orders of bytes"));
             }
-        };
+            order = order.or(of_field);
+            let number = match name {
+                "f8" => Number::F64,
+                "f4" => Number::F32,
+                "i1" => Number::I8,
+                "i2" => Number::I16,
+                "i4" => Number::I32,
+                "i8" => Number::I64,
+                "u1" => Number::U8,
+                "u2" => Number::U16,
+                "u4" => Number::U32,
+                "u8" => Number::U64,
+                _ => {
+                    let fault = format!("numbers of type {:?}", shown(descr));
+                    return Err(refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8"));
+                }
+            };
+            fields.push((field.to_owned(), number));
+        }
         let is_column_major = match entry("fortran_order")? {
             value if value.starts_with("True") => true,
             value if value.starts_with("False") => false,
@@ -85,16 +147,13 @@ impl Header {
         let axes = shape.ok_or_else(|| wrong("no shape"))?.0.split(',').map(str::trim);
         let axes =
             axes.filter(|axis| !axis.is_empty()).map(|axis| axis.parse().map_err(|_| wrong("no shape")));
-        let mut shape = axes.collect::<Result<Vec<usize>, _>>()?;
+        let shape = axes.collect::<Result<Vec<usize>, _>>()?;
         if is_list && shape.len() != 1 {
             return Err(wrong("fields along several axes"));
         }
-        if types.len() == 2 {
-            // Fields of a point are consecutive, like the columns of a row.
-            shape.push(2);
-        }
+        let order = order.unwrap_or(Order::Little);
         // A list of points with fields has one axis and no order of axes.
-        Ok(Header { number, order, is_column_major: is_column_major && !is_list, shape })
+        Ok(Header { fields, order, is_column_major: is_column_major && !is_list, shape })
     }
 
     fn into_reading(self, values: Vec<f64>) -> Result<Reading, TopographyError> {
@@ -120,8 +179,14 @@ fn quoted(text: &str) -> Option<&str> {
     text.strip_prefix('\'')?.split_once('\'').map(|(inside, _)| inside)
 }
 
-/// Returns the types of the fields in a list such as `[('x', '<f8'), ('z', '<f8')]`.
-fn field_types(list: &str) -> Option<Vec<&str>> {
+/// Returns names and types of the fields in a list such as `[('x', '<f8'), ('z', '<f8')]`.
+fn field_types(list: &str) -> Option<Vec<(&str, &str)>> {
     let (list, _) = list.strip_prefix('[')?.split_once(']')?;
-    list.split('(').skip(1).map(|field| quoted(field.split_once(',')?.1.trim_start())).collect()
+    list.split('(')
+        .skip(1)
+        .map(|field| {
+            let (name, of) = field.split_once(',')?;
+            Some((quoted(name)?, quoted(of.trim_start())?))
+        })
+        .collect()
 }

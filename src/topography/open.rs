@@ -6,6 +6,7 @@ use super::reading::{ReadOptions, Reading};
 use super::{Topography, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Most bytes of a file.
@@ -52,18 +53,26 @@ pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
 /// # Errors
 /// As [`read`].
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
-    let expanded = bytes.starts_with(&GZIP).then(|| expanded(bytes)).transpose()?;
-    let content = expanded.as_deref().unwrap_or(bytes);
-    if content.starts_with(&GZIP) {
-        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
-    }
+    let content = unpacked(bytes)?;
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
-    let reading = reader.map_or_else(|| text::read(content), |(_, read)| read(content, options))?;
+    let reading = reader.map_or_else(|| text::read(&content), |(_, read)| read(&content, options))?;
     let mut surface = reading.resolve(options)?;
     if let Some(cut) = options.cut {
         surface = surface.cut(cut)?;
     }
     if options.resample { surface.resampled() } else { Ok(surface) }
+}
+
+/// The content of a file, decompressed where it is gzip.
+pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
+    if !bytes.starts_with(&GZIP) {
+        return Ok(bytes.into());
+    }
+    let content = expanded(bytes)?;
+    if content.starts_with(&GZIP) {
+        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
+    }
+    Ok(content.into())
 }
 
 /// Decompresses gzip.

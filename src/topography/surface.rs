@@ -75,6 +75,11 @@ impl Topography {
         &self.heights
     }
 
+    /// Index of the first point with an interpolated height.
+    pub(crate) fn first_interpolated(&self) -> Option<usize> {
+        self.interpolated.first().copied()
+    }
+
     /// Number of points with interpolated heights.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()

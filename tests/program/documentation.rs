@@ -6,7 +6,7 @@ use super::generated::{check, compare, pages_in, read, root};
 use super::program::{asperity_in, json, table};
 use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::explorer::keys;
-use asperity::scene::{Document, FIELDS, LEG_FORCE, LEG_INDENTATION, Range, presets};
+use asperity::scene::{Document, FIELDS, LEG_FIELDS, LEG_FORCE, Range, presets};
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Plan, Quantity};
 use std::path::{Path, PathBuf};
@@ -15,10 +15,11 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 250;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 11] = [
+const PAGES: [(&str, &str); 12] = [
     ("keys.md", "panes and keys of the explorer, typed values, appearance, recordings"),
     ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
     ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
+    ("experiment.md", "measured force curves: reading, fit of the work of adhesion and other parameters, errors"),
     ("model.md", "equations, exact solution, regimes, validity"),
     ("reversals.md", "adhesion against preload, reversal curves, Everett map, density, congruency"),
     ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),
@@ -66,7 +67,7 @@ fn tables_are_those_of_the_program() {
         [format!("`{}`", preset.name), document.scene().notice.clone()]
     });
     check("docs/scene-file.md", "scenes", &markdown(["scene", "what it shows"], scenes));
-    let legs = [&LEG_FORCE, &LEG_INDENTATION];
+    let legs = LEG_FIELDS;
     let fields = FIELDS.iter().chain(legs).filter(|field| field.range != Range::Group).map(|field| {
         let of = field.variant.map_or(String::new(), |variant| format!(" ({variant})"));
         let code = |text: &str| if text.is_empty() { String::new() } else { format!("`{text}`") };

@@ -7,6 +7,7 @@
 
 use super::{Leg, Patches};
 use crate::contact::contact_state::{ContactState, Extreme, intervals, lower_bound, upper_bound};
+use crate::contact::goal::Goal;
 use crate::contact::grid::Grid;
 use crate::contact::interval::{Interval, Intervals};
 use crate::contact::thresholds::Thresholds;
@@ -56,17 +57,60 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
+    /// The leg with the instrument beside the contact: the force of both is k D where D = d + F/k.
+    fn with_instrument(&self) -> Self {
+        Leg { instrument: self.contact.instrument_springs(), ..self.clone() }
+    }
+
+    /// Finds the indentation at which a motion from another one reaches its goal, m, and that goal: the separation where
+    /// the contact is lost on the way.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::OutOfMemory`].
+    pub(in crate::contact) fn reach(
+        &self,
+        goal: Goal,
+        from: f64,
+        work: &mut Work,
+    ) -> Result<(f64, Goal), ContactError> {
+        let lost = self.end.min(from);
+        let end = match goal {
+            Goal::Indentation(at) => at,
+            Goal::Separation(_) => lost,
+            Goal::Force(force) => self.reach_force(force, from, work)?,
+            Goal::Displacement(at) => {
+                let force = self.contact.loading_stiffness * at;
+                match self.with_instrument().reach_force(force, from, work) {
+                    Err(ContactError::DetachesBefore { .. }) => {
+                        return Ok((lost, Goal::Separation(Some(at))));
+                    }
+                    end => end?,
+                }
+            }
+        };
+        Ok((end, goal))
+    }
+
+    /// The contact at the smallest displacement of the instrument on a sampled unloading.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub(in crate::contact) fn least_displaced(
+        &self,
+        sampled: &[ContactState],
+        work: &mut Work,
+    ) -> Result<ContactState, ContactError> {
+        let leg = self.with_instrument();
+        let sampled: Vec<_> = sampled.iter().map(|state| state.beside(leg.instrument)).collect();
+        self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
+    }
+
     /// Finds the first indentation of a loading from `from` on, or the last one of an unloading up to `from`, m, at which
     /// the force is `force`, N.
     ///
     /// # Errors
     /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::OutOfMemory`].
-    pub(in crate::contact) fn reach_force(
-        &self,
-        force: f64,
-        from: f64,
-        work: &mut Work,
-    ) -> Result<f64, ContactError> {
+    fn reach_force(&self, force: f64, from: f64, work: &mut Work) -> Result<f64, ContactError> {
         let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
         if self.direction == Direction::Unloading {
@@ -97,10 +141,14 @@ impl Leg {
 
     /// Contact states along a grid.
     pub(in crate::contact) fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
-        match &self.patches {
+        let mut sampled = match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.sample(grid)),
+        }?;
+        if self.instrument > 0.0 {
+            sampled.iter_mut().for_each(|state| *state = state.beside(self.instrument));
         }
+        Ok(sampled)
     }
 
     /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ in a range, m, without its lower
@@ -121,7 +169,7 @@ impl Leg {
             return Vec::new();
         }
         let slides = self.contact.edges == Edges::SubCell;
-        let mut intervals = Intervals::new(ends, slides, self.contact.springs.scale());
+        let mut intervals = Intervals::new(ends, slides, self.contact.springs.scale(), self.instrument);
         match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).search(&mut intervals),
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.search(&mut intervals)),

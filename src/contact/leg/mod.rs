@@ -15,6 +15,8 @@ pub struct Leg {
     direction: Direction,
     patches: Patches,
     end: f64,
+    /// Springs of the instrument beside the contact in searches; see [`ContactState::beside`].
+    instrument: f64,
     /// Evaluations of the rule of Hess that its patches took.
     pub(super) evaluations: u64,
 }
@@ -84,6 +86,7 @@ impl Leg {
             direction,
             patches: Patches::Springs(Arc::default()),
             end: 0.0,
+            instrument: 0.0,
             evaluations: 0,
         }
     }
@@ -100,7 +103,7 @@ impl Leg {
         // The stepwise solver moves whole springs.
         let Contact { springs, foundation, hess, .. } = contact.clone();
         let contact = Contact::of(springs, Edges::Grid, foundation, hess);
-        Leg { contact, direction, patches, end, evaluations: 0 }
+        Leg { patches, end, ..Leg::apart(&contact, direction) }
     }
 
     /// Creates the leg of a contact without adhesion.

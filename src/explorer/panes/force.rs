@@ -49,7 +49,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let mut texts = Vec::new();
     if app.is_current() {
         head.extend(values(app, width));
-        let marks = marks(app.legs()).into_iter();
+        let marks = marks(app.legs()).into_iter().filter(|(mark, _)| units.shows(*mark));
         texts.extend(marks.map(|(mark, at)| (units.place(&at), mark.name().to_owned(), Ink::Quiet)));
     }
     for (number, ghost) in app.ghosts.iter().enumerate().rev() {
@@ -71,7 +71,7 @@ fn panel(app: &App, size: Size) -> Panel {
 
 fn title(app: &App) -> String {
     let name = match app.view.curve.quantities {
-        LoopQuantities::ForceIndentation => "Force",
+        LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
         LoopQuantities::LengthForce => "Contact length",
         LoopQuantities::FragmentsIndentation => "Contact patches",
     };
@@ -105,8 +105,8 @@ fn title(app: &App) -> String {
 
 fn units(app: &App) -> LoopUnits {
     let quantities = app.view.curve.quantities;
-    match app.solved.as_ref().filter(|_| app.view.curve.normalised) {
-        Some(computed) => LoopUnits::of_scene(quantities, &computed.outcome),
+    match app.solved.as_ref() {
+        Some(computed) => LoopUnits::of_scene(quantities, &computed.outcome, app.view.curve.normalised),
         None => LoopUnits::si(quantities),
     }
 }
@@ -136,37 +136,37 @@ fn shown_chart(app: &App) -> Option<Chart> {
 fn chart(app: &App) -> Option<Chart> {
     app.indentations()?;
     let units = units(app);
-    let unmarked = |legs| ForceLoop { marks: Vec::new(), ..ForceLoop::new(legs) };
+    let unmarked = |outcome| ForceLoop { marks: Vec::new(), ..ForceLoop::of_outcome(outcome) };
     let ghosts = app.ghosts.iter().enumerate().map(|(number, ghost)| ForceLoop {
         name: Some(Label::plain(&format!("{}: {}", letter(number), differences(app, ghost)))),
         ink: Some(Ink::Compared(number)),
         stroke: Some(Stroke::Sparse),
-        ..unmarked(&ghost.computed.outcome.history.legs)
+        ..unmarked(&ghost.computed.outcome)
     });
     let tried = app.tried_outcome().map(|outcome| ForceLoop {
         name: Some("preview".into()),
         ink: Some(Ink::Kept),
         stroke: Some(Stroke::Dashed),
-        ..unmarked(&outcome.history.legs)
+        ..unmarked(outcome)
     });
-    let legs = app.legs();
+    let outcome = &app.solved.as_ref()?.outcome;
     // A curve of a scene changed since stays in the background until the new one is there.
     let present = match app.is_current() {
-        true => ForceLoop::new(legs),
-        false => ForceLoop { ink: Some(Ink::Quiet), ..unmarked(legs) },
+        true => ForceLoop::of_outcome(outcome),
+        false => ForceLoop { ink: Some(Ink::Quiet), ..unmarked(outcome) },
     };
     let manual = app.manual.as_ref().map(|manual| ForceLoop {
         curves: vec![(Direction::Unloading, &manual.path)],
         name: Some("manual".into()),
         ink: Some(Ink::Manual),
         stroke: Some(Stroke::Dashed),
-        ..unmarked(&[])
+        ..ForceLoop::new(&[])
     });
     let loops: Vec<ForceLoop<'_>> = ghosts.chain(tried).chain([present]).chain(manual).collect();
     let mut chart = loop_chart(&loops, units);
     // Below the curves, which stay whole.
     if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
-        let border = legs.iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
+        let border = app.legs().iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
         chart.layers.insert(1, Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
     }
     if let Some(snapshot) = app.present() {

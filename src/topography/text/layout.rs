@@ -3,7 +3,7 @@
 /// Separator of the columns of a text, from its first line of numbers: a semicolon, a tab, a comma, or a space for any
 /// white space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Separator(char);
+pub(crate) struct Separator(char);
 
 impl Separator {
     pub const SPACE: Separator = Separator(' ');
@@ -38,7 +38,7 @@ fn has_decimal_commas(line: &str) -> bool {
 
 /// Content of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Cell {
+pub(crate) enum Cell {
     Number(f64),
     /// A mark of a missing point, or an empty column.
     Missing,
@@ -52,7 +52,7 @@ const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---"
 
 /// Decimal mark of a text: the first one found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Decimal(Option<char>);
+pub(crate) struct Decimal(Option<char>);
 
 impl Decimal {
     /// Reads a column.

@@ -15,32 +15,48 @@ use super::reading::Reading;
 use super::surface::LARGEST;
 use crate::io::PROVENANCE;
 use header::Header;
-use layout::{Cell, Decimal, Separator};
+pub(crate) use layout::{Cell, Decimal, Separator};
 use lines::{decoded, line_text};
+
+/// First characters of a comment.
+pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
 
 /// Reads a text line by line.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let mut header = Header::default();
-    let mut rows: Option<Rows> = None;
-    let mut in_provenance = false;
+    let (mut header, mut rows) = (Header::default(), None::<Rows>);
+    let take = |place: Place, line: &str| rows.get_or_insert_with(|| Rows::new(line)).take(place, line);
+    each_line(bytes, is_header, |line| header.take(line), take)?;
+    let none = || refused(Place::File, "no line of numbers", "a line of numbers for each point or row");
+    rows.ok_or_else(none)?.finish(&header)
+}
+
+/// Passes the lines of a text on: those of its header to `header`, up to the first line for which `is_header` is false,
+/// and all lines of numbers with their places to `row`. Empty lines, comments between numbers and the scene in a table of
+/// results are skipped.
+pub(crate) fn each_line(
+    bytes: &[u8],
+    is_header: impl Fn(&str) -> bool,
+    mut header: impl FnMut(&str),
+    mut row: impl FnMut(Place, &str) -> Result<(), TopographyError>,
+) -> Result<(), TopographyError> {
+    let (mut has_begun, mut in_provenance) = (false, false);
     for (index, line) in decoded(bytes)?.split(|byte| *byte == b'\n').enumerate() {
         let place = Place::Line(index + 1);
         let line = line_text(line, &place)?;
         if line.is_empty() {
             continue;
         }
-        let is_comment = line.starts_with(['#', '%', '!']);
+        let is_comment = line.starts_with(COMMENT);
         // The words of a scene may look like units.
         in_provenance = is_comment && (in_provenance || line.starts_with(PROVENANCE));
-        match &mut rows {
-            Some(rows) if !is_comment => rows.take(place, &line)?,
-            None if !is_comment && !is_header(&line) => rows.insert(Rows::new(&line)).take(place, &line)?,
-            None if !in_provenance => header.take(&line),
+        has_begun |= !is_comment && !is_header(&line);
+        match (has_begun, is_comment) {
+            (true, false) => row(place, &line)?,
+            (false, _) if !in_provenance => header(&line),
             _ => {}
         }
     }
-    let none = || refused(Place::File, "no line of numbers", "a line of numbers for each point or row");
-    rows.ok_or_else(none)?.finish(&header)
+    Ok(())
 }
 
 /// Returns true for a line whose first column is neither a number nor a mark of a missing point.

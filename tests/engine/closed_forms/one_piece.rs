@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 ///
 /// Where the profile does not rise everywhere, for waves with λ²/(AR) < 12.391, an inner spring may be the most stretched
 /// one, and the contact detaches earlier by the rule than by JKR ([`OnePiece::by_rule`]).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct OnePiece {
     /// Neither a punch nor a flat face.
     pub form: Form,
@@ -56,7 +56,7 @@ impl OnePiece {
                 let rise = 2.0 * PI / wavelength * (h0 + turns * derivative);
                 [g + scale * turns * h0, slope + scale * rise, area + scale * a * (2.0 / PI - derivative)]
             }
-            Form::Punch { .. } => unreachable!("not in one piece with a smooth edge"),
+            Form::Punch { .. } | Form::Table { .. } => unreachable!("not in one piece with a smooth edge"),
         }
     }
 
@@ -188,10 +188,10 @@ pub struct Loop {
 impl Loop {
     /// Creates the loop of a body with another work of adhesion on closing, J/m².
     pub fn new(opening: OnePiece, closing_work: f64, deepest: f64) -> Self {
-        let closing = OnePiece { work: closing_work, ..opening };
+        let closing = OnePiece { work: closing_work, ..opening.clone() };
         let loading = closing.loading(0.0, deepest);
         let radius = loading[loading.len() - 1].1;
-        Loop { closing, opening, unloading: opening.unloading(radius), loading, deepest, radius }
+        Loop { unloading: opening.unloading(radius), closing, opening, loading, deepest, radius }
     }
 
     /// Force on loading at an indentation, N.

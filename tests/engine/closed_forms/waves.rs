@@ -104,7 +104,7 @@ fn steep_waves_detach_by_the_rule_before_jkr() {
     for deepest in [0.02, 0.06, 0.1] {
         let problem = problem(STEEP, 1e3, deepest);
         let jkr = problem.closed_form();
-        let rule = Loop::new(OnePiece { by_rule: true, ..jkr.opening }, 1e3, deepest);
+        let rule = Loop::new(OnePiece { by_rule: true, ..jkr.opening.clone() }, 1e3, deepest);
         let errors = errors(&problem, expected(&rule), Edges::SubCell, 4001);
         assert!(errors.iter().all(|error| *error < 1e-4), "to {deepest}: {errors:?}");
         assert!(rule.dissipated_energy() < jkr.dissipated_energy());
@@ -114,7 +114,7 @@ fn steep_waves_detach_by_the_rule_before_jkr() {
         }
     }
     let gentle = problem(GENTLE, 1e3, 0.06).closed_form();
-    let by_rule = Loop::new(OnePiece { by_rule: true, ..gentle.opening }, 1e3, 0.06);
+    let by_rule = Loop::new(OnePiece { by_rule: true, ..gentle.opening.clone() }, 1e3, 0.06);
     assert_eq!(gentle.pull_off(), by_rule.pull_off());
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::scene::{Edges, Move, Roughness};
+use asperity::scene::{Edges, Form, Move, Roughness};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use std::time::{Duration, Instant};
@@ -89,6 +89,13 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
         Move::ToForce(force) => is_at(force),
         Move::ToZeroForce => is_at(0.0),
         Move::ToIndentation(indentation) => end.indentation == indentation,
+        Move::ToDisplacement(at) => match outcome.instrument {
+            Some(instrument) if end.springs > 0 => {
+                let error = (end.displacement(instrument.stiffness) - at).abs();
+                error <= rounding / instrument.stiffness + ROUNDING * (at.abs() + end.indentation.abs())
+            }
+            _ => end.indentation == at,
+        },
         Move::ToTouch => end.indentation == 0.0,
         Move::ToSeparation => (end.springs, end.fragments) == (0, 0),
     };
@@ -134,6 +141,9 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
                 **reason == ContactError::OutOfReach && (scene.adhesion.is_some() || !presses);
             let is_named = message.starts_with(&format!("loading.{index} = "));
             is_named && (message.contains("; allowed") || is_out_of_reach)
+        }
+        RunError::Surface(SurfaceError::FormTable { .. }) => {
+            matches!(scene.form, Some(Form::Table { .. })) && message.starts_with("form.file = ")
         }
         RunError::Surface(SurfaceError::NotFinite { .. }) => message.contains("form and roughness"),
         RunError::Surface(SurfaceError::Measured { file, .. }) => {

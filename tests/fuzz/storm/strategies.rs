@@ -1,8 +1,7 @@
 //! Strategies for random scenes, which draw every field of the table of fields.
 
 use asperity::scene::{
-    DEFAULT, Document, FIELDS, Field, LEG_FORCE, LEG_INDENTATION, Range, find, is_control, ron_float,
-    ron_string,
+    DEFAULT, Document, FIELDS, Field, LEG_FIELDS, Range, find, is_control, ron_float, ron_string,
 };
 use proptest::prelude::*;
 
@@ -74,7 +73,7 @@ impl Drawn {
             let drawn = Drawn { extreme: EXTREME[0], ..self.clone() };
             drawn.value(field).prop_map(|value| (field.path.to_string(), value)).boxed()
         };
-        let legs = [&LEG_FORCE, &LEG_INDENTATION].map(|leg| {
+        let legs = LEG_FIELDS.map(|leg| {
             let value = Drawn { extreme: EXTREME[0], ..self.clone() }.value(leg);
             (0..3_usize, value).prop_map(|(index, value)| (format!("loading.{index}.0"), value)).boxed()
         });
@@ -122,9 +121,7 @@ impl Drawn {
         if arguments.is_empty() {
             return Just(name.to_string()).boxed();
         }
-        let argument = [&LEG_FORCE, &LEG_INDENTATION]
-            .into_iter()
-            .find(|leg| (leg.path, leg.variant) == (field.path, Some(name)));
+        let argument = LEG_FIELDS.into_iter().find(|leg| (leg.path, leg.variant) == (field.path, Some(name)));
         match argument {
             Some(argument) => self.value(argument).prop_map(move |value| format!("{name}({value})")).boxed(),
             None => {

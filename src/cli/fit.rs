@@ -1,0 +1,81 @@
+//! `asperity fit`: the parameters of a scene that describe a measured force curve.
+
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, check_file};
+use super::scene::{MOST_LINES, Overrides, threads};
+use crate::experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as find};
+use crate::export::{FitReport, Format, named_from};
+use crate::io::write_new;
+use crate::scene::open_argument;
+use crate::text::path_name;
+use clap::Args;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity fit curve.csv jkr-sphere --free work,offset
+  asperity fit curve.txt my-scene.ron --free work,modulus,offset --units nm,nN --drift remove
+  asperity fit curve.csv rough.ron --free work=1mJ/m^2..1J/m^2,offset --lines 16 -o fit.json
+  asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
+
+The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
+retraction. JSON is one object with the parameters and their errors; CSV and .npy hold the columns
+displacement, force, model, residual and segment. docs/experiment.md lists the parameters.";
+
+/// Arguments of `fit`.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub struct FitArguments {
+    /// File of the measured force curve
+    #[arg(value_name = "CURVE")]
+    pub curve: PathBuf,
+    /// A scene file, or the name of a built-in scene: form, roughness and all values that are known
+    #[arg(value_name = "SCENE")]
+    pub model: String,
+    #[command(flatten)]
+    pub overrides: Overrides,
+    /// Parameters to be found, each with its range if it is known: work=1m..1,offset
+    #[arg(long, required = true, value_name = "NAME[=A..B]", value_delimiter = ',', num_args = 1)]
+    pub free: Vec<Free>,
+    #[command(flatten)]
+    pub reading: CurveOptions,
+    /// Repeat the fit on COUNT random profiles, for the scatter over them
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES))]
+    pub lines: Option<u32>,
+    /// Threads that share the profiles; default: one for each core
+    #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+    /// Write the scene with the values found to FILE
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub output: OutputArguments,
+    /// Overwrite the scene if it exists
+    #[arg(long, requires = "scene")]
+    pub force_scene: bool,
+}
+
+/// Reads the curve, finds the parameters, and writes them.
+pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(&Format::ALL, Format::Text)?;
+    if let Some(file) = &arguments.scene {
+        check_file(file, "ron", arguments.force_scene)?;
+    }
+    let document = arguments.overrides.apply(open_argument(&arguments.model)?)?;
+    let title = path_name(&arguments.curve);
+    let curve = MeasuredCurve::read(&arguments.curve, &arguments.reading)
+        .map_err(|error| CliError::named(&title, error))?;
+    let lines = arguments.lines.map_or(1, u64::from);
+    let options = FitOptions { free: arguments.free.clone(), lines, jobs: threads(arguments.jobs) };
+    let found = find(&curve, &document, &options, &|| false, &mut |_| ());
+    let found = found.map_err(|error| CliError::named(document.name(), error))?;
+    if let Some(file) = &arguments.scene {
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let document =
+            found.document.moved_to(|measured| named_from(measured, &document.resolve(""), folder))?;
+        write_new(file, arguments.force_scene, |out| out.write_all(document.text().as_bytes()))?;
+    }
+    let report = FitReport { title: &title, curve: &curve, fit: &found };
+    arguments.output.write(stdout, &report, format, Origin::Scene(&document, found.document.scene()))
+}

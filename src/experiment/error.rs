@@ -1,0 +1,29 @@
+//! Reasons why a curve is not read or not fitted.
+
+use crate::contact::ContactError;
+use crate::simulation::RunError;
+use crate::topography::TopographyError;
+use thiserror::Error;
+
+/// Reason why a curve is not read or not fitted. The caller puts the name of the file or scene in front.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ExperimentError {
+    #[error(transparent)]
+    File(#[from] TopographyError),
+    /// A curve or a scene that cannot be fitted: fault and what is allowed.
+    #[error("{0}; allowed: {1}")]
+    Refused(String, String),
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl From<ContactError> for ExperimentError {
+    fn from(error: ContactError) -> Self {
+        ExperimentError::Run(error.into())
+    }
+}
+
+/// Error of a curve or a scene that cannot be fitted.
+pub(super) fn refused<T>(fault: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
+    Err(ExperimentError::Refused(fault.into(), allowed.into()))
+}

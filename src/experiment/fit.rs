@@ -1,0 +1,414 @@
+//! The parameters of a scene that describe a measured curve, their errors, and those that the curve does not separate.
+
+use super::bootstrap::{correlation, draws, spread};
+use super::curve::ends;
+use super::error::refused;
+use super::model::Model;
+use super::parameter::{Coordinate, Free, Parameter, Values};
+use super::scene::{most_on_closing, radius_of, values_of, with_values, written_out, wrong};
+use super::search::{Search, Space};
+use super::{ExperimentError, MeasuredCurve};
+use crate::parallel::on_threads;
+use crate::scene::{Document, Solver};
+use crate::simulation::Simulation;
+use std::f64::consts::PI;
+
+/// Factor from the start to the ends of a range that is not given.
+const FACTOR: f64 = 30.0;
+/// Residual in contact, in units of the noise, of a model that does not describe the curve.
+const MISFIT: f64 = 2.0;
+/// Correlation of parameters that are not separated, and half width of the 95 % interval of a logarithm that is flat.
+const CORRELATED: f64 = 0.95;
+const FLAT: f64 = 1.0;
+/// Standard deviations of the 95 % interval of a normal distribution.
+const NORMAL: f64 = 1.96;
+
+/// Options of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitOptions {
+    pub free: Vec<Free>,
+    /// Random profiles on which the fit is repeated; 1: that of the scene alone.
+    pub lines: u64,
+    /// Threads that share the profiles.
+    pub jobs: usize,
+}
+
+/// A parameter with its errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FittedParameter {
+    pub parameter: Parameter,
+    /// Value before the fit, and the range in which the value was looked for.
+    pub start: f64,
+    pub range: (f64, f64),
+    pub value: f64,
+    /// Ends of the 95 % interval.
+    pub interval: (f64, f64),
+    /// Standard error by the noise.
+    pub noise_error: f64,
+    /// Standard deviation over random profiles.
+    pub profile_error: Option<f64>,
+}
+
+/// Result of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    pub parameters: Vec<FittedParameter>,
+    /// Root mean square residual, N.
+    pub residual: f64,
+    /// The same in contact over the noise; a point on the wrong side of a jump counts as 5 times the noise.
+    pub misfit: f64,
+    pub correlations: Vec<(Parameter, Parameter, f64)>,
+    /// Pairs that the curve does not separate; one parameter twice that the curve does not determine.
+    pub not_distinguished: Vec<(Parameter, Parameter)>,
+    /// Values from which searches began, in the order of the parameters.
+    pub starts: Vec<Vec<f64>>,
+    /// Number of computed curves.
+    pub evaluations: usize,
+    /// Force of the model at each point, N.
+    pub model: Vec<f64>,
+    /// The scene with the values found, loaded as the curve was.
+    pub document: Document,
+}
+
+impl Fit {
+    /// Returns false for a model that does not describe the curve.
+    pub fn describes(&self) -> bool {
+        self.misfit <= MISFIT
+    }
+}
+
+/// Fits parameters of a scene to a curve. `stop` is polled before each computed curve, and `report` receives their number.
+///
+/// # Errors
+/// Parameters that the scene does not have, a failure of the computation, or a stop.
+pub fn fit(
+    curve: &MeasuredCurve,
+    document: &Document,
+    options: &FitOptions,
+    stop: &(dyn Fn() -> bool + Sync),
+    report: &mut dyn FnMut(usize),
+) -> Result<Fit, ExperimentError> {
+    let mut simulation = Simulation::new(document.resolve(""));
+    let (document, space) = prepare(curve, document, &mut simulation, options, stop)?;
+    let model = Model::new(curve, document.scene(), &mut simulation);
+    let mut search = Search { space: &space, model, report, failed: None };
+    let starts = search.scan();
+    let (at, linear) = search.descend(&starts)?;
+    let (model, evaluations) = (search.forces(&at), search.model.evaluations);
+    let changes = draws(&linear, curve);
+    let others = other_profiles(&document, options, &space, &at)?;
+    let values = space.values(&at);
+    let moved = |change: &Vec<f64>| {
+        space.values(&at.iter().zip(change).map(|(at, change)| at + change).collect::<Vec<_>>())
+    };
+    let drawn: Vec<Values> = changes.iter().map(moved).collect();
+    let fitted = |one: &Coordinate| {
+        let of = |values: &Values| values[one.parameter as usize];
+        let (noise_error, (low, high)) = spread(drawn.iter().map(of).collect());
+        let over_profiles = || spread(others.iter().chain([&values]).map(of).collect()).0;
+        let profile_error = (!others.is_empty()).then(over_profiles);
+        // The profile of the specimen is one draw, and that of the scene another one.
+        let both = |error: f64| NORMAL * (2.0 * error * error + noise_error * noise_error).sqrt();
+        let (value, half) = (of(&values), profile_error.map_or(0.0, both));
+        let least = if one.parameter.is_signed() { f64::NEG_INFINITY } else { 0.0 };
+        let interval = (low.min(value - half).max(least), high.max(value + half));
+        let Coordinate { parameter, start, range, .. } = *one;
+        FittedParameter { parameter, start, range, value, interval, noise_error, profile_error }
+    };
+    let parameters: Vec<FittedParameter> = space.coordinates.iter().map(fitted).collect();
+    let name = |index: usize| space.coordinates[index].parameter;
+    let pairs = (0..at.len()).flat_map(|one| (one + 1..at.len()).map(move |other| [one, other]));
+    let correlations: Vec<_> =
+        pairs.map(|pair| (name(pair[0]), name(pair[1]), correlation(&changes, pair))).collect();
+    let alike = correlations.iter().filter(|(.., value)| value.abs() > CORRELATED);
+    let mut not_distinguished: Vec<_> = alike.map(|&(one, other, _)| (one, other)).collect();
+    for (index, coordinate) in space.coordinates.iter().enumerate() {
+        let (low, high) = coordinate.ends();
+        let half = NORMAL * spread(changes.iter().map(|change| change[index]).collect()).0;
+        let is_wide = !coordinate.parameter.is_signed() && half > FLAT;
+        let is_named = not_distinguished.iter().any(|&(one, other)| [one, other].contains(&name(index)));
+        if !is_named && (is_wide || at[index] - half < low || at[index] + half > high) {
+            not_distinguished.push((name(index), name(index)));
+        }
+    }
+    let rests: Vec<f64> = curve.force.iter().zip(&model).map(|(measured, model)| measured - model).collect();
+    let of_start = |start: &Vec<f64>| {
+        let values = space.values(start);
+        space.coordinates.iter().map(|one| values[one.parameter as usize]).collect()
+    };
+    let is_free = |parameter| space.coordinates.iter().any(|one| one.parameter == parameter);
+    Ok(Fit {
+        parameters,
+        residual: (rests.iter().map(|rest| rest * rest).sum::<f64>() / rests.len() as f64).sqrt(),
+        misfit: space.misfit(&model),
+        correlations,
+        not_distinguished,
+        starts: starts.iter().map(of_start).collect(),
+        evaluations,
+        model,
+        document: with_values(&document, &values, is_free, curve)?,
+    })
+}
+
+/// Checks parameters and scene; returns the document with a work of adhesion, and the coordinates of the fit.
+fn prepare<'a>(
+    curve: &'a MeasuredCurve,
+    document: &Document,
+    simulation: &mut Simulation,
+    options: &FitOptions,
+    stop: &'a (dyn Fn() -> bool + Sync),
+) -> Result<(Document, Space<'a>), ExperimentError> {
+    let scene = document.scene();
+    if scene.numerics.solver != Solver::Exact {
+        return refused(
+            "numerics.solver = Stepwise: a fit needs the exact solver",
+            "numerics.solver = Exact",
+        );
+    }
+    if options.lines > 1 && scene.seed().is_none() {
+        return refused("--lines: the scene has no random profile", "a scene with random roughness");
+    }
+    let is_free = |parameter| options.free.iter().any(|free| free.parameter == parameter);
+    let radius = radius_of(scene);
+    if is_free(Parameter::Radius) && radius.is_none() {
+        return refused("radius: the form of the scene has none", "form = Paraboloid, WavySphere or Punch");
+    }
+    let (low, high) = ends(curve.force.iter().copied());
+    // Of a smooth body with the same pull-off force.
+    let start = |modulus: f64| {
+        let of_sphere = radius.map(|radius| -low / (1.5 * PI * radius));
+        let of_flat = low.powi(2) / (PI * modulus * scene.length.powi(3));
+        of_sphere.into_iter().chain([of_flat]).find(|work| work.is_finite() && *work > 0.0).unwrap_or(0.05)
+    };
+    let (_, governing) = simulation.contact(scene)?;
+    let work = is_free(Parameter::Work).then(|| start(governing.effective_modulus));
+    let document = written_out(document, &governing, work).map_err(wrong)?;
+    let (_, governing) = simulation.contact(document.scene())?;
+    if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
+        return refused(
+            format!("{}: the scene has no adhesion", Parameter::ClosingWork.name()),
+            "adhesion.work above 0, or a free work of adhesion too",
+        );
+    }
+    let mut base = values_of(document.scene(), &governing);
+    let (touch, turn) = (curve.displacement[curve.free], curve.turns()[0]);
+    base[Parameter::Offset as usize] = touch;
+    let stiffness = &mut base[Parameter::Stiffness as usize];
+    if is_free(Parameter::Stiffness) && stiffness.is_infinite() {
+        *stiffness = 10.0 * (high - low) / (turn - touch).max(f64::MIN_POSITIVE);
+    }
+    let mut coordinates = Vec::new();
+    for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
+        let start = base[parameter as usize];
+        let given =
+            options.free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
+        let range = given.unwrap_or_else(|| match parameter {
+            Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
+            Parameter::Zero => (low - high, high - low),
+            Parameter::ClosingWork => (0.0, base[Parameter::Work as usize] * FACTOR),
+            _ => (start / FACTOR, start * FACTOR),
+        });
+        let start = start.clamp(range.0, range.1);
+        base[parameter as usize] = start;
+        // A tenth of the change that the parameter makes at most.
+        let unit = 0.1 * if parameter == Parameter::Zero { high - low } else { turn - touch };
+        coordinates.push(Coordinate { parameter, start, range, unit });
+    }
+    let most_on_closing = most_on_closing(document.scene());
+    Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
+}
+
+/// Values of fits of the same curve on the other random profiles of the scene, from the coordinates of its own.
+fn other_profiles(
+    document: &Document,
+    options: &FitOptions,
+    space: &Space<'_>,
+    start: &[f64],
+) -> Result<Vec<Values>, ExperimentError> {
+    let worker = || {
+        let mut simulation = Simulation::new(document.resolve(""));
+        move |number: u64| {
+            let mut scene = document.scene().clone();
+            scene.set_seed(scene.seed().unwrap_or_default().wrapping_add(number + 1));
+            let model = Model::new(space.curve, &scene, &mut simulation);
+            let mut search = Search { space, model, report: &mut |_| (), failed: None };
+            let (found, _) = search.descend(&[start.to_vec()])?;
+            Ok(space.values(&found))
+        }
+    };
+    on_threads(options.lines.saturating_sub(1), options.jobs, worker)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::read::{CurveOptions, Drift};
+    use super::*;
+    use crate::contact::CurvePoint;
+    use crate::scene::{Adhesion, Material, Move, Scene, open};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use std::fmt::Write;
+
+    /// What a measured curve is made of.
+    struct Made {
+        scene: Scene,
+        offset: f64,
+        noise: f64,
+        drift: f64,
+    }
+
+    fn stiffness(scene: &Scene) -> f64 {
+        scene.loading_stiffness.unwrap()
+    }
+
+    /// Displacements and forces at 500 evenly spaced displacements of approach and of retraction: by the running extremum of
+    /// d + F/k over a fine curve.
+    fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
+        let mut fine = scene.clone();
+        fine.numerics.samples = 1 << 18;
+        let outcome = Simulation::default().run(&fine, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let legs = &outcome.history.legs;
+        let base = |point: &CurvePoint| point.indentation + point.force / stiffness(scene);
+        let top = legs[0].curve.iter().map(base).fold(f64::MIN, f64::max);
+        let low = -0.5 * top - legs[1].curve.iter().map(|point| base(point).abs()).fold(0.0, f64::max);
+        let mut points = Vec::new();
+        for (leg, sign) in legs.iter().zip([1.0, -1.0]) {
+            let mut at = 0;
+            for index in 0..500 {
+                let share = index as f64 / 499.0;
+                let wanted = if sign > 0.0 { low + share * (top - low) } else { top + share * (low - top) };
+                while at < leg.curve.len() && sign * base(&leg.curve[at]) < sign * wanted {
+                    at += 1;
+                }
+                let force = match leg.curve.get(at) {
+                    None => 0.0,
+                    Some(_) if sign > 0.0 && wanted < 0.0 => 0.0,
+                    Some(point) if at == 0 => point.force,
+                    Some(point) => {
+                        let before = leg.curve[at - 1];
+                        let share = (wanted - base(&before)) / (base(point) - base(&before));
+                        before.force + share.clamp(0.0, 1.0) * (point.force - before.force)
+                    }
+                };
+                points.push((wanted, force));
+            }
+        }
+        points
+    }
+
+    /// The curve with noise, drift, an offset and a zero, in nm and µN.
+    fn measured(made: &Made, seed: u64) -> MeasuredCurve {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut text = "displacement [nm],force [uN]\n".to_owned();
+        for (index, (displacement, force)) in force_curve(&made.scene).into_iter().enumerate() {
+            let [one, other]: [f64; 2] = [generator.random(), generator.random()];
+            let gauss = (-2.0 * (1.0 - one).ln()).sqrt() * (std::f64::consts::TAU * other).cos();
+            let force = force + made.noise * gauss + made.drift * index as f64 / 1000.0 + 3e-7;
+            writeln!(text, "{},{}", (displacement + made.offset) * 1e9, force * 1e6).unwrap();
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        std::fs::write(&path, &text).unwrap();
+        MeasuredCurve::read(&path, &CurveOptions { drift: Drift::Remove, ..CurveOptions::default() }).unwrap()
+    }
+
+    /// A smooth or a rough sphere on a compliant instrument, with noise of 1 % of its pull-off force.
+    fn random(seed: u64) -> Made {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut between = |low: f64, high: f64| low * (high / low).powf(generator.random::<f64>());
+        let name = if seed.is_multiple_of(2) { "jkr-sphere" } else { "rough-sphere" };
+        let mut scene = open(name).unwrap().scene().clone();
+        scene.numerics.points = 4096;
+        scene.set_seed(seed);
+        let (modulus, work) = (2.7e6 * between(0.5, 2.0), 0.05 * between(0.5, 2.0));
+        (scene.material, scene.adhesion) = (Material::effective(modulus), Some(Adhesion::by_work(work)));
+        let radius = radius_of(&scene).unwrap();
+        scene.loading = vec![Move::ToForce(1.5 * PI * work * radius * between(1.0, 4.0)), Move::ToSeparation];
+        // Contact radius at pull-off of a sphere.
+        let contact = (radius * radius * 9.0 * PI * work / (8.0 * modulus)).cbrt();
+        scene.loading_stiffness = Some(2.0 * modulus * contact * between(0.5, 10.0));
+        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let force = outcome.figures.adhesion_force.unwrap();
+        Made { scene, offset: 1e-6 * between(0.1, 1.0), noise: 0.01 * force, drift: 0.1 * force }
+    }
+
+    fn truth(made: &Made, parameter: Parameter) -> f64 {
+        match parameter {
+            Parameter::Work => made.scene.adhesion.unwrap().work.unwrap(),
+            Parameter::Modulus => made.scene.material.effective_modulus(),
+            Parameter::Offset => made.offset,
+            Parameter::Stiffness => stiffness(&made.scene),
+            _ => 0.0,
+        }
+    }
+
+    /// The fit of free parameters that begin far from the truth.
+    fn fitted(curve: &MeasuredCurve, made: &Made, free: &str) -> Fit {
+        let mut scene = made.scene.clone();
+        scene.adhesion = Some(Adhesion::by_work(3.0 * truth(made, Parameter::Work)));
+        if free.contains("modulus") {
+            scene.material = Material::effective(0.5 * truth(made, Parameter::Modulus));
+        }
+        if free.contains("stiffness") {
+            scene.loading_stiffness = Some(3.0 * stiffness(&made.scene));
+        }
+        let document = Document::from_scene(&scene, "made").unwrap();
+        let free = free.split(',').map(|one| one.parse().unwrap()).collect();
+        fit(curve, &document, &FitOptions { free, lines: 1, jobs: 1 }, &|| false, &mut |_| ()).unwrap()
+    }
+
+    /// Fits curves of these seeds and returns the number of intervals, and of those that hold the truth.
+    fn covered(seeds: std::ops::Range<u64>) -> (u32, u32) {
+        const FREE: [&str; 4] = [
+            "work,modulus,offset",
+            "work,offset",
+            "work,modulus,offset,zero",
+            "work,modulus,offset,stiffness",
+        ];
+        let (mut all, mut held, mut longest) = (0, 0, 0.0_f64);
+        for seed in seeds {
+            let made = random(seed);
+            let curve = measured(&made, seed);
+            let clock = std::time::Instant::now();
+            let fit = fitted(&curve, &made, FREE[(seed / 2 % 4) as usize]);
+            longest = longest.max(clock.elapsed().as_secs_f64());
+            for one in &fit.parameters {
+                let truth = truth(&made, one.parameter);
+                let holds = one.interval.0 <= truth && truth <= one.interval.1;
+                (all, held) = (all + 1, held + u32::from(holds));
+                if !holds {
+                    println!("{seed}: {one:?}, truth {truth:e}, misfit {}", fit.misfit);
+                }
+            }
+        }
+        println!("{held} of {all} intervals hold the truth; longest fit {longest:.2} s");
+        (all, held)
+    }
+
+    #[test]
+    #[ignore = "200 fits take minutes"]
+    fn intervals_hold_the_truth_of_two_hundred_curves() {
+        let (all, held) = covered(0..200);
+        assert!(f64::from(held) >= 0.93 * f64::from(all), "{held} of {all}");
+    }
+
+    #[test]
+    fn a_sphere_is_found_within_its_errors_and_written_into_its_scene() {
+        let made = random(4);
+        let curve = measured(&made, 4);
+        let fit = fitted(&curve, &made, "work,modulus,offset");
+        assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
+        for one in &fit.parameters {
+            let truth = truth(&made, one.parameter);
+            assert!((one.value - truth).abs() < 4.0 * one.noise_error, "{one:?}: {truth:e}");
+            assert!(one.noise_error < 0.02 * truth, "{one:?}");
+        }
+        let scene = fit.document.scene();
+        assert_eq!(scene.adhesion.unwrap().work, Some(fit.parameters[0].value));
+        assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
+        // A wrong stiffness does not describe the curve, and says so.
+        let mut wrong = made;
+        wrong.scene.loading_stiffness = Some(0.2 * stiffness(&wrong.scene));
+        assert!(!fitted(&curve, &wrong, "work,offset").describes());
+    }
+}

@@ -1,0 +1,18 @@
+//! The experiment beside the model: measured force curves, and the parameters of a scene that describe them.
+
+mod baseline;
+mod bootstrap;
+mod curve;
+mod error;
+mod fit;
+mod model;
+mod parameter;
+mod read;
+mod scene;
+mod search;
+
+pub use curve::MeasuredCurve;
+pub use error::ExperimentError;
+pub use fit::{Fit, FitOptions, FittedParameter, fit};
+pub use parameter::{Free, Parameter};
+pub use read::CurveOptions;

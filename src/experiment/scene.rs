@@ -1,0 +1,101 @@
+//! The scene of a fit: the values from which a search begins, and the document with those found.
+
+use super::parameter::{Parameter, Values};
+use super::{ExperimentError, MeasuredCurve};
+use crate::analysis::Governing;
+use crate::scene::{Document, Scene, SceneErrors, ron_float};
+
+/// A change of a field: its path and its value in RON.
+type Change = (String, String);
+
+fn change(path: &str, value: f64) -> Change {
+    (path.to_owned(), ron_float(value))
+}
+
+/// Values of a scene with these governing parameters.
+pub(super) fn values_of(scene: &Scene, governing: &Governing) -> Values {
+    let work = governing.work_of_adhesion.unwrap_or(0.0);
+    let closing = governing.closing_work.unwrap_or(work);
+    let radius = radius_of(scene).unwrap_or(0.0);
+    [
+        work,
+        closing,
+        governing.effective_modulus,
+        0.0,
+        0.0,
+        scene.loading_stiffness.unwrap_or(f64::INFINITY),
+        radius,
+    ]
+}
+
+/// Radius of the form of a scene, m, if it has one.
+pub(super) fn radius_of(scene: &Scene) -> Option<f64> {
+    scene.form.clone()?.radius_mut().copied()
+}
+
+/// Largest work of adhesion on closing that a scene allows, J/m².
+pub(super) fn most_on_closing(scene: &Scene) -> f64 {
+    scene.adhesion.and_then(|adhesion| adhesion.closing_work).unwrap_or(f64::INFINITY)
+}
+
+/// The document with works of adhesion in place of κ or e_el/γ, and with the amplitude of the roughness that these set.
+/// Without adhesion it gets this work, J/m², if there is one.
+pub(super) fn written_out(
+    document: &Document,
+    governing: &Governing,
+    start: Option<f64>,
+) -> Result<Document, SceneErrors> {
+    let adhesion = document.scene().adhesion.unwrap_or_default();
+    let mut changes = Vec::new();
+    let known = governing.adhesive_work();
+    if let Some(work) = known.or(start).filter(|_| known.is_none() || adhesion.parameter().is_some()) {
+        let [closing, range] =
+            [("closing_work", adhesion.closing_work), ("range", adhesion.range)].map(|(name, value)| {
+                value.map_or_else(String::new, |value| format!(", {name}: {}", ron_float(value)))
+            });
+        changes.push(("adhesion".to_owned(), format!("(work: {}{closing}{range})", ron_float(work))));
+    }
+    if let Some(amplitude) = governing.amplitude.filter(|_| adhesion.sets_amplitude()) {
+        changes.push(change("roughness.rms_height", amplitude.rms_height));
+    }
+    document.set_all(&changes)
+}
+
+/// The document with the values found, loaded as the curve was.
+pub(super) fn with_values(
+    document: &Document,
+    values: &Values,
+    free: impl Fn(Parameter) -> bool,
+    curve: &MeasuredCurve,
+) -> Result<Document, ExperimentError> {
+    let material = document.scene().material;
+    let modulus = values[Parameter::Modulus as usize];
+    let modulus = match material.poisson_ratio {
+        Some(ratio) => change("material.youngs_modulus", modulus * (1.0 - ratio) * (1.0 + ratio)),
+        None => change("material.effective_modulus", modulus),
+    };
+    let has_closing =
+        free(Parameter::ClosingWork) || document.scene().adhesion.is_some_and(|of| of.closing_work.is_some());
+    let rows = [
+        (free(Parameter::Work), change("adhesion.work", values[Parameter::Work as usize])),
+        (has_closing, change("adhesion.closing_work", values[Parameter::ClosingWork as usize])),
+        (free(Parameter::Modulus), modulus),
+        (free(Parameter::Stiffness), change("loading_stiffness", values[Parameter::Stiffness as usize])),
+        (free(Parameter::Radius), change("form.radius", values[Parameter::Radius as usize])),
+    ];
+    let turns = curve.turns();
+    let stages: String = turns[..turns.len() - 1]
+        .iter()
+        .map(|turn| format!("ToDisplacement({}), ", ron_float(turn - values[Parameter::Offset as usize])))
+        .collect();
+    let loading = ("loading".to_owned(), format!("[{stages}ToSeparation]"));
+    let changes: Vec<Change> =
+        rows.into_iter().filter(|row| row.0).map(|row| row.1).chain([loading]).collect();
+    document.set_all(&changes).map_err(wrong)
+}
+
+/// The first error of a scene with other values.
+pub(super) fn wrong(errors: SceneErrors) -> ExperimentError {
+    let error = errors.first();
+    ExperimentError::Refused(format!("{} = {}", error.field, error.value), error.allowed.clone())
+}

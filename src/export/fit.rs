@@ -1,0 +1,162 @@
+//! A fit as text, JSON, a table and a figure with residuals.
+
+use super::report::{Json, Report};
+use super::sheet::Sheet;
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use crate::experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
+use crate::io::{Table, object};
+use crate::scene::format_quantity;
+use crate::text::grouped;
+use std::collections::BTreeMap;
+
+/// A curve and its fit.
+#[derive(Clone, Copy, Debug)]
+pub struct FitReport<'a> {
+    /// Name of the file of the curve.
+    pub title: &'a str,
+    /// The measured curve.
+    pub curve: &'a MeasuredCurve,
+    /// Its fit.
+    pub fit: &'a Fit,
+}
+
+impl Report for FitReport<'_> {
+    fn text(&self) -> Option<String> {
+        let FitReport { title, curve, fit } = *self;
+        let mut sheet = Sheet::default();
+        if !fit.describes() {
+            let times = format_quantity(fit.misfit, "1");
+            sheet.paragraph(&format!(
+                "The model does not describe the curve: in contact the residual is {times} times the noise."
+            ));
+        }
+        sheet.heading(&format!("Curve {title}"));
+        curve.statements.iter().for_each(|sentence| sheet.paragraph(sentence));
+        sheet.heading(&format!("Fit of {}", fit.document.title()));
+        let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().3);
+        let header = ["", "value", "95 % interval", "error by noise", "by profile", "start"];
+        let row = |one: &FittedParameter| {
+            [
+                format!("{} {}", one.parameter.row().1, one.parameter.row().2),
+                quantity(one, one.value),
+                format!("{} to {}", quantity(one, one.interval.0), quantity(one, one.interval.1)),
+                quantity(one, one.noise_error),
+                one.profile_error.map_or("-".to_owned(), |error| quantity(one, error)),
+                quantity(one, one.start),
+            ]
+        };
+        let rows = fit.parameters.iter().map(row);
+        sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
+        let [residual, noise] = [fit.residual, curve.noise].map(|force| format_quantity(force, "N"));
+        sheet.heading(&format!(
+            "Residual {residual}, noise {noise}; in contact {} times the noise. {} curves were computed.",
+            format_quantity(fit.misfit, "1"),
+            grouped(fit.evaluations as u64)
+        ));
+        let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
+        if let Some((one, other, value)) = strongest {
+            let (one, other) = (one.row().2, other.row().2);
+            sheet.paragraph(&format!("Largest correlation: {one} and {other}, {value:.2}."));
+        }
+        fit.not_distinguished.iter().for_each(|&(one, other)| sheet.paragraph(&separation(one, other)));
+        if fit.document.scene().roughness.is_some() {
+            sheet.paragraph(ROUGH);
+        }
+        Some(sheet.into_text())
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let FitReport { curve, fit, .. } = *self;
+        let parameter = |one: &FittedParameter| {
+            let FittedParameter {
+                value,
+                interval: (low, high),
+                noise_error,
+                profile_error,
+                start,
+                range,
+                ..
+            } = *one;
+            let value = object! {
+                "value": value, "low": low, "high": high, "noise_error": noise_error,
+                "profile_error": profile_error, "start": start, "range": range,
+            };
+            (one.parameter.name(), value)
+        };
+        let start = |start: &Vec<f64>| {
+            let values = fit.parameters.iter().zip(start);
+            values.map(|(one, value)| (one.parameter.name(), *value)).collect::<BTreeMap<_, _>>()
+        };
+        let correlation =
+            |&(one, other, value): &(Parameter, Parameter, f64)| (one.name(), other.name(), value);
+        let pair = |&(one, other): &(Parameter, Parameter)| [one.name(), other.name()];
+        Some(Box::new(object! {
+            "parameters": fit.parameters.iter().map(parameter).collect::<BTreeMap<_, _>>(),
+            "describes": fit.describes(),
+            "residual": fit.residual,
+            "noise": curve.noise,
+            "misfit": fit.misfit,
+            "points_used": curve.force.len() * curve.averaged,
+            "points_left_out": curve.missing,
+            "correlations": fit.correlations.iter().map(correlation).collect::<Vec<_>>(),
+            "not_distinguished": fit.not_distinguished.iter().map(pair).collect::<Vec<_>>(),
+            "starts": fit.starts.iter().map(start).collect::<Vec<_>>(),
+            "evaluations": fit.evaluations,
+            "scene": fit.document.scene(),
+        }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        let FitReport { curve, fit, .. } = *self;
+        let (force, model) = (&curve.force, &fit.model);
+        let table = Table::of(|| 0..force.len()).real("displacement", |&point| curve.displacement[point]);
+        let table = table.real("force", |&point| force[point]).real("model", |&point| model[point]);
+        let table = table.real("residual", |&point| force[point] - model[point]);
+        Some(table.whole("segment", |&point| curve.segment[point] as u64).done())
+    }
+
+    fn figure(&self) -> Option<Figure> {
+        let FitReport { title, curve, fit } = *self;
+        let points = |force: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
+            curve.displacement.iter().enumerate().map(|(index, at)| (*at, force(index))).collect()
+        };
+        let measured = points(&|index| curve.force[index]);
+        let residuals = points(&|index| (curve.force[index] - fit.model[index]) / curve.noise);
+        let model = points(&|index| fit.model[index]);
+        let span = |points: &[(f64, f64)]| Span::around(points.iter().map(|point| point.1), 0.06);
+        let x = Span::around(measured.iter().map(|point| point.0), 0.03);
+        let x = || Axis::new(AxisScale::Linear, x, "displacement", "D", "m");
+        let force = Axis::new(AxisScale::Linear, span(&measured), "force", "F", "N");
+        let rest = Axis::new(AxisScale::Linear, span(&residuals), "residual over noise", "", "1");
+        let layers = vec![
+            Layer::new("measured".into(), Ink::Kept, Shape::signs(measured, Sign::Dot)),
+            Layer::new("model".into(), Ink::Contact, Shape::line(model, Stroke::Solid)),
+        ];
+        let rests = vec![
+            Layer::unnamed(Ink::Quiet, Shape::Level(0.0)),
+            Layer::new("measured".into(), Ink::Kept, Shape::signs(residuals, Sign::Dot)),
+        ];
+        let found = fit.parameters.iter().map(|one| {
+            let half = 0.5 * (one.interval.1 - one.interval.0);
+            let [value, half] = [one.value, half].map(|value| format_quantity(value, one.parameter.row().3));
+            format!("{} = {value} ± {half}", one.parameter.row().2)
+        });
+        let notes = vec![Label::plain(&found.collect::<Vec<_>>().join(", "))];
+        let charts = vec![Chart::new(x(), force, layers), Chart::new(x(), rest, rests)];
+        Some(Figure { title: title.to_owned(), notes, charts, size: Figure::SMALL, ..Figure::default() })
+    }
+}
+
+/// Error of the model of rough bodies.
+const ROUGH: &str = "These errors leave out that of the model: the adhesion force of rough bodies differs from that in three \
+    dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
+
+/// Sentence on parameters that the curve does not separate, and on the measurement that does.
+fn separation(one: Parameter, other: Parameter) -> String {
+    let remedy = Parameter::remedy(one, other);
+    let (one, other) = (one.row().2, other.row().2);
+    if one == other {
+        return format!("The curve does not determine {one} within its range. It needs {remedy}.");
+    }
+    format!("The curve does not separate {one} and {other}. That needs {remedy}.")
+}
