@@ -1,7 +1,7 @@
 //! `asperity check`: closed forms, laws and hard cases, on this machine.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, TEXT_OR_JSON, format_of, without_look};
+use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
 use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
 use crate::export::Format;
@@ -17,7 +17,6 @@ Examples:
 
 Each case has one error and a bound that was stated beforehand. The exit code is 1 if a case fails.";
 
-/// Arguments of `check`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]
 pub struct CheckArguments {
@@ -27,9 +26,6 @@ pub struct CheckArguments {
     /// Leave out cases that take seconds and hundreds of megabytes
     #[arg(long)]
     pub quick: bool,
-    /// text or json; default: by the extension of FILE, else text
-    #[arg(long, value_parser = format_of(TEXT_OR_JSON), hide_possible_values = true)]
-    pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -58,10 +54,9 @@ impl CheckArguments {
     }
 }
 
-/// Runs the cases and writes their verdicts.
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let chosen = arguments.chosen()?;
-    let format = arguments.output.format(arguments.format, TEXT_OR_JSON, Format::Text)?;
+    let format = arguments.output.format(TEXT_OR_JSON, Format::Text)?;
     let (mut progress, count) = (ProgressLine::default(), chosen.len());
     let run = |(index, check): (usize, Check)| {
         progress.show(&format!("{}/{count} {}", index + 1, check.case.name), None);
@@ -90,7 +85,6 @@ mod tests {
         CheckArguments {
             words: words.iter().map(ToString::to_string).collect(),
             quick,
-            format: None,
             output: OutputArguments::default(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::explore::{self, LookArguments};
-use super::output::{Origin, OutputArguments, format_of};
+use super::output::{Origin, OutputArguments};
 use super::scene::{Overrides, compute};
 use crate::explorer::Opening;
 use crate::export::{Comparison, Format};
@@ -21,7 +21,6 @@ Examples:
 /// Formats of a comparison.
 const FORMATS: &[Format] = &[Format::Text, Format::Svg, Format::Png, Format::Pdf];
 
-/// Arguments of `compare`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct CompareArguments {
@@ -39,9 +38,6 @@ pub struct CompareArguments {
     pub overrides: Overrides,
     #[command(flatten)]
     pub look: LookArguments,
-    /// text, svg, png or pdf; default: by the extension of FILE, else text
-    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
-    pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -49,14 +45,14 @@ pub struct CompareArguments {
 /// Opens the explorer on two scenes side by side; without a terminal, or with a format or a file, writes both in
 /// words and figures.
 pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Result<(), CliError> {
-    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
+    let format = arguments.output.format(FORMATS, Format::Text)?;
     let open = |name: &str| arguments.overrides.apply(open_argument(name)?);
     let first = open(&arguments.first)?;
     let second = match &arguments.second {
         Some(second) => open(second)?,
         None => first.set("roughness.as_line", "true")?,
     };
-    let is_printed = arguments.format.is_some() || arguments.output.output.is_some();
+    let is_printed = arguments.output.format.is_some() || arguments.output.output.is_some();
     if !is_printed && stdin().is_terminal() && stdout().is_terminal() {
         let opening = Opening { beside: Some(second), ..Opening::from(first) };
         return explore::open(opening, arguments.look.options()?, out);

@@ -11,7 +11,6 @@ Examples:
   asperity completions zsh > ~/.zfunc/_asperity
   asperity completions fish > ~/.config/fish/completions/asperity.fish";
 
-/// Arguments of `completions`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct CompletionsArguments {
@@ -19,7 +18,6 @@ pub struct CompletionsArguments {
     pub shell: Shell,
 }
 
-/// Writes the completion script of the program for a shell.
 pub(super) fn completions(
     arguments: &CompletionsArguments,
     mut program: Command,

@@ -14,7 +14,6 @@ Examples:
   asperity config --write                   Write a configuration file with all fields in comments
   asperity config my-config.ron             Check another file and print its settings";
 
-/// Arguments of `config`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct ConfigArguments {
@@ -25,7 +24,6 @@ pub struct ConfigArguments {
     pub write: bool,
 }
 
-/// Prints the settings in effect, or writes an initial file.
 pub(super) fn config(arguments: &ConfigArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let path = arguments.file.clone().or_else(default_path);
     let no_folder = "this system has no configuration folder; allowed: --config FILE";

@@ -1,7 +1,7 @@
 //! `asperity cost`: the cost of accuracy for a scene.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, PICTURES, format_of};
+use super::output::{Origin, OutputArguments, PICTURES};
 use super::progress::ProgressLine;
 use super::scene::SceneArguments;
 use crate::accuracy::{Progress, measure};
@@ -24,7 +24,6 @@ finest solution within the budget, whose own error is estimated and stated.";
 /// Longest budget, s.
 const LONGEST: f64 = 86_400.0;
 
-/// Arguments of `cost`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_arg("force", |force| force.requires(clap::builder::Resettable::Reset)))]
 pub struct CostArguments {
@@ -33,9 +32,6 @@ pub struct CostArguments {
     /// Time limit of all measurements together: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
-    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
-    pub format: Option<Format>,
     /// Also draw errors over times into FILE, .svg, .png or .pdf
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
@@ -43,9 +39,6 @@ pub struct CostArguments {
     #[command(flatten)]
     pub output: OutputArguments,
 }
-
-/// Formats of costs: answer and tables, one object, one row for each setting, errors over times.
-const FORMATS: &[Format] = &Format::ALL;
 
 /// Parses a time with its unit.
 fn budget(text: &str) -> Result<Duration, String> {
@@ -57,17 +50,16 @@ fn budget(text: &str) -> Result<Duration, String> {
     if (1e-3..=LONGEST).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(allowed()) }
 }
 
-/// Measures the cost of accuracy and writes it.
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut output = arguments.output.clone();
     let picture = arguments.picture.clone().map(|path| {
-        let picture = OutputArguments { output: Some(path), ..output.clone() };
+        let picture = OutputArguments { output: Some(path), format: None, ..output.clone() };
         // The look is that of the picture.
         (output.width, output.parameters) = (None, false);
-        picture.format(None, PICTURES, Format::Svg).map(|format| (picture, format))
+        picture.format(PICTURES, Format::Svg).map(|format| (picture, format))
     });
     let picture = picture.transpose()?;
-    let format = output.format(arguments.format, FORMATS, Format::Text)?;
+    let format = output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let (mut line, mut seen) = (ProgressLine::default(), Vec::new());

@@ -29,7 +29,6 @@ The same command gives the same frames, whenever and wherever it runs.";
 const WATCHED: f64 = 12.0;
 const READ: f64 = 1.0;
 
-/// Arguments of `demo`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct DemoArguments {
@@ -86,7 +85,6 @@ fn size(text: &str) -> Result<(u16, u16), String> {
     Ok((side(columns)?, side(rows)?))
 }
 
-/// Plays the demo to its destination.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;

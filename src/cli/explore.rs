@@ -15,7 +15,6 @@ use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
 
-/// Arguments of the explorer.
 #[derive(Args, Debug)]
 pub struct ExploreArguments {
     /// Explore this scene file, built-in scene (see `asperity presets list`), or merged study

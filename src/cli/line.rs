@@ -15,7 +15,6 @@ Examples:
 
 The finer profile is the same profile: a wave keeps its phase on every grid.";
 
-/// Arguments of `line`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]
 pub struct LineArguments {
@@ -25,9 +24,8 @@ pub struct LineArguments {
     pub output: OutputArguments,
 }
 
-/// Makes the profile of a scene and writes it.
 pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let format = arguments.output.format(None, TABLES, Format::Csv)?;
+    let format = arguments.output.format(TABLES, Format::Csv)?;
     let document = arguments.scene.open()?;
     let mut simulation = simulation_of(&document);
     let made = simulation.make_line(document.scene());

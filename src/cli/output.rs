@@ -8,7 +8,6 @@ use crate::export::{
 use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Scene, parse_quantity, quoted};
 use crate::text::path_name;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Arg, Args};
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
@@ -18,22 +17,17 @@ use std::path::{Path, PathBuf};
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
 /// Formats of tables.
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
+/// Formats of results without a picture.
+pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy];
 /// Formats of results without a table and without a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
-
-/// Parser of the names of these formats.
-pub(super) fn format_of(formats: &'static [Format]) -> impl TypedValueParser<Value = Format> {
-    let named = |name: String| Format::ALL.into_iter().find(|format| format.name() == name);
-    PossibleValuesParser::new(formats.iter().map(|format| format.name()))
-        .map(move |name| named(name).unwrap_or(Format::Text))
-}
 
 /// Widths of a figure, m.
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
 /// Number of px in a metre of a print.
 const PX: f64 = 96.0 / 0.0254;
 
-/// A file for results in place of standard output, and the look of figures.
+/// Format of results, a file for them in place of standard output, and the look of figures.
 #[derive(Args, Clone, Debug, Default)]
 pub struct OutputArguments {
     /// Write to FILE, whole or not at all; `-` is standard output
@@ -48,6 +42,9 @@ pub struct OutputArguments {
     /// Add the numbers of the scene in a box to a figure
     #[arg(long)]
     pub parameters: bool,
+    /// text, json, csv, npy, svg, png or pdf, as far as the result has it; default: by the extension of FILE
+    #[arg(long, value_enum, hide_possible_values = true)]
+    pub format: Option<Format>,
 }
 
 /// Hides the look of figures in the help of a command without figures.
@@ -86,13 +83,8 @@ impl OutputArguments {
 
     /// The format of the results: that of the extension of FILE, else the chosen one, else the usual one. Before any
     /// computation, checks also that FILE can be written. A terminal gets text only.
-    pub(super) fn format(
-        &self,
-        chosen: Option<Format>,
-        formats: &[Format],
-        usual: Format,
-    ) -> Result<Format, CliError> {
-        let format = Format::of_file(self.file(), chosen, formats, usual).map_err(CliError::message)?;
+    pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
+        let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
         if (self.width.is_some() || self.parameters) && !format.is_picture() {
             let option = if self.parameters { "--parameters" } else { "--width" };
             let refused = match formats.iter().any(|format| format.is_picture()) {
@@ -184,8 +176,8 @@ pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Resul
 /// Format of a short answer on standard output.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct AnswerFormat {
-    /// Output format
-    #[arg(long, value_parser = format_of(TEXT_OR_JSON), default_value = "text")]
+    /// text or json
+    #[arg(long, value_enum, hide_possible_values = true, default_value = "text")]
     format: Format,
 }
 
@@ -197,7 +189,8 @@ impl AnswerFormat {
         text: impl FnOnce() -> String,
         answer: &impl Serialize,
     ) -> Result<(), CliError> {
-        match self.format {
+        let format = Format::of_file(None, Some(self.format), TEXT_OR_JSON, Format::Text);
+        match format.map_err(CliError::message)? {
             Format::Json => crate::io::write_json_value(stdout, answer)?,
             _ => stdout.write_all(text().as_bytes())?,
         }

@@ -17,7 +17,6 @@ Examples:
 A stage that a scene does not need is skipped. \"per stage\" counts the passes of each loading stage;
 springs are the most that all passes touch; memory is what a stage adds while it runs.";
 
-/// Arguments of `plan`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct PlanArguments {
@@ -28,7 +27,6 @@ pub struct PlanArguments {
     pub format: AnswerFormat,
 }
 
-/// Writes the plan of a scene.
 pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
     let plan = Plan::of(document.scene());

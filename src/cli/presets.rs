@@ -8,7 +8,7 @@ use crate::scene::{self, Document, Entry};
 use crate::simulation::Simulation;
 use crate::text::printable;
 use clap::Subcommand;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 
 const CHECK_EXAMPLES: &str = "\
@@ -37,20 +37,19 @@ pub enum PresetsCommand {
         /// Its name
         name: String,
     },
-    /// Check scene files without computing them
+    /// Check scenes without computing them
     #[command(after_help = CHECK_EXAMPLES)]
     Check {
-        /// Scene files; `-` is standard input
+        /// Scene files, or names of scenes; `-` is standard input
         #[arg(required = true, value_name = "FILE")]
         files: Vec<String>,
     },
 }
 
-/// Performs one of the commands.
 pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Result<(), CliError> {
     match command {
         PresetsCommand::List { format } => list(*format, stdout),
-        PresetsCommand::Show { name } => show(name, stdout),
+        PresetsCommand::Show { name } => Ok(stdout.write_all(scene::open(name)?.text().as_bytes())?),
         PresetsCommand::Check { files } => check(files, stdout),
     }
 }
@@ -71,20 +70,6 @@ fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
     format.write(stdout, text, &objects.collect::<Vec<_>>())
 }
 
-fn show(name: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
-    if let Some(preset) = scene::find(name) {
-        return Ok(stdout.write_all(preset.text.as_bytes())?);
-    }
-    if let Some(entry) = scene::scenes(scene::own_folder().as_deref(), Path::new("."))
-        .into_iter()
-        .find(|entry| entry.name == name)
-    {
-        return Ok(stdout.write_all(entry.document?.text().as_bytes())?);
-    }
-    let names: Vec<_> = scene::presets().iter().map(|preset| preset.name).collect();
-    Err(CliError::named(name, format!("there is no such built-in scene; allowed: {}", names.join(", "))))
-}
-
 fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     let mut wrong = Vec::new();
     for file in files {
@@ -99,26 +84,10 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
 
 /// The name of a valid scene with its warning, or all its errors, line by line.
 fn checked(file: &str) -> Result<(String, Option<String>), String> {
-    let document = of_file(file)?;
+    let document = scene::open_argument(file).map_err(|errors| errors.to_string())?;
     match profile_error(&document) {
         None => Ok((document.name().into(), document.scene().warning())),
         Some(error) => Err(error),
-    }
-}
-
-fn of_file(file: &str) -> Result<Document, String> {
-    if file == "-" {
-        return scene::open_argument(file).map_err(|errors| errors.to_string());
-    }
-    let path = Path::new(file);
-    // Names of built-in scenes are not files.
-    match path.metadata() {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            Err(format!("{file}: there is no such file"))
-        }
-        Err(error) => Err(format!("{file}: cannot be read: {error}")),
-        Ok(found) if found.is_dir() => Err(format!("{file}: this is a folder; allowed: files")),
-        Ok(_) => scene::open_argument(file).map_err(|errors| errors.to_string()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `asperity reversals`: the unloadings of a scene from many turning points.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, TABLES, format_of};
+use super::output::{Origin, OutputArguments, TABLES};
 use super::preloads::parse_range;
 use super::scene::{SceneArguments, simulation_of};
 use crate::export::{Format, ReversalReport, SMOOTHING};
@@ -27,7 +27,6 @@ const MOST_LEVELS: i64 = 64;
 /// Default number of ends of minor loops.
 const LOOPS: u8 = 12;
 
-/// Arguments of `reversals`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct ReversalsArguments {
@@ -35,9 +34,6 @@ pub struct ReversalsArguments {
     pub scene: SceneArguments,
     #[command(flatten)]
     pub options: ReversalOptions,
-    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
-    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true)]
-    pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -64,10 +60,6 @@ pub struct ReversalOptions {
     pub map: bool,
 }
 
-/// Formats of reversals: text, one object, one row for each turning point or point of the map, and a picture of the
-/// adhesion force over the preload and of both maps.
-const FORMATS: &[Format] = &Format::ALL;
-
 fn forces(text: &str) -> Result<(f64, f64), String> {
     if text.contains(':') {
         return Err("allowed: two forces, such as 1uN..20uN; --count is the number of turning points".into());
@@ -75,11 +67,10 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
     parse_range(text).map(|(from, to, _)| (from, to))
 }
 
-/// Unloads a scene from many turning points and writes the result.
 pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let ReversalsArguments { options, output, .. } = arguments;
-    let (formats, usual) = if options.map { (TABLES, Format::Csv) } else { (FORMATS, Format::Text) };
-    let format = output.format(arguments.format, formats, usual)?;
+    let (formats, usual) = if options.map { (TABLES, Format::Csv) } else { (&Format::ALL[..], Format::Text) };
+    let format = output.format(formats, usual)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let failed = |error: RunError| CliError::named(document.name(), error);

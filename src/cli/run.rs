@@ -1,7 +1,7 @@
 //! `asperity run`: computation of a scene without a terminal.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, PICTURES, format_of};
+use super::output::{Origin, OutputArguments, PICTURES, WITHOUT_PICTURE};
 use super::preloads::parse_preloads;
 use super::scene::{MOST_LINES, SceneArguments, compute, simulation_of, threads};
 use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
@@ -31,10 +31,10 @@ Examples:
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
   asperity run ideal-adhesion pressure-sensitive non-adhesive --panels --width 170mm -o panels.pdf
 
-JSON, CSV and .npy are in SI units. Compression is positive, indentation is zero at first touch.
-CSV and .npy contain version, command and scene, and open as that scene.";
+JSON is one object with scene, profile, figures, curve, contacts and work; CSV and .npy hold the
+curve, in SI units. Compression is positive, indentation is zero at first touch. CSV and .npy contain
+version, command and scene, and open as that scene.";
 
-/// Arguments of `run`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct RunArguments {
@@ -43,14 +43,6 @@ pub struct RunArguments {
     /// More scenes in the same picture: force curves in one chart, all else in a chart for each
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
-    ///
-    /// Text is a summary for a person. JSON is one object with scene, profile, figures, curve,
-    /// contacts and work. CSV is the curve: leg, indentation, force, contact_length, fragments,
-    /// stored_energy. npy is the same as a structured array of NumPy. SVG, PNG and PDF are
-    /// pictures of the curve.
-    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
-    pub format: Option<Format>,
     /// Draw the force curve of each scene over axes of its own
     #[arg(long, requires = "more", conflicts_with_all = ["profile", "fragments", "preloads"])]
     pub panels: bool,
@@ -87,11 +79,6 @@ pub struct RunArguments {
     pub output: OutputArguments,
 }
 
-/// Formats of a run: text, one object with all results, the force curve, and pictures of the force curve, the
-/// profile or the contact patches.
-const FORMATS: &[Format] = &Format::ALL;
-/// Formats of results of several profiles.
-const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy];
 /// Columns of messages.
 const WIDTH: usize = 80;
 
@@ -108,9 +95,9 @@ impl RunArguments {
         let (formats, usual) = match self.is_drawn() {
             true => (PICTURES, Format::Svg),
             false if self.lines.is_some() && self.preloads.is_none() => (WITHOUT_PICTURE, Format::Text),
-            false => (FORMATS, Format::Text),
+            false => (&Format::ALL[..], Format::Text),
         };
-        self.output.format(self.format, formats, usual)
+        self.output.format(formats, usual)
     }
 
     /// Quantities of a scene on its profiles, and for its preloads.

@@ -1,7 +1,7 @@
 //! `asperity sensitivity`: changes of the results of a scene with its numbers.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, format_of};
+use super::output::{Origin, OutputArguments};
 use super::scene::{SceneArguments, simulation_of};
 use crate::export::{Format, SensitivityReport};
 use crate::study::Sensitivity;
@@ -16,22 +16,17 @@ Examples:
 Each number of the scene is made 10 % smaller and larger while all others stay; the last row is the
 range over other random profiles.";
 
-/// Arguments of `sensitivity`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct SensitivityArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
-    #[arg(long, value_parser = format_of(&Format::ALL), hide_possible_values = true)]
-    pub format: Option<Format>,
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// Computes the neighbours of a scene and writes the changes.
 pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let format = arguments.output.format(arguments.format, &Format::ALL, Format::Text)?;
+    let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let found = Sensitivity::of(scene, &mut simulation_of(&document), &|| false, &mut |_| ());

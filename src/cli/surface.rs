@@ -1,7 +1,7 @@
 //! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, check_file, format_of};
+use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{MOST_LINES, threads};
 use crate::export::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
 use crate::io::write_new;
@@ -31,13 +31,14 @@ Examples:
 
 Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR or
 NetCDF, also compressed by gzip. Several files are samples of the same roughness. A profile is a cut
-through the surface; the contact is computed on its equivalent line.";
+through the surface; the contact is computed on its equivalent line.
+
+JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
 /// Default number of random profiles for the adhesion force, and the largest number of springs for it: some seconds.
 const LINES: u32 = 16;
 const MOST_SPRINGS: u64 = 1 << 17;
 
-/// Arguments of `surface`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct SurfaceArguments {
@@ -65,13 +66,6 @@ pub struct SurfaceArguments {
     /// Effective modulus E*, such as 2.7MPa, for the elastic energy
     #[arg(long, value_name = "PRESSURE", value_parser = |text: &str| positive(text, "Pa"))]
     pub modulus: Option<f64>,
-    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
-    ///
-    /// Text is a summary for a person. JSON is one object with statistics, fit, spectra and
-    /// warnings. CSV holds the spectra: spectrum,wave_number,power,waves. npy is the same as a
-    /// structured array of NumPy. SVG, PNG and PDF are pictures of the spectra.
-    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true, verbatim_doc_comment)]
-    pub format: Option<Format>,
     /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
     /// The scene names the files and contains all options of their reading and analysis.
@@ -96,9 +90,6 @@ pub struct SurfaceArguments {
     #[arg(long, requires = "scene")]
     pub force_scene: bool,
 }
-
-/// Formats of the results: text, one object with everything, the spectra as a table and as a picture.
-const FORMATS: &[Format] = &Format::ALL;
 
 /// Length as typed.
 #[derive(Clone, Copy, Debug)]
@@ -184,10 +175,9 @@ impl SurfaceArguments {
     }
 }
 
-/// Reads and analyses the files and writes the results.
 pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     arguments.check_outputs()?;
-    let format = arguments.output.format(arguments.format, FORMATS, Format::Text)?;
+    let format = arguments.output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
         check_file(file, "ron", arguments.force_scene)?;
     }

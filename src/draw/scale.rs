@@ -1,8 +1,10 @@
 //! Scales of axes and ranges of coordinates.
 
 /// Mapping of numbers to coordinates along an axis.
+#[cfg_attr(feature = "tui", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
+    /// Equal distances for equal differences.
     #[default]
     Linear,
     /// The decimal logarithm; all values are above zero.

@@ -4,7 +4,7 @@
 use super::keys::Bindings;
 use super::theme::{Appearance, Marker, Theme};
 use crate::io::{read_regular_text, write_new};
-use crate::scene::{DEFAULT, Text, describe_error, line_column, read_ron};
+use crate::scene::{DEFAULT, Text, explain, line_column, read_ron};
 use etcetera::{BaseStrategy, choose_base_strategy};
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
@@ -114,8 +114,8 @@ impl Config {
             format!("{}:{line}:{column}: {message}", path.display())
         };
         let mut config: Config = read_ron(text).map_err(|error| {
-            let (offset, message) = describe_error(text, &error);
-            wrong_at(offset, message)
+            let (offset, error) = explain(text, &error);
+            wrong_at(offset, error.what())
         })?;
         config.bindings = bindings;
         let wrong = |field: &str, message: String| {

@@ -69,7 +69,7 @@ pub fn write(
 }
 
 /// Format of a result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, clap::ValueEnum)]
 #[strum(serialize_all = "lowercase")]
 pub enum Format {
     /// Text for a reader.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::fields::field;
 
 /// Dimensionless roughness-adhesion parameter, which may replace the work of adhesion.
+#[cfg_attr(feature = "tui", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11).

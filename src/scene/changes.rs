@@ -2,10 +2,9 @@
 
 use super::document::Document;
 use super::field::{Field, stage_targets};
-use super::fields::fields_inside;
 use super::model::{Move, Roughness, Scene};
 use super::quantity::format_quantity;
-use super::tree::Tree;
+use super::tree::{Tree, differing};
 use std::fmt;
 
 /// A field with different values in two scenes.
@@ -53,33 +52,19 @@ impl Document {
     /// scenes make the same choices, else their group; loading stages one by one if both scenes have as many.
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
         let scenes = [self, other].map(|document| with_stated_use(document.scene()));
-        let trees = scenes.each_ref().map(Tree::of);
-        let fields = fields_inside("", None);
+        let [here, there] = scenes.each_ref().map(Tree::of);
         let mut changes = Vec::new();
-        for field in fields.filter(|field| !["title", "notice", "version"].contains(&field.path)) {
+        for field in differing([&here, &there], |one, other| one == other) {
             match field.path {
+                "title" | "notice" | "version" => {}
                 "loading" => changes.extend(changed_stages(&scenes)),
-                _ => add_changes(field, &trees, &mut changes),
+                _ => {
+                    let [from, to] = [&here, &there].map(|tree| in_words(tree, field));
+                    changes.push(Change { name: symbol_or_name(field).to_owned(), from, to });
+                }
             }
         }
         changes
-    }
-}
-
-fn add_changes(field: &Field, trees: &[Tree; 2], changes: &mut Vec<Change>) {
-    let values = trees.each_ref().map(|tree| tree.written(field).unwrap_or_default());
-    // A field at its default in both is equal, though the default may depend on another field.
-    let are_defaults = values.iter().zip(trees).all(|(value, tree)| value == tree.default(field));
-    if values[0] == values[1] || are_defaults {
-        return;
-    }
-    let [inside, others] = trees.each_ref().map(|tree| tree.inside(field));
-    let is_given = |field: &&Field| trees[0].value(field).is_some() == trees[1].value(field).is_some();
-    if inside.is_empty() || inside != others || !inside.iter().all(is_given) {
-        let [from, to] = trees.each_ref().map(|tree| in_words(tree, field));
-        changes.push(Change { name: symbol_or_name(field).to_owned(), from, to });
-    } else {
-        inside.into_iter().for_each(|field| add_changes(field, trees, changes));
     }
 }
 
@@ -91,7 +76,7 @@ fn changed_stages(scenes: &[Scene; 2]) -> Vec<Change> {
     let [from, to] = [one, other].map(|loading| stage_targets(loading, format_quantity));
     // A change takes the room of its value and of some fourteen characters.
     let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
-    if one == other || one.len() == other.len() && length < 14 + from.len() {
+    if one.len() == other.len() && length < 14 + from.len() {
         return changes;
     }
     vec![Change { name: "loading".to_owned(), from, to }]

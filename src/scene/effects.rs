@@ -1,10 +1,8 @@
 //! Optional effects of a scene beyond the nonadhesive contact of a flat body.
 
-use super::adhesion::Adhesion;
-use super::fields::field;
-use super::model::{Move, Observer, Scene};
-use super::text::ron_float;
-use super::tree::{Tree, in_ron};
+use super::adhesion::{Adhesion, RoughnessParameter};
+use super::model::{Move, Observer, Roughness, Scene};
+use crate::surface::Form;
 use crate::text::round_to;
 
 /// Optional effect of a scene, switched by [`Document::with`](super::Document::with) and [`Document::without`](super::Document::without).
@@ -75,36 +73,40 @@ impl Effect {
         }
     }
 
-    /// Value of the field, in RON, that suits a scene without the effect.
-    pub(super) fn suited(self, scene: &Scene) -> String {
+    /// The scene with the effect, at values that suit the others.
+    pub(super) fn suited(self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        let adhesion = scene.adhesion.unwrap_or_default();
         match self {
             // At the ends of the profile its height is an eighth of the length.
-            Effect::Form => format!("Paraboloid(radius: {})", ron_float(scene.length)),
+            Effect::Form => scene.form = Some(Form::Paraboloid { radius: scene.length }),
             Effect::Roughness => {
                 // Smooth on the scale of a spring and, under a form, on that of the contact.
                 let last = (scene.numerics.points / 8).clamp(1, 512);
                 let first = if scene.form.is_some() { last.min(4) } else { 1 };
-                let height = ron_float(round_to(scene.length / 500.0, 2));
-                format!("SelfAffine(hurst: 0.7, rms_height: {height}, modes: ({first}, {last}), seed: 1)")
+                scene.roughness = Some(Roughness::SelfAffine {
+                    hurst: 0.7,
+                    rms_height: Some(round_to(scene.length / 500.0, 2)),
+                    rms_gradient: None,
+                    modes: Some((first, last)),
+                    wavelengths: None,
+                    roll_off: None,
+                    seed: 1,
+                });
             }
             Effect::Adhesion if scene.roughness.is_some() => {
-                let Adhesion { range, .. } = scene.adhesion.unwrap_or_default();
-                adhesion_text(scene, Adhesion { kappa: Some(2.0), range, ..Adhesion::default() })
+                let kappa = Adhesion::by_parameter(RoughnessParameter::Kappa, 2.0);
+                scene.adhesion = Some(Adhesion { range: adhesion.range, ..kappa });
             }
-            Effect::Adhesion => adhesion_text(scene, scene.adhesion.unwrap_or_default().with_work(0.05)),
-            Effect::Unloading => in_ron(&[&scene.loading[..], &[Move::ToSeparation]].concat()),
+            Effect::Adhesion => scene.adhesion = Some(adhesion.with_work(0.05)),
+            Effect::Unloading => scene.loading.push(Move::ToSeparation),
             Effect::Fragments | Effect::HeightHistogram => {
-                let all = Effect::ALL.into_iter().filter(|effect| *effect == self || effect.is_on(scene));
-                in_ron(&all.filter_map(Effect::observer).collect::<Vec<_>>())
+                let on = |effect: &Effect| *effect == self || effect.is_on(&scene);
+                scene.observe = Effect::ALL.into_iter().filter(on).filter_map(Effect::observer).collect();
             }
         }
+        scene
     }
-}
-
-/// Adhesion in RON.
-pub(super) fn adhesion_text(scene: &Scene, adhesion: Adhesion) -> String {
-    let changed = Scene { adhesion: Some(adhesion), ..scene.clone() };
-    field("adhesion", None).and_then(|field| Tree::of(&changed).written(field)).unwrap_or_default()
 }
 
 /// Returns true for a stage that may pull. A first stage cannot, since it begins at separation.

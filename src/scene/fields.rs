@@ -3,11 +3,13 @@
 //! Reading and writing, checks of ranges, defaults, overrides, steps of the keys, axes of studies, the explorer's list
 //! of parameters, random scenes of the tests and the reference in docs/scene-file.md are loops over this table.
 
+use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
 
 use super::field::Step::{Doubling, Integer, Linear, Typed};
 use super::field::{FILE_NAME, Field, row};
 use super::range::Range::{self, Band, Choice, List, Text, Wavelengths, Whole};
+use super::text::read_ron;
 
 /// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
 /// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
@@ -21,6 +23,12 @@ pub const MOST_POINTS: u64 = 1 << 28;
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
     let is_of = |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
     FIELDS.iter().find(|field| field.path == path && is_of(field))
+}
+
+/// Value of an omitted field that has a default.
+pub(super) fn default_of<T: DeserializeOwned>(path: &str) -> T {
+    let row = FIELDS.iter().find(|field| field.path == path && !field.default.is_empty());
+    row.and_then(|row| read_ron(row.default).ok()).expect("a row of the table with a default of this type")
 }
 
 /// Fields inside the group or choice at a path, with this variant; the top level for an empty path.

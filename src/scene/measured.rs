@@ -1,5 +1,6 @@
 //! A measured surface as the roughness of a scene: its files, and the options of their reading and analysis.
 
+use super::fields::default_of;
 use crate::spectrum::{Detrend, End, Options};
 use crate::surface::MeasuredOptions;
 use crate::topography::{Cut, ReadOptions, Unit};
@@ -82,20 +83,17 @@ pub struct Measured {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continue_to: Option<f64>,
     /// Seed of the random phases of the equivalent line.
-    #[cfg_attr(feature = "tui", arg(skip = SEED))]
+    #[cfg_attr(feature = "tui", arg(skip = default_seed()))]
     #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
     pub seed: u64,
 }
 
-/// Seed of an omitted field.
-const SEED: u64 = 1;
-
 fn default_seed() -> u64 {
-    SEED
+    default_of("roughness.seed")
 }
 
 fn is_default_seed(seed: &u64) -> bool {
-    *seed == SEED
+    *seed == default_seed()
 }
 
 /// Name of a typed unit; empty for none.

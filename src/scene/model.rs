@@ -3,6 +3,7 @@
 //! These types hold values as written; [`super::check()`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
+use super::fields::default_of;
 use super::measured::Measured;
 pub use crate::contact::{Edges, Move};
 use crate::surface::{Form, MeasuredOptions, SelfAffine};
@@ -255,7 +256,8 @@ struct NumericsText {
 
 impl Default for NumericsText {
     fn default() -> Self {
-        NumericsText { points: 1 << 14, solver: Solver::Exact, edges: None, samples: 512 }
+        let [points, samples] = ["numerics.points", "numerics.samples"].map(default_of);
+        NumericsText { points, solver: default_of("numerics.solver"), edges: None, samples }
     }
 }
 
@@ -282,7 +284,7 @@ impl Solver {
     /// The edges of a scene that does not specify them: between springs if the solver can find them there.
     pub fn usual_edges(self) -> Edges {
         match self {
-            Solver::Exact => Edges::SubCell,
+            Solver::Exact => default_of("numerics.edges"),
             Solver::Stepwise { .. } => Edges::Grid,
         }
     }
@@ -298,5 +300,5 @@ pub enum Observer {
 }
 
 fn default_loading() -> Vec<Move> {
-    vec![Move::ToZeroForce, Move::ToSeparation]
+    default_of("loading")
 }

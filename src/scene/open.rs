@@ -47,7 +47,12 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
 
 /// Returns true for the name of a file: that of an existing one, or one that looks like a path.
 pub(crate) fn is_file_name(name: &str) -> bool {
-    name.ends_with(".ron") || name.chars().any(std::path::is_separator) || Path::new(name).is_file()
+    is_path(name) || Path::new(name).is_file()
+}
+
+/// Returns true for a name that looks like a path.
+pub(crate) fn is_path(name: &str) -> bool {
+    name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
 /// Opens the scene of a command argument: as [`open`], but also from a stream. `-` is standard input, and a pipe or

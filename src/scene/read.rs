@@ -2,15 +2,13 @@
 
 use ron::Error;
 use ron::error::SpannedError;
-use ron::extensions::Extensions;
-use serde::de::DeserializeOwned;
 
 use super::edit::field_at;
 use super::errors::{Origin, SceneError, SceneErrors, did_you_mean, nearest};
 use super::fields::field;
 use super::model::Scene;
 use super::range::Range;
-use super::text::{Text, offset_of};
+use super::text::{Text, offset_of, read_ron};
 
 /// Longest value that is repeated in messages.
 const MOST_REPEATED: usize = 60;
@@ -22,42 +20,25 @@ const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is r
 /// Reads a scene; its values are not checked. An error has the origin of the byte at which reading failed.
 pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
     read_ron(text).map_err(|error| {
-        let (offset, error) = explain(text, &error);
+        let (offset, error) = no_scene(text, &error).unwrap_or_else(|| explain(text, &error));
         error.at(origin(offset)).into()
     })
 }
 
-/// Reads RON text with optional values that need no `Some`, and a variant of one group without brackets around it.
-pub(crate) fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
-    let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
-    ron::Options::default().with_default_extension(extensions).from_str(text)
-}
-
-/// Error of an unsupported version, which may be why the rest of a text cannot be read.
-fn wrong_version(text: &Text) -> Option<(usize, SceneError)> {
+/// Error of a text that does not begin as a scene, or has an unsupported version, which may be why the rest of it cannot
+/// be read.
+fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
+    if !source.trim().is_empty() && !source[..place_of(source, error).1].contains('(') {
+        let start = source.len() - source.trim_start().len();
+        return Some((start, SceneError::whole(Origin::Scene, NO_SCENE)));
+    }
+    let text = Text::new(source).ok()?;
     let (field, value) = (field("version", None)?, text.written("version")?);
     if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
         return None;
     }
     let error = SceneError::of(field.path, value, field.allowed(), field.name);
     Some((text.nearest_value("version"), error))
-}
-
-/// Place and reason of an error in text of any form.
-pub(crate) fn describe_error(text: &str, error: &SpannedError) -> (usize, String) {
-    let message = match &error.code {
-        Error::NoSuchEnumVariant { expected, found, .. } => {
-            let near = nearest(found, expected.iter().copied());
-            let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
-            format!("{found}: allowed: {}{near}", expected.join(", "))
-        }
-        Error::MissingStructField { field, .. } => format!("{field}: missing"),
-        Error::NoSuchStructField { found, .. } => format!("{found}: {}", plain(&error.code)),
-        Error::DuplicateStructField { field, .. } => format!("{field}: given twice"),
-        Error::TrailingCharacters => "nothing may follow here".into(),
-        code => plain(code),
-    };
-    (place_of(text, error).0, message)
 }
 
 /// First byte of the error, and the position of the reader.
@@ -69,21 +50,19 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     (if text[start..end].contains(something) { start } else { end }, end)
 }
 
-fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
+/// First byte of an error in text of any form, and the error.
+pub(crate) fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
-    let whole = |offset, message: &str| (offset, SceneError::whole(Origin::Scene, message));
-    if !source.trim().is_empty() && !source[..end].contains('(') {
-        return whole(source.len() - source.trim_start().len(), NO_SCENE);
-    }
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
-    match Text::new(source) {
-        Ok(text) => wrong_version(&text).unwrap_or_else(|| explain_at(&text, offset, &error.code)),
+    let (offset, message) = match Text::new(source) {
+        Ok(text) => return explain_at(&text, offset, &error.code),
         // If the reader reached the end of the text, the open bracket is the better place.
         Err(unreadable) if end >= source.trim_end().len() || is_lost => {
-            whole(unreadable.offset, unreadable.reason)
+            (unreadable.offset, unreadable.reason.to_owned())
         }
-        Err(_) => whole(offset, &plain(&error.code)),
-    }
+        Err(_) => (offset, plain(&error.code)),
+    };
+    (offset, SceneError::whole(Origin::Scene, message))
 }
 
 fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) {
@@ -143,7 +122,7 @@ fn plain(error: &Error) -> String {
         }
         Error::ExpectedMapColon => "a colon is expected here",
         Error::ExceededRecursionLimit => "nested too deeply",
-        Error::TrailingCharacters => "nothing may follow the scene",
+        Error::TrailingCharacters => "nothing may follow here",
         other => {
             let text = other.to_string();
             let first = text.chars().next().map(|first| first.to_lowercase().to_string());

@@ -6,14 +6,12 @@
 
 use super::adhesion::{Adhesion, RoughnessParameter};
 use super::document::{Document, pair};
-use super::effects::{Effect, adhesion_text, pressing};
+use super::effects::{Effect, pressing};
 use super::errors::{SceneError, SceneErrors};
 use super::field::Field;
-use super::fields::fields_inside;
 use super::model::{Roughness, Scene};
 use super::range::{Range, choice_key};
-use super::text::ron_float;
-use super::tree::{Tree, in_ron};
+use super::tree::{Tree, differing};
 use crate::text::round_to;
 
 /// Values that a scene determines through its profile, known after the computation.
@@ -39,35 +37,35 @@ impl Document {
     /// # Errors
     /// A replacement value is not in `computed`, or is invalid.
     pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
-        let scene = self.scene();
-        if !effect.is_on(scene) {
+        let mut scene = self.scene().clone();
+        if !effect.is_on(&scene) {
             return Ok(self.clone());
         }
         let adhesion = scene.adhesion.unwrap_or_default();
-        let replaced = match (effect, adhesion.parameter()) {
-            (Effect::Roughness, Some((parameter, _))) if adhesion.work.is_some() => {
-                Some(pair(parameter.path(), "None"))
+        match (effect, &mut scene.roughness) {
+            (Effect::Form, _) => scene.form = None,
+            (Effect::Roughness, roughness) => {
+                *roughness = None;
+                if let Some((parameter, _)) = adhesion.parameter() {
+                    let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
+                    let work = self.known(adhesion.work.or(computed.work_of_adhesion), "adhesion", &what)?;
+                    let adhesion = Adhesion { kappa: None, elastic_energy_ratio: None, ..adhesion };
+                    scene.adhesion = Some(adhesion.with_work(work));
+                }
             }
-            (Effect::Roughness, Some((parameter, _))) => {
-                let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
-                let work = self.known(computed.work_of_adhesion, "adhesion", &what)?;
-                Some(pair("adhesion", adhesion_text(scene, adhesion.with_work(work))))
+            (Effect::Adhesion, roughness) => {
+                if let Some(Roughness::SelfAffine { rms_height: height @ None, rms_gradient: None, .. }) =
+                    roughness
+                {
+                    let what = "adhesion sets its amplitude, and the rms height";
+                    *height = Some(self.known(computed.rms_height, "roughness", what)?);
+                }
+                scene.adhesion = None;
             }
-            (Effect::Adhesion, _) if !scene.roughness.as_ref().is_none_or(Roughness::has_amplitude) => {
-                let what = "adhesion sets its amplitude, and the rms height";
-                let height = self.known(computed.rms_height, "roughness", what)?;
-                Some(pair("roughness.rms_height", ron_float(height)))
-            }
-            _ => None,
-        };
-        let value = match (effect, effect.observer()) {
-            (Effect::Unloading, _) => in_ron(&[pressing(&scene.loading)]),
-            (_, None) => "None".to_owned(),
-            (_, observer) => {
-                in_ron(&scene.observe.iter().filter(|other| Some(**other) != observer).collect::<Vec<_>>())
-            }
-        };
-        let overrides: Vec<_> = replaced.into_iter().chain([pair(effect.path(), value)]).collect();
+            (Effect::Unloading, _) => scene.loading = vec![pressing(&scene.loading)],
+            _ => scene.observe.retain(|other| Some(*other) != effect.observer()),
+        }
+        let overrides = overrides_to(self.scene(), &scene);
         let mut new = self.set_all(&overrides)?;
         let value = |document: &Document, path| document.value(path).unwrap_or_default().to_owned();
         let values = overrides.iter().map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
@@ -93,24 +91,23 @@ impl Document {
             let back: Vec<_> = unchanged.map(|[path, removed, _]| pair(path, removed.as_str())).collect();
             self.set_all(&back).ok().filter(|new| effect.is_on(new.scene()))
         });
-        restored.map_or_else(|| self.set(effect.path(), &effect.suited(self.scene())), Ok)
+        restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
     }
 
-    /// This document with another adhesion: its numbers change one by one if the same ones are given, else their group.
+    /// This document with the values of another scene. Of a group whose choices stay, the numbers change one by one.
+    ///
+    /// # Errors
+    /// Invalid values.
+    pub fn with_scene(&self, scene: &Scene) -> Result<Document, SceneErrors> {
+        self.set_all(&overrides_to(self.scene(), scene))
+    }
+
+    /// This document with another adhesion; see [`Document::with_scene`].
     ///
     /// # Errors
     /// An invalid value.
     pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
-        let scenes = [self.scene(), &Scene { adhesion: Some(adhesion), ..self.scene().clone() }];
-        let [here, there] = scenes.map(Tree::of);
-        let values =
-            || fields_inside("adhesion", None).map(|field| (here.value(field), there.value(field), field));
-        if values().any(|(here, there, _)| here.is_some() != there.is_some()) {
-            return self.set("adhesion", &adhesion_text(self.scene(), adhesion));
-        }
-        let changed = values().filter(|(here, there, _)| here != there);
-        let text = changed.map(|(.., field)| pair(field.path, there.written(field).unwrap_or_default()));
-        self.set_all(&text.collect::<Vec<_>>())
+        self.with_scene(&Scene { adhesion: Some(adhesion), ..self.scene().clone() })
     }
 
     /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
@@ -185,6 +182,13 @@ impl Document {
             SceneError::of(field, self.value(field).unwrap_or_default(), "", &message).into()
         })
     }
+}
+
+/// Overrides that make one scene another: a field that is no longer given is replaced with its group.
+fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
+    let [from, to] = [from, to].map(Tree::of);
+    let changed = differing([&from, &to], |before, after| after || !before).into_iter();
+    changed.map(|field| pair(field.path, to.written(field).unwrap_or_default())).collect()
 }
 
 #[cfg(test)]

@@ -134,6 +134,30 @@ impl Tree {
     }
 }
 
+/// Fields with different values in two scenes: each by itself where both make the same choices and `splits` holds for each
+/// field, given or omitted in the two scenes; else their group.
+pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Vec<&'static Field> {
+    let mut fields: Vec<&Field> = fields_inside("", None).collect();
+    let mut found = Vec::new();
+    fields.reverse();
+    while let Some(field) = fields.pop() {
+        let values = trees.map(|tree| tree.written(field).unwrap_or_default());
+        // A field at its default in both is equal, though the default may depend on another field.
+        let are_defaults = values.iter().zip(trees).all(|(value, tree)| value == tree.default(field));
+        if values[0] == values[1] || are_defaults {
+            continue;
+        }
+        let [inside, others] = trees.map(|tree| tree.inside(field));
+        let given = |field: &&Field| trees.map(|tree| tree.value(field).is_some());
+        if inside.is_empty() || inside != others || !inside.iter().map(given).all(|[a, b]| splits(a, b)) {
+            found.push(field);
+        } else {
+            fields.extend(inside.into_iter().rev());
+        }
+    }
+    found
+}
+
 /// The scene as canonical RON text, ending in a line break, without fields that have their default; parsing the text
 /// returns the same scene.
 pub fn to_ron(scene: &Scene) -> String {

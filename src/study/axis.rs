@@ -5,7 +5,7 @@ use crate::draw::AxisScale;
 use crate::scene::{
     FIELDS, Field, Move, Range, RoughnessParameter, Scene, did_you_mean, field, format_quantity,
 };
-use crate::text::printable;
+use crate::text::{printable, round_to};
 use serde::{Deserialize, Serialize};
 
 /// Most values on one axis.
@@ -128,7 +128,7 @@ impl Axis {
     fn between(&self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Vec<f64> {
         let rounded = |value: f64| match self.is_whole() {
             true => value.round(),
-            false => format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value),
+            false => round_to(value, DIGITS),
         };
         let last = count - 1;
         let inner = (1..last).map(|index| rounded(at(index as f64 / last as f64)));

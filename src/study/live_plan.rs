@@ -7,6 +7,7 @@ use super::quantity::Quantity;
 use crate::scene::{
     Adhesion, Edges, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver,
 };
+use crate::text::round_to;
 
 /// Random profiles of each cell.
 pub const MAP_LINES: u64 = 4;
@@ -35,7 +36,7 @@ fn parameters(parameter: RoughnessParameter) -> Vec<f64> {
         RoughnessParameter::ElasticEnergyRatio => 2.0,
     };
     let exact = |index: u32| ((f64::from(index) - 12.0) / per_octave).exp2();
-    (0..PARAMETERS).map(exact).map(|exact| format!("{exact:.2e}").parse().unwrap_or(exact)).collect()
+    (0..PARAMETERS).map(|index| round_to(exact(index), 3)).collect()
 }
 
 /// The study of all cells of the live map of a checked scene: κ or e_el/γ and, if its roughness has one, H. Scenes that

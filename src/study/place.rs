@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Spacing, Target};
 use crate::analysis::Governing;
-use crate::scene::{Document, FIELDS, Field, Move, Range, Scene, SceneErrors, Tree, ron_float};
+use crate::scene::{Document, FIELDS, Field, Move, Range, Scene, SceneError, SceneErrors, Tree};
 use crate::simulation::FEW_SAMPLES;
 
 impl Axis {
@@ -61,14 +61,12 @@ pub(super) fn scene_with<'a>(
     Ok(scene)
 }
 
-const LAST_MODE: &str = "roughness.modes.1";
-
 /// Path and value of the shortest wave with this number of springs, as a mode or, where these are given, as a wavelength.
 fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
     let [points, length] = ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
     match tree.get("roughness.wavelengths.1") {
         Some(_) => ("roughness.wavelengths.1", springs * length / points),
-        None => (LAST_MODE, (points / springs).round()),
+        None => ("roughness.modes.1", (points / springs).round()),
     }
 }
 
@@ -106,8 +104,15 @@ pub(super) fn governing(scene: &Scene) -> Option<Governing> {
 }
 
 /// Unit of preloads, E* h L, of a scene with a self-affine profile, N.
-pub(super) fn force_unit(scene: &Scene) -> Option<f64> {
+fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
+}
+
+/// Replaces the loading of a scene by a preload in units of E* h L, if that unit follows from the scene, and a pull-off.
+pub(super) fn press(scene: &mut Scene, preload: f64) {
+    if let Some(unit) = force_unit(scene) {
+        scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
+    }
 }
 
 /// Document with other values of the quantities of axes. κ or e_el/γ changes the work of adhesion of a scene that
@@ -116,39 +121,24 @@ pub(super) fn force_unit(scene: &Scene) -> Option<f64> {
 /// # Errors
 /// A value that is not allowed.
 pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
-    let (mut fields, mut parameter, mut preload, mut springs) = (Vec::new(), None, None, None);
-    for &(axis, value) in values {
-        match axis.target {
-            target if target.parameter().is_some() => parameter = target.parameter().zip(Some(value)),
-            Target::Preload => preload = Some(value),
-            Target::SpringsPerWave => springs = Some(value),
-            _ => {
-                let text = if axis.is_whole() { format!("{value:.0}") } else { ron_float(value) };
-                fields.push((axis.path.clone(), text));
-            }
-        }
-    }
-    let mut moved = document.set_all(&fields)?;
-    if let Some(springs) = springs {
-        let (path, value) = shortest_wave(&Tree::of(moved.scene()), springs);
-        let text = if path == LAST_MODE { format!("{value:.0}") } else { ron_float(value) };
-        moved = moved.set(path, &text)?;
-    }
-    if let Some((parameter, value)) = parameter {
-        let adhesion = moved.scene().adhesion.unwrap_or_default();
+    let is_parameter = |axis: &Axis| axis.target.parameter().is_some();
+    let numbers = values.iter().copied().filter(|(axis, _)| !is_parameter(axis));
+    let unknown = |message| SceneError { message, ..SceneError::default() };
+    let mut scene = scene_with(document.scene(), numbers).map_err(unknown)?;
+    for (axis, value) in values {
+        let Some(parameter) = axis.target.parameter() else { continue };
+        let adhesion = scene.adhesion.unwrap_or_default();
         let by_work = adhesion.work.is_some() && !adhesion.sets_amplitude();
-        let work = governing(moved.scene()).and_then(|governing| governing.work_for(parameter, value));
-        moved = moved.with_adhesion(match work.filter(|_| by_work) {
+        let work = governing(&scene).and_then(|governing| governing.work_for(parameter, *value));
+        scene.adhesion = Some(match work.filter(|_| by_work) {
             Some(work) => adhesion.with_work(work),
-            None => adhesion.with_parameter(parameter, value),
-        })?;
+            None => adhesion.with_parameter(parameter, *value),
+        });
     }
-    match preload.zip(force_unit(moved.scene())) {
-        Some((preload, unit)) => {
-            moved.set("loading", &format!("[ToForce({}), ToSeparation]", ron_float(preload * unit)))
-        }
-        None => Ok(moved),
+    if let Some((_, preload)) = values.iter().find(|(axis, _)| axis.target == Target::Preload) {
+        press(&mut scene, *preload);
     }
+    document.with_scene(&scene)
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
 use super::quantity::Quantity;
 use crate::io::read_regular_text;
 use crate::scene::{
-    Document, LONGEST_TEXT, Preset, Scene, SceneErrors, built_in, describe_error, did_you_mean, is_file_name,
-    line_column, open, read_ron, ron_float, ron_string, to_ron,
+    Document, LONGEST_TEXT, Preset, Scene, SceneErrors, built_in, did_you_mean, explain, is_file_name,
+    is_path, line_column, open, read_ron, ron_float, ron_string, to_ron,
 };
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -83,15 +83,21 @@ impl Plan {
             let text = text.map_err(|error| PlanErrors(vec![format!("{name_or_path}: {error}")]))?;
             return Plan::parse(&text, name_or_path, changes);
         }
-        if let Some(plan) = PLANS.iter().find(|plan| plan.name == name_or_path) {
-            return Plan::parse(plan.text, plan.name, changes);
-        }
-        let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
-        let near = did_you_mean(name_or_path, names.iter().copied());
-        let names = names.join(", ");
-        Err(PlanErrors(vec![format!(
-            "{name_or_path}: there is no such file and no such built-in plan{near} (built-in: {names})"
-        )]))
+        let plan = Plan::built_in(name_or_path)?;
+        Plan::parse(plan.text, plan.name, changes)
+    }
+
+    /// The built-in plan of this name.
+    ///
+    /// # Errors
+    /// No such plan, with the names of all.
+    pub fn built_in(name: &str) -> Result<&'static Preset, PlanErrors> {
+        PLANS.iter().find(|plan| plan.name == name).ok_or_else(|| {
+            let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
+            let (near, names) = (did_you_mean(name, names.iter().copied()), names.join(", "));
+            let message = "there is no such file and no such built-in plan";
+            PlanErrors(vec![format!("{name}: {message}{near} (built-in: {names})")])
+        })
     }
 
     /// Reads and checks a plan; `name` is that of its file, for errors.
@@ -113,9 +119,9 @@ impl Plan {
             return Err(refused(format!("the plan is too long: at most {LONGEST_TEXT} bytes are read")));
         }
         let read: PlanText = read_ron(text).map_err(|error| {
-            let (offset, what) = describe_error(text, &error);
+            let (offset, error) = explain(text, &error);
             let (line, column) = line_column(text, offset);
-            PlanErrors(vec![format!("{name}:{line}:{column}: {what}")])
+            PlanErrors(vec![format!("{name}:{line}:{column}: {}", error.what())])
         })?;
         if read.version != PLAN_VERSION {
             return Err(refused(format!(
@@ -215,7 +221,7 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
         (Some(base), None) => {
             let beside = Path::new(name).parent().unwrap_or(Path::new("")).join(base);
             let beside = beside.to_string_lossy();
-            let is_file = base.ends_with(".ron") || Path::new(&*beside).is_file();
+            let is_file = is_path(base) || Path::new(&*beside).is_file();
             open(if is_file { &beside } else { base }).map_err(in_scene)?
         }
     };

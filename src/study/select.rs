@@ -34,7 +34,7 @@ pub struct Selection {
     /// Scale of quantities
     ///
     /// Default: by the range of the values; small values have a second, logarithmic chart.
-    #[cfg_attr(feature = "tui", arg(long, value_parser = scale_names()))]
+    #[cfg_attr(feature = "tui", arg(long, value_enum))]
     pub scale: Option<AxisScale>,
 }
 
@@ -45,15 +45,6 @@ fn axis_and_value(text: &str) -> Result<(String, String), String> {
     let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
     let owned = parts.map(|(axis, value)| (axis.to_owned(), value.to_owned()));
     owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
-}
-
-#[cfg(feature = "tui")]
-fn scale_names() -> impl clap::builder::TypedValueParser<Value = AxisScale> {
-    use clap::builder::{PossibleValuesParser, TypedValueParser};
-    PossibleValuesParser::new(["linear", "logarithmic"]).map(|name| match name.as_str() {
-        "linear" => AxisScale::Linear,
-        _ => AxisScale::Logarithmic,
-    })
 }
 
 /// A selected part of a study.

@@ -4,10 +4,10 @@ use super::axis::Axis;
 use super::error::StudyError;
 use super::grid::{Grid, Layer, across_and_up};
 use super::live_plan::live_plan;
-use super::place::{force_unit, governing, moved, scene_with, strip};
+use super::place::{governing, moved, press, scene_with, strip};
 use super::plan::{PRELOAD, Plan};
 use super::results::Results;
-use crate::scene::{Adhesion, Document, Move, Roughness, RoughnessParameter, Scene, SceneErrors};
+use crate::scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
 /// Map of a finished study.
@@ -111,9 +111,8 @@ impl StudyMap {
         // The plan has been checked with these values.
         scene = scene_with(&scene, values.iter().copied()).unwrap_or(scene);
         let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
-        let preload = preload.or_else(|| Some(plan.preloads()?.values[0]));
-        if let Some((preload, unit)) = preload.zip(force_unit(&scene)) {
-            scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
+        if let Some(preload) = preload.or_else(|| Some(plan.preloads()?.values[0])) {
+            press(&mut scene, preload);
         }
         scene
     }
@@ -169,6 +168,7 @@ mod tests {
     use super::*;
     use crate::analysis::Regime;
     use crate::draw::AxisScale;
+    use crate::scene::Move;
     use crate::study::{Changes, Folder, Quantity};
 
     /// κ not in the order of its values and before H, two preloads, another axis, five profiles.

@@ -293,13 +293,14 @@ fn all_options_and_variables_reach_sbatch() {
     let folder = stand_ins(&[("sbatch", sbatch)]);
     let mut command = Command::new(ASPERITY);
     command.current_dir(folder.path()).env("PATH", folder.path().join("bin")).env("SBATCH_ACCOUNT", "site");
-    command.args(["sweep", "submit", "plan.ron", "-o", "study", "--shards", "12", "--at-once", "3"]);
-    let answer = succeeded(command.args(["--", "--gpus=1", "-p", "short", "--signal", "B:TERM@60"]));
+    command.args(["sweep", "submit", "plan.ron", "-o", "study", "--shards", "12"]);
+    let answer =
+        succeeded(command.args(["--", "--gpus=1", "-p", "short", "--array=1-12%3", "--signal", "B:TERM@60"]));
     assert!(answer.starts_with("Submitted batch job 17\nasperity sweep status study"), "{answer}");
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
-    assert_eq!(read("asked"), "--gpus=1\n-p\nshort\n--signal\nB:TERM@60\n");
+    assert_eq!(read("asked"), "--gpus=1\n-p\nshort\n--array=1-12%3\n--signal\nB:TERM@60\n");
     assert!(read("variables").contains("SBATCH_ACCOUNT=site\n"));
-    assert!(read("script").contains("\n#SBATCH --array=1-12%3\n"));
+    assert!(read("script").contains("\n#SBATCH --array=1-12\n"));
 }
 
 #[test]
@@ -321,15 +322,15 @@ fn a_dry_run_shows_and_touches_nothing() {
 fn a_task_starts_killed_programs_again_and_no_others() {
     // The script of a task, run by a shell, with a stand-in for the program.
     let folder = stand_ins(&[]);
-    let (_, stdout, _) = submit_to(folder.path(), &["--shards", "4", "--retries", "2", "--dry-run"]);
+    let (_, stdout, _) = submit_to(folder.path(), &["--shards", "4", "--dry-run"]);
     let script = stdout.replace(ASPERITY, "./program");
     for (program, code, runs) in [
         ("exit 0", 0, 1),
         ("exit 1", 1, 1),
         ("exit 2", 2, 1),
-        ("kill -9 $$", 137, 3),
+        ("kill -9 $$", 137, 4),
         ("kill -TERM $$", 143, 1),
-        ("kill -SEGV $$", 139, 3),
+        ("kill -SEGV $$", 139, 4),
         ("[ $(wc -l <runs) -ge 2 ] || kill -KILL $$", 0, 2),
     ] {
         let runs_file = folder.path().join("runs");

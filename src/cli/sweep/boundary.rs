@@ -1,8 +1,8 @@
 //! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
 use crate::cli::error::CliError;
-use crate::cli::output::format_of;
-use crate::export::{Format, write};
+use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE};
+use crate::export::Format;
 use crate::scene::RoughnessParameter;
 use crate::study::{USUAL_LEVELS, boundaries};
 use clap::Args;
@@ -22,7 +22,6 @@ With wave numbers in 1/m instead of rad/m the same κ* is √(2π) times smaller
 amplitudes instead of root mean squares √2 times larger (kappa_amplitude).
 A boundary in κ is one in e_el/γ as well, elastic energy of conformity over work of adhesion.";
 
-/// Arguments of `sweep boundary`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct BoundaryArguments {
@@ -32,33 +31,21 @@ pub struct BoundaryArguments {
     /// Threshold, as a share of F_a,max (repeatable)
     #[arg(long = "level", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
-    /// Parameter of boundaries: kappa or elastic_energy_ratio
-    #[arg(long, value_name = "PARAMETER", value_parser = over, default_value = "kappa")]
+    /// Parameter of boundaries
+    #[arg(long, value_enum, value_name = "PARAMETER", default_value = "kappa")]
     pub over: RoughnessParameter,
-    /// text, json or csv
-    #[arg(long, value_parser = format_of(FORMATS), hide_possible_values = true, default_value = "text")]
-    pub format: Format,
+    #[command(flatten)]
+    pub output: OutputArguments,
 }
-
-/// Formats of boundaries: a table, one object, one row for each boundary.
-const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv];
 
 fn level(text: &str) -> Result<f64, String> {
     let level = text.trim().parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
     level.ok_or_else(|| "allowed: a share above 0 and below 1, such as 0.05".to_string())
 }
 
-fn over(text: &str) -> Result<RoughnessParameter, String> {
-    let parameter = RoughnessParameter::named(text.trim()).filter(|one| one.name() == text.trim());
-    parameter.ok_or_else(|| {
-        let names = RoughnessParameter::ALL.map(RoughnessParameter::name);
-        format!("allowed: {}", names.join(", "))
-    })
-}
-
-/// Finds the boundaries of a study and prints them.
 pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let levels = if arguments.levels.is_empty() { USUAL_LEVELS.to_vec() } else { arguments.levels.clone() };
     let boundaries = boundaries(&arguments.folder, arguments.over, &levels)?;
-    Ok(write(stdout, &boundaries, arguments.format, "")?)
+    arguments.output.write(stdout, &boundaries, format, Origin::Files(&[]))
 }

@@ -16,7 +16,6 @@ results.csv has one row for each cell and line, summary.csv one for each cell: m
 deviation and 95 % confidence interval of the mean over the lines. results.json says what the
 columns mean. SI units.";
 
-/// Arguments of `sweep merge`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct MergeArguments {
@@ -31,7 +30,6 @@ pub struct MergeArguments {
     pub parquet: bool,
 }
 
-/// Merges and prints the outcome.
 pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     if arguments.parquet && cfg!(not(feature = "parquet")) {
         return Err(CliError::named(

@@ -28,7 +28,6 @@ A run that computes everything merges by itself. Ctrl-C stops after the present 
 lost, and the same command resumes. Killing the program loses the cells in progress; a power failure
 may also lose the last 50 ms. Lost cells are computed again.";
 
-/// Arguments of `sweep`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct SweepArguments {
@@ -57,7 +56,6 @@ pub enum SweepCommand {
     Plans(plans::PlansArguments),
 }
 
-/// Performs one of the commands, or computes a plan.
 pub(super) fn sweep(arguments: &SweepArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     match &arguments.command {
         Some(SweepCommand::Merge(arguments)) => merge::merge(arguments, stdout),

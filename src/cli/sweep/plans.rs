@@ -4,7 +4,7 @@ use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
 use crate::export::sheet::Sheet;
 use crate::io::object;
-use crate::study::{Changes, PLANS, Plan, PlanErrors, StudyError};
+use crate::study::{Changes, PLANS, Plan};
 use clap::Args;
 use std::io::Write;
 
@@ -13,7 +13,6 @@ Examples:
   asperity sweep plans
   asperity sweep plans figure-5b > my-plan.ron";
 
-/// Arguments of `sweep plans`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_arg("format", |format| format.conflicts_with("name")))]
 pub struct PlansArguments {
@@ -24,19 +23,11 @@ pub struct PlansArguments {
     pub format: AnswerFormat,
 }
 
-/// Lists the built-in plans, or prints one.
 pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     if let Some(name) = &arguments.name {
-        let Some(plan) = PLANS.iter().find(|plan| plan.name == name) else {
-            let names = PLANS.iter().map(|plan| plan.name).collect::<Vec<_>>().join(", ");
-            let error = format!("{name}: there is no such built-in plan; allowed: {names}");
-            return Err(StudyError::Plan(PlanErrors(vec![error])).into());
-        };
-        return Ok(stdout.write_all(plan.text.as_bytes())?);
+        return Ok(stdout.write_all(Plan::built_in(name)?.text.as_bytes())?);
     }
-    let open = |name| -> Result<_, CliError> {
-        Ok((name, Plan::open(name, &Changes::default()).map_err(StudyError::from)?))
-    };
+    let open = |name| -> Result<_, CliError> { Ok((name, Plan::open(name, &Changes::default())?)) };
     let plans = PLANS.iter().map(|plan| open(plan.name)).collect::<Result<Vec<_>, _>>()?;
     let row = |(name, plan): &(&str, Plan)| {
         let size = format!("{} cells × {} profiles", plan.cells(), plan.lines);

@@ -20,7 +20,6 @@ without a load vanishes. One free axis makes a curve: the mean with its 95 % con
 second chart on a logarithmic scale where it spans decades. A second axis of up to five values
 makes several curves, unless --y names it.";
 
-/// Arguments of `sweep plot`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct PlotArguments {
@@ -29,9 +28,6 @@ pub struct PlotArguments {
     pub folder: PathBuf,
     #[command(flatten)]
     pub selection: Selection,
-    /// Text instead of SVG; the default without FILE
-    #[arg(long)]
-    pub text: bool,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -39,12 +35,10 @@ pub struct PlotArguments {
 /// Formats of a figure.
 const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Pdf, Format::Text];
 
-/// Draws a study.
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     // `-o -` writes an SVG into a pipe.
-    let is_text = arguments.text || arguments.output.output.is_none();
-    let usual = if is_text { Format::Text } else { Format::Svg };
-    let format = arguments.output.format(arguments.text.then_some(Format::Text), FORMATS, usual)?;
+    let usual = if arguments.output.output.is_none() { Format::Text } else { Format::Svg };
+    let format = arguments.output.format(FORMATS, usual)?;
     let study = Results::open(&arguments.folder)?;
     let selected = arguments.selection.of(&study).map_err(CliError::message)?;
     let Selected { grid, quantities, curves } = selected;

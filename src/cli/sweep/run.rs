@@ -4,9 +4,7 @@ use super::merge::write_merged;
 use crate::cli::error::CliError;
 use crate::cli::progress::ProgressLine;
 use crate::cli::scene::{Overrides, threads};
-use crate::study::{
-    Changes, Folder, Memory, Options, Plan, Progress, Shard, Status, StudyError, merge, run as compute,
-};
+use crate::study::{Changes, Folder, Memory, Options, Plan, Progress, Shard, Status, merge, run as compute};
 use crate::text::memory_size;
 use clap::Args;
 use std::io::{self, Write};
@@ -18,7 +16,6 @@ use std::time::{Duration, Instant};
 /// Time between two lines of progress without a terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
-/// Arguments of a run.
 #[derive(Args, Debug)]
 pub struct SweepRunArguments {
     /// A plan file, or the name of a built-in plan (see `asperity sweep plans`)
@@ -72,8 +69,7 @@ pub(super) fn size(text: &str) -> Result<u64, String> {
 pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     // The parser requires a plan if there is no command.
-    let plan =
-        Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes).map_err(StudyError::from)?;
+    let plan = Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes)?;
     let memory = Memory::of(&plan);
     let wanted = threads(arguments.jobs) as u64;
     let mut jobs = wanted;

@@ -14,7 +14,6 @@ Examples:
   asperity sweep status study
   asperity sweep status study --format json";
 
-/// Arguments of `sweep status`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct StatusArguments {
@@ -26,7 +25,6 @@ pub struct StatusArguments {
     pub format: AnswerFormat,
 }
 
-/// Shows the progress of a study.
 pub(super) fn status(arguments: &StatusArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let folder = Folder::open(&arguments.folder)?;
     let status = Status::of(&folder)?;

@@ -9,7 +9,7 @@ use super::run::size;
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
 use crate::scene::quoted;
-use crate::study::{Changes, Folder, Plan, StudyError};
+use crate::study::{Changes, Folder, Plan};
 use crate::text::{is_control, path_name, printable_lines};
 use clap::Args;
 use std::ffi::OsString;
@@ -25,14 +25,17 @@ Examples:
 One task of the array computes one shard, on as many threads as it has processors; the last one
 merges. A killed program is started again within its task, a task whose node is lost on another
 node, and both go on where the results end. Whatever is computed twice is counted once. The folder
-must be seen by all nodes; it receives the messages of the tasks.
+must be seen by all nodes; it receives the messages of the tasks. Behind -- go the options of sbatch,
+such as --array=1-100%10 for at most ten tasks at a time.
 
 Without a scheduler, GNU parallel does it on this machine, or with --sshlogin on others that see the
 folder; the same line goes on with what has failed:
   seq 8 | parallel --joblog shards.log --resume-failed --retries 3 \\
     asperity sweep my-plan.ron -o study --shard {}/8 --jobs 1";
 
-/// Arguments of `sweep submit`.
+/// Most restarts of a killed program by a task.
+const RETRIES: u32 = 3;
+
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct SubmitArguments {
@@ -44,12 +47,6 @@ pub struct SubmitArguments {
     /// Parts the plan is cut into, one task each
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub shards: u64,
-    /// Most tasks that run at the same time
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
-    pub at_once: Option<u64>,
-    /// Most restarts of a killed program by a task
-    #[arg(long, value_name = "COUNT", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=1000))]
-    pub retries: u32,
     /// Most memory for a task: 500M, 2G
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub memory: Option<u64>,
@@ -69,7 +66,7 @@ pub struct SubmitArguments {
 /// Submits a study, or prints the script of the submission.
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
-    let plan = Plan::open(&arguments.plan, &changes).map_err(StudyError::from)?;
+    let plan = Plan::open(&arguments.plan, &changes)?;
     let script = script(arguments, &std::env::current_exe()?, &std::path::absolute(&arguments.output)?)?;
     if arguments.dry_run {
         return Ok(stdout.write_all(script.as_bytes())?);
@@ -94,12 +91,11 @@ fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<
         })
     };
     let (program, folder) = (text_of(program)?, text_of(folder)?);
-    let limit = arguments.at_once.map_or_else(String::new, |tasks| format!("%{tasks}"));
     let memory = arguments.memory.map_or_else(String::new, |bytes| format!(" --memory {bytes}"));
     Ok(format!(
         r#"#!/bin/sh
 #SBATCH --job-name=asperity
-#SBATCH --array=1-{shards}{limit}
+#SBATCH --array=1-{shards}
 #SBATCH --output="{log}/slurm-%A_%a.log"
 #SBATCH --open-mode=append
 #SBATCH --requeue
@@ -112,16 +108,15 @@ while :; do
     status=$?
     # Statuses above 128 are signals; after hangup, interrupt and termination the task ends.
     case $status in 129 | 130 | 143) exit $status ;; esac
-    [ $status -gt 128 ] && [ $retry -lt {retries} ] || exit $status
+    [ $status -gt 128 ] && [ $retry -lt {RETRIES} ] || exit $status
     retry=$((retry + 1))
-    echo "killed by signal $((status - 128)): retry $retry of {retries}" >&2
+    echo "killed by signal $((status - 128)): retry $retry of {RETRIES}" >&2
 done
 "#,
         log = folder.replace('%', "%%"),
         program = quoted(&program),
         folder = quoted(&folder),
         shards = arguments.shards,
-        retries = arguments.retries,
     ))
 }
 

@@ -3,6 +3,9 @@
 //! [`Text::span`] finds a value; [`Text::replace`] and [`Text::insert`] return a new text.
 
 use crate::text::is_control;
+use ron::error::SpannedError;
+use ron::extensions::Extensions;
+use serde::de::DeserializeOwned;
 
 mod edit;
 mod index;
@@ -12,6 +15,12 @@ pub(super) use edit::NOT_ONE_VALUE;
 pub use index::{Span, Text, line_column};
 pub(super) use index::{is_within, offset_of};
 pub use scan::Unreadable;
+
+/// Reads RON text with optional values that need no `Some`, and a variant of one group without brackets around it.
+pub(crate) fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
+    let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
+    ron::Options::default().with_default_extension(extensions).from_str(text)
+}
 
 /// A number in RON: the shortest text that reads back as the same number, always with a decimal point,
 /// with an exponent if the number is much smaller or larger than one.

@@ -12,9 +12,13 @@ fn wrong(text: &str) -> String {
 fn each_mistake_has_its_message() {
     for (from, to, expected) in [
         ("axes:", "axis:", "p.ron:12:5: axis: no such field; did you mean axes?"),
-        ("Linear(", "Liner(", "p.ron:13:9: Liner: allowed: Linear, Logarithmic, List (did you mean Linear?)"),
+        (
+            "Linear(",
+            "Liner(",
+            "p.ron:13:9: axes.0 = Liner: allowed: Linear, Logarithmic, List (did you mean Linear?)",
+        ),
         ("from: 0.5", "form: 0.5", "form: no such field; did you mean from?"),
-        ("lines: 3", "lines: three", "p.ron:18:12: a whole number is expected here"),
+        ("lines: 3", "lines: three", "p.ron:18:12: lines = three: a whole number is expected here"),
         ("lines: 3", "lines: 0", "p.ron: lines = 0: allowed: from 1 to 1000000"),
         ("lines: 3", "lines: 1000001", "lines = 1000001: allowed: from 1 to 1000000"),
         ("regime,", "regimes,", "(did you mean regime?)"),
