@@ -7,6 +7,7 @@ use super::npy;
 use serde::ser::{Serialize, Serializer};
 use serde_json::Value;
 use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::rc::Rc;
 
@@ -95,19 +96,23 @@ impl Table<'_> {
         provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))?;
         let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
         writeln!(out, "{}", names.join(","))?;
+        let mut line = String::new();
         for row in (self.rows)() {
-            for (index, value) in row.iter().enumerate() {
-                out.write_all(if index > 0 { b"," } else { b"" })?;
-                match value {
+            line.clear();
+            for value in &row {
+                // Writing to a string cannot fail.
+                let _ = match value {
                     Value::Null => Ok(()),
-                    Value::String(text) => out.write_all(quoted(text).as_bytes()),
+                    Value::String(text) => line.write_str(&quoted(text)),
                     number => match number.as_f64().filter(|_| number.is_f64()) {
-                        Some(real) => write!(out, "{real:?}"),
-                        None => write!(out, "{number}"),
+                        Some(real) => write!(line, "{real:?}"),
+                        None => write!(line, "{number}"),
                     },
-                }?;
+                };
+                line.push(',');
             }
-            out.write_all(b"\n")?;
+            line.pop();
+            writeln!(out, "{line}")?;
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::place::strip;
-use super::plan::Plan;
+use super::plan::{MOST_CHECKED, Plan};
 use crate::simulation;
 
 /// Code, stacks, files and the reserve of the allocator, bytes.
@@ -37,7 +37,7 @@ impl Memory {
             let reversed = if turns { REVERSED * points } else { 0 };
             Some((peak + kept + reversed, spare))
         };
-        let cells = plan.loadings().filter_map(of_cell);
+        let cells = plan.extremes(MOST_CHECKED).into_iter().filter_map(of_cell);
         let (job, spare) = cells.fold((0, 0), |(job, spare), one| (job.max(one.0), spare.max(one.1)));
         // The axes, and one byte for each record.
         let values: u64 = plan.axes.iter().map(Axis::count).sum();

@@ -19,6 +19,8 @@ pub const MOST_LINES: u64 = 1_000_000;
 pub const MOST_RECORDS: u64 = 100_000_000;
 /// Most axes of a plan.
 pub(super) const MOST_AXES: usize = 16;
+/// Most scenes of which each is checked; of more, those at the ends of all axes.
+pub(super) const MOST_CHECKED: u64 = 4096;
 /// Most cells with invalid scenes that are named; the rest is counted.
 const MOST_NAMED: usize = 8;
 /// Most forces of a [`StiffnessRange`].
@@ -175,8 +177,8 @@ impl Plan {
     }
 }
 
-/// Checks: those of the plan itself are quick; the scene of every cell is checked when a plan is opened for a study, not
-/// when the folder of a study is opened again.
+/// Checks: those of the plan itself are quick; scenes of cells are checked when a plan is opened for a study, not when the
+/// folder of a study is opened again.
 impl Plan {
     /// Errors of the plan itself.
     pub(super) fn errors(&self) -> Vec<String> {
@@ -255,10 +257,10 @@ impl Plan {
         wrong
     }
 
-    /// Checks the scene of every cell.
+    /// Checks the scenes of the cells, see [`Plan::extremes`].
     pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
         let (mut wrong, mut more) = (Vec::new(), 0_u64);
-        for cell in self.loadings() {
+        for cell in self.extremes(MOST_CHECKED) {
             let checked = self.scene_of(cell).map(|scene| check(&scene).first().map(SceneError::to_string));
             let Some(reason) = checked.unwrap_or_else(Some) else { continue };
             if wrong.len() < MOST_NAMED {
@@ -273,9 +275,85 @@ impl Plan {
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// The first of all cells that differ in the preload alone, for each combination of the other axes.
-    pub(super) fn loadings(&self) -> impl Iterator<Item = u64> + use<> {
+    /// Cells whose scenes are allowed only if those of all cells are, and one of which takes most memory: the first one at
+    /// each combination of values but preloads, or of more than `most` combinations, those of the ends of all axes. Each condition
+    /// of a scene bounds every number from one side or from both, so that it holds between values at which it holds.
+    pub(super) fn extremes(&self, most: u64) -> Vec<u64> {
         let preloads = self.preloads().map_or(1, Axis::count);
-        (0..self.cells()).step_by(preloads as usize)
+        if self.cells() / preloads <= most {
+            return (0..self.cells()).step_by(preloads as usize).collect();
+        }
+        let mut cells = vec![Vec::new()];
+        for axis in self.scene_axes() {
+            let order = axis.order();
+            let mut ends = vec![order[0], order[order.len() - 1]];
+            ends.dedup();
+            let with_end =
+                |cell: &Vec<usize>| ends.iter().map(|end| [&cell[..], &[*end]].concat()).collect::<Vec<_>>();
+            cells = cells.iter().flat_map(with_end).collect();
+        }
+        let numbers = cells.into_iter().map(|mut cell| {
+            cell.resize(self.axes.len(), 0);
+            self.cell_at(&cell)
+        });
+        numbers.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{open, presets};
+    use crate::study::axis::Spacing;
+    use crate::study::place::numbers;
+
+    #[test]
+    fn scenes_between_allowed_ends_are_allowed() {
+        let mut allowed = [0, 0];
+        for preset in presets() {
+            let scene = open(preset.name).unwrap().scene().clone();
+            let paths = ["numerics.points", "springs_per_wave", "kappa", "roughness.modes.1"];
+            let more = paths.iter().filter_map(|path| {
+                let axis = Axis::new(path, Spacing::List, Vec::new(), &scene).ok()?;
+                Some((axis.clone(), axis.value_in(&scene, None)?))
+            });
+            let axes: Vec<Axis> = numbers(&scene)
+                .into_iter()
+                .chain(more)
+                .map(|(axis, value)| {
+                    let near = [0.03, 0.3, 0.9, 1.0, 1.1, 3.0, 30.0].map(|factor| factor * value);
+                    let values =
+                        near.map(|value| if axis.is_whole() { value.round() } else { value }).to_vec();
+                    Axis { values, ..axis }
+                })
+                .collect();
+            for (index, one) in axes.iter().enumerate() {
+                for other in &axes[..index] {
+                    // All seven values, and those near that of the scene.
+                    for range in [0..7, 1..6, 2..5] {
+                        let part = |axis: &Axis| Axis {
+                            values: axis.values[range.clone()].to_vec(),
+                            ..axis.clone()
+                        };
+                        let axes = vec![part(one), part(other)];
+                        let plan = Plan { axes, ..Plan::of_scene(&scene, 1, &[Quantity::Regime]) };
+                        let is_allowed =
+                            |cell| plan.scene_of(cell).is_ok_and(|scene| check(&scene).is_empty());
+                        let ends = plan.extremes(0);
+                        assert_eq!(ends.len(), 4);
+                        let is_met = ends.into_iter().all(is_allowed);
+                        allowed[usize::from(is_met)] += 1;
+                        assert_eq!(
+                            is_met,
+                            (0..plan.cells()).all(is_allowed),
+                            "{}: {:?}",
+                            preset.name,
+                            plan.axes
+                        );
+                    }
+                }
+            }
+        }
+        assert!(allowed[0] > 100 && allowed[1] > 100, "{allowed:?}");
     }
 }

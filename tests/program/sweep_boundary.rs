@@ -1,6 +1,6 @@
 //! `asperity sweep boundary`: from a plan to a table, and its messages without a boundary.
 
-use super::program::{asperity, failed, json};
+use super::program::{asperity, failed, json, rows};
 use serde_json::Value;
 use std::path::Path;
 
@@ -43,8 +43,8 @@ fn a_boundary_is_found_for_each_place_protocol_and_level() {
     let text = asperity(&["sweep", "boundary", &study]).succeeded();
     assert!(text.contains("zero force"), "{text}");
     let csv = asperity(&["sweep", "boundary", &study, "--format", "csv"]).succeeded();
-    let columns = csv.lines().next().unwrap().split(',').count();
-    assert!(csv.lines().all(|line| line.split(',').count() == columns), "{csv}");
+    let columns = rows(&csv).next().unwrap().split(',').count();
+    assert!(rows(&csv).all(|line| line.split(',').count() == columns), "{csv}");
 }
 
 /// Σ k^(j−1−2H) over the modes 1 to 32.
@@ -74,7 +74,7 @@ fn a_boundary_in_kappa_is_one_in_elastic_energy() {
         assert!((ratio / expected - 1.0).abs() < 1e-12, "{ratio} {expected}");
     }
     let wrong = failed(2, &["sweep", "boundary", &study, "--over", "work"]);
-    assert!(wrong.contains("allowed: kappa, elastic_energy_ratio"));
+    assert!(wrong.contains("possible values: kappa, elastic_energy_ratio"), "{wrong}");
 }
 
 #[test]
