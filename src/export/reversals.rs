@@ -163,7 +163,7 @@ pub fn everett_chart(map: &ReversalMap) -> Chart {
     map_chart(map, "Everett function", ("E", "N"), Shades::Sequential, &everett)
 }
 
-/// Returns the chart of the density, N/m², fitted over so many steps on either side.
+/// Returns the chart of the density, N/m², fitted over `smoothing` steps on either side.
 pub fn density_chart(map: &ReversalMap, smoothing: usize) -> Chart {
     let density = |turn, point| map.density(turn, point, smoothing);
     map_chart(map, "FORC density", ("ρ", "N/m²"), Shades::Diverging, &density)

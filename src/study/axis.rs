@@ -172,7 +172,7 @@ impl Axis {
         format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
     }
 
-    /// The value so many steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,
+    /// The value a number of steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,
     /// and `None` where `value` is already there.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());

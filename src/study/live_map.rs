@@ -31,7 +31,7 @@ impl Level {
     /// All levels, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Finest level of maps with so many springs: waves that need very many have fewer cells.
+    /// Finest level of maps with this number of springs: waves that need very many have fewer cells.
     fn finest(springs: u64) -> Level {
         let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
         Level::ALL[3 - too_fine]

@@ -44,7 +44,7 @@ impl Memory {
         Memory { job: job + spare, shared: PROGRAM + 8 * values + plan.records_in_all() }
     }
 
-    /// Memory with so many threads.
+    /// Memory with this number of threads, bytes.
     pub fn of_jobs(&self, jobs: u64) -> u64 {
         self.shared + jobs * self.job
     }

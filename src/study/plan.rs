@@ -80,7 +80,7 @@ impl Default for StiffnessRange {
 }
 
 impl Plan {
-    /// The plan of a checked scene without axes: one cell on so many profiles, starting at the seed of the scene.
+    /// The plan of a checked scene without axes: one cell on `lines` profiles, starting at the seed of the scene.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
         Plan {
             title: String::new(),

@@ -30,7 +30,7 @@ impl Shard {
         is_sound.then_some(Shard { number, count }).ok_or_else(allowed)
     }
 
-    /// The units of work of this part, out of so many.
+    /// Numbers of the units of work of this part, out of all `units`.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }

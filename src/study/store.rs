@@ -286,7 +286,7 @@ pub(super) fn encode(cell: u64, seed: u64, values: &[f64], into: &mut String) {
     seal(&payload, into);
 }
 
-/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has so many values.
+/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has `count` values.
 pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Vec<f64>)> {
     let mut columns = payload.split(',');
     let (cell, seed) = (columns.next()?.parse().ok()?, columns.next()?.parse().ok()?);
