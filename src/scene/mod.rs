@@ -62,7 +62,7 @@ pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantit
 pub use range::Range;
 pub(crate) use read::explain;
 pub(crate) use statements::{Statement, statements};
-pub(crate) use text::read_ron;
 pub use switch::Computed;
+pub(crate) use text::read_ron;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use tree::{Tree, to_ron};
