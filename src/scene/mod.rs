@@ -66,7 +66,7 @@ pub(crate) use read::explain;
 pub(crate) use stages::{Run, STAGE_KINDS, kind_and_number, read_stage, runs, stage_in_ron};
 pub use stages::{loading_text, read_loading};
 pub(crate) use statements::{Statement, statements};
-pub(crate) use text::read_ron;
 pub use switch::Computed;
+pub(crate) use text::read_ron;
 pub use text::{Span, Text, Unreadable, line_column, ron_float, ron_string};
 pub use tree::{Tree, to_ron};

@@ -19,7 +19,10 @@ const PAGES: [(&str, &str); 12] = [
     ("keys.md", "panes and keys of the explorer, typed values, appearance, recordings"),
     ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
     ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
-    ("experiment.md", "measured force curves: reading, fit of the work of adhesion and other parameters, errors"),
+    (
+        "experiment.md",
+        "measured force curves: reading, fit of the work of adhesion and other parameters, errors",
+    ),
     ("model.md", "equations, exact solution, regimes, validity"),
     ("reversals.md", "adhesion against preload, reversal curves, Everett map, density, congruency"),
     ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),

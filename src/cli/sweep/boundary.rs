@@ -1,7 +1,7 @@
 //! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
 
 use crate::cli::error::CliError;
-use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE};
+use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use crate::export::Format;
 use crate::scene::RoughnessParameter;
 use crate::study::{USUAL_LEVELS, boundaries};
@@ -23,7 +23,7 @@ amplitudes instead of root mean squares √2 times larger (kappa_amplitude).
 A boundary in κ is one in e_el/γ as well, elastic energy of conformity over work of adhesion.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_args(without_look))]
 pub struct BoundaryArguments {
     /// Folder of a merged study with an axis `kappa` or `elastic_energy_ratio`
     #[arg(value_name = "DIR")]
