@@ -45,9 +45,6 @@ pub struct OutputArguments {
     /// Add the numbers of the scene in a box to a figure
     #[arg(long)]
     pub parameters: bool,
-    /// text, json, csv, npy, svg, png or pdf, as far as the result has it; default: by the extension of FILE
-    #[arg(long, value_enum, hide_possible_values = true)]
-    pub format: Option<Format>,
 }
 
 /// Hides the look of figures in the help of a command without figures.
