@@ -105,9 +105,14 @@ fn spelled(symbol: &str) -> String {
     GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
 }
 
-/// The group of a field: that of its path, the form for the diameter of the body, and the title for the notice.
+/// The group of a field: that of its path, the form for the diameter of the body, the loading for the stiffness of the
+/// instrument, and the title for the notice.
 fn group_of(path: &str) -> &'static str {
-    let first = if path == "notice" { "title" } else { path.split('.').next().unwrap_or(path) };
+    let first = match path {
+        "notice" => "title",
+        "loading_stiffness" => "loading",
+        _ => path.split('.').next().unwrap_or(path),
+    };
     GROUPS.into_iter().find(|group| *group == first).unwrap_or("form")
 }
 
@@ -126,6 +131,14 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
             continue;
         }
         let Some(written) = document.value(field.path) else { continue };
+        // A rigid instrument has a row where a stage prescribes its displacement.
+        let displaces = |stage: &Move| matches!(stage, Move::ToDisplacement(_));
+        if field.path == "loading_stiffness"
+            && written == "None"
+            && !document.scene().loading.iter().any(displaces)
+        {
+            continue;
+        }
         let is_given = written != "None" || field.parent().is_empty();
         // Other fields without a value are equivalent to those in use.
         let written = if is_given { Some(written.to_owned()) } else { waves(document, field) };

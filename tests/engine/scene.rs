@@ -123,14 +123,16 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
         ),
         ("Punch(radius: 1.0e-5)", "Measured(file: \"x\", column: 2)", "Exact"),
         ("WavySphere(radius: 1.0e-3, amplitude: 1.0e-9, wavelength: 1.0e-6)", "None", "Exact"),
+        ("Table(file: \"x\", unit: \"nm\")", "None", "Exact"),
     ] {
+        let stiffness = if solver == "Exact" { "1.0" } else { "None" };
         for (material, adhesion) in [
             ("(effective_modulus: 1.0e6)", "(work: 0.1, closing_work: 0.05, range: 1.0e-9)"),
             ("(youngs_modulus: 1.0e6, poisson_ratio: 0.5)", "None"),
         ] {
             let text = format!(
                 "(version: 1, material: {material}, length: 1.0e-4, form: {form}, roughness: {rough}, \
-                 adhesion: {adhesion}, numerics: (solver: {solver}))"
+                 adhesion: {adhesion}, loading_stiffness: {stiffness}, numerics: (solver: {solver}))"
             );
             let document = Document::parse(&text, "x").unwrap_or_else(|errors| panic!("{errors}"));
             paths_of(&serde_json::to_value(document.scene()).unwrap(), String::new(), &mut found);

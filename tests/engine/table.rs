@@ -88,7 +88,7 @@ fn a_sphere_on_a_cone_has_its_closed_profile() {
     };
     let (radii, depths) = rows(1.0, depth);
     let table = FormTable::new(radii, &depths);
-    for points in [50, 1 << 18] {
+    for points in [50, 1 << 16] {
         let spacing = 1.0 / f64::from(points);
         let depths = table.depths(spacing, points as usize + 1).unwrap();
         assert_eq!(depths.len(), points as usize + 1);
@@ -101,10 +101,10 @@ fn a_sphere_on_a_cone_has_its_closed_profile() {
     }
     // Interpolated far rows are the rows themselves.
     let [few, many] =
-        [64, 1 << 18].map(|points| table.depths(1.0 / f64::from(points), points as usize + 1).unwrap());
+        [64, 1 << 16].map(|points| table.depths(1.0 / f64::from(points), points as usize + 1).unwrap());
     for (place, one) in few.iter().enumerate() {
-        let other = many[place << 12];
-        assert!((one - other).abs() <= 1e-13 * other, "{place}: {one} {other}");
+        let other = many[place << 10];
+        assert!((one - other).abs() <= 1e-12 * other, "{place}: {one} {other}");
     }
     assert_eq!(table.falls_from(1.0), None);
     let waves = rows(1.0, |r| r * r + 0.05 * (1.0 - (40.0 * r).cos()));
