@@ -150,7 +150,7 @@ pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
 
 /// A loading stage without a number, at `loading.0` for the first stage.
 pub(crate) const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
-    "target of the stage: a force (10 µN), an indentation (200 nm), touch, zero force or separation",
+    "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
 /// The displacement of a loading stage [`ToDisplacement`](super::Move::ToDisplacement), at `loading.0.0` for the first
 /// stage.

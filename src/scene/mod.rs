@@ -63,7 +63,7 @@ pub(crate) use quantity::format_rounded;
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub use range::Range;
 pub(crate) use read::explain;
-pub(crate) use stages::{Run, STAGE_KINDS, kind_and_number, read_stage, runs, stage_in_ron};
+pub(crate) use stages::{Run, STAGE_KINDS, StageKind, kind_and_number, read_stage, runs, stage_in_ron};
 pub use stages::{loading_text, read_loading};
 pub(crate) use statements::{Statement, statements};
 pub use switch::Computed;

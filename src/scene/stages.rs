@@ -129,8 +129,7 @@ pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityErro
 }
 
 fn refused(text: &str) -> QuantityError {
-    let examples =
-        "10 µN, 200 nm, touch, zero force, separation, 3 loops 5 µN to 10 µN, 4 reversals to 10 µN";
+    let examples = "10 µN, 200 nm, displacement 200 nm, touch, zero force, separation, 3 loops 5 µN to 10 µN, 4 reversals to 10 µN";
     let most = MOST_STAGES / 2;
     QuantityError(format!("{:?} is not a stage; such as {examples} (at most {most})", shown(text)))
 }
@@ -291,7 +290,7 @@ mod tests {
     #[test]
     fn text_that_is_no_loading_is_refused_with_what_is() {
         for (text, why) in [
-            ("", "\"\" is not a stage; such as 10 µN, 200 nm, touch"),
+            ("", "\"\" is not a stage; such as 10 µN, 200 nm, displacement 200 nm, touch"),
             ("10 µN, separaton", "\"separaton\" is not a stage"),
             ("10 kg", "\"10 kg\" is not a stage"),
             ("[ToForce(10 kg)]", "kg is not a unit of force: use N, mN, µN, nN"),

@@ -185,7 +185,7 @@ static TABLE: &[Entry] = &[
     row("Delete X", LIST, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
     row("Shift+↑ K", LIST, "move-stage-up", Do(|app| stages::shift(app, -1)), "move", "move the selected stage up", STAGES).rank(1).shown_if(is_stage),
     row("Shift+↓ J", LIST, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
-    row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the selected stage: to a force, an indentation, touch, zero force or separation", STAGES).rank(1).shown_if(is_stage),
+    row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the stage: force, indentation, displacement, touch, zero force or separation", STAGES).rank(1).shown_if(is_stage),
 
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),

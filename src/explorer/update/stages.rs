@@ -2,7 +2,7 @@
 
 use super::edit;
 use crate::explorer::app::{App, Player};
-use crate::scene::{Document, Move, Run, STAGE_KINDS, SceneErrors, kind_and_number, runs};
+use crate::scene::{Document, Move, Run, STAGE_KINDS, SceneErrors, StageKind, kind_and_number, runs};
 use crate::text::round_to;
 
 /// Stages, those of the present loading with their places in it.
@@ -45,7 +45,7 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
 pub fn add(app: &mut App) {
     let force = pressing_force(app);
     change(app, |stages, at| {
-        let presses = matches!(stages[at].1, Move::ToForce(to) | Move::ToIndentation(to) if to > 0.0);
+        let presses = matches!(stages[at].1, Move::ToForce(to) | Move::ToIndentation(to) | Move::ToDisplacement(to) if to > 0.0);
         stages.insert(at + 1, (None, if presses { Move::ToZeroForce } else { Move::ToForce(force) }));
         at + 1
     })
@@ -74,9 +74,12 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     let legs = app.current().map(|solved| &solved.outcome.history.legs);
     let end = legs.and_then(|legs| legs.get(at)?.curve.last());
     let pressing = pressing_force(app);
-    let number = |unit| match (unit, end) {
-        ("m", end) => end.map_or(1e-7, |end| end.indentation),
-        (_, Some(end)) if end.force.abs() > 1e-6 * pressing => end.force,
+    let stiffness = app.edit.document.scene().loading_stiffness.unwrap_or(f64::INFINITY);
+    let number = |kind: &StageKind| match (kind.unit, end, (kind.stage)(0.0)) {
+        ("m", None, _) => 1e-7,
+        ("m", Some(end), Move::ToDisplacement(_)) => end.displacement(stiffness),
+        ("m", Some(end), _) => end.indentation,
+        (_, Some(end), _) if end.force.abs() > 1e-6 * pressing => end.force,
         _ => pressing,
     };
     let (stages, count) = (app.edit.document.stages(), STAGE_KINDS.len());
@@ -84,7 +87,7 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     let changed = (1..count).map(|distance| {
         let kind = &STAGE_KINDS[(here + if forwards { distance } else { count - distance }) % count];
         let mut stages = stages.clone();
-        stages[at] = (None, (kind.stage)(round_to(number(kind.unit), 4)));
+        stages[at] = (None, (kind.stage)(round_to(number(kind), 4)));
         app.edit.document.with_stages(&stages)
     });
     if let Some(changed) = changed.reduce(|one, other| if one.is_ok() { one } else { other }) {

@@ -48,8 +48,8 @@ fn keys_edit_the_stages() {
         (1, "P Left", "[ToForce(2.0e-5), ToTouch, ToSeparation]", 2),
         // Nothing is in contact after a separation: a second one is left out.
         (1, "P Right", "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]", 2),
-        (1, "V V V V", "[ToForce(2.0e-5), ToSeparation]", 1),
-        (1, "V V", "[ToTouch, ToSeparation]", 1),
+        (1, "V V V V V", "[ToForce(2.0e-5), ToSeparation]", 1),
+        (1, "V V V", "[ToTouch, ToSeparation]", 1),
         (1, "l", "[ToForce(2.24e-5), ToSeparation]", 1),
     ] {
         let mut driver = loaded(two, stage);
