@@ -81,8 +81,7 @@ pub fn select(terminal: &mut Terminal, name: &str) {
     for _ in 0..40 {
         let before =
             marked(&terminal.rows()).unwrap_or_else(|| panic!("nothing selected:\n{}", terminal.text()));
-        let label =
-            before.split('›').nth(1).unwrap_or_default().trim_start_matches([' ', '▾', '▸', '●', '○']);
+        let label = before.split('›').nth(1).unwrap_or_default().trim_start_matches([' ', '─', '●', '○']);
         if label.split("  ").next().is_some_and(|label| label.contains(name)) {
             return;
         }

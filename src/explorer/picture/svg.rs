@@ -84,16 +84,20 @@ fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
 }
 
-/// Horizontal places and letters of the text on each row, by colour and weight.
+/// Horizontal places and letters of the text on each row, by colour and weight, with blanks between the words.
 fn texts(buffer: &Buffer, palette: &Palette) -> BTreeMap<(u16, Rgb, bool), (String, String)> {
     let mut texts = BTreeMap::<_, (String, String)>::new();
+    let mut ends = BTreeMap::new();
     for glyph in glyphs(buffer).filter(|glyph| glyph.symbol() != " " && shape(glyph).is_none()) {
         let is_bold = glyph.cell.modifier.contains(Modifier::BOLD);
         let look = (glyph.row, colours(&glyph, palette).0, is_bold);
         let (places, letters) = texts.entry(look).or_default();
-        for letter in glyph.symbol().chars() {
+        let end = ends.insert(look, glyph.column + glyph.width).unwrap_or(glyph.column);
+        let blank = (end < glyph.column).then_some((end, ' '));
+        let symbol = glyph.symbol().chars().map(|letter| (glyph.column, letter));
+        for (column, letter) in blank.into_iter().chain(symbol) {
             *places += if places.is_empty() { "" } else { " " };
-            *places += &(u32::from(glyph.column) * WIDTH).to_string();
+            *places += &(u32::from(column) * WIDTH).to_string();
             letters.push(letter);
         }
     }
@@ -190,7 +194,7 @@ mod tests {
             format!(r#"<text x="{places}" y="12" fill={look}>{letters}</text>"#)
         };
         let face = r##""#e1e6eb""##;
-        assert_eq!(drawn("a<b  漢c", Style::new()), [text("8 16 24 48 64", face, "a&lt;b漢c")]);
+        assert_eq!(drawn("a<b  漢c", Style::new()), [text("8 16 24 32 48 64", face, "a&lt;b 漢c")]);
         let bold = text("8", r##""#ff6b3d" font-weight="bold""##, "x");
         assert_eq!(drawn("x", Style::new().bold().red()), [bold]);
         // Three fifths of the foreground over the background.
