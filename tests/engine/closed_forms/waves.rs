@@ -139,7 +139,7 @@ fn steep_waves_of_a_scene_agree_with_the_closed_form() {
         let wavelength = wavelength * critical;
         let amplitude = amplitude * (2.0 * wavelength * 1e3 / (PI * MODULUS)).sqrt();
         let body = OnePiece::new(form(amplitude, wavelength), MODULUS, 1e3, 5.0 * critical);
-        let factor = -Loop::new(body, 1e3, body.indentation(3.0 * critical)).pull_off().1 / SMOOTH;
+        let factor = -Loop::new(body.clone(), 1e3, body.indentation(3.0 * critical)).pull_off().1 / SMOOTH;
         let found = of(amplitude, wavelength, 1e3).unwrap();
         assert!((found.jkr_factor / factor - 1.0).abs() < 0.02, "{found:?} {factor}");
         assert!((found.ratio - wavelength.powi(2) / amplitude).abs() < 1e-9 * found.ratio);
