@@ -108,9 +108,9 @@ impl MeasuredCurve {
         let line = Line::through(&force[..free]);
         let last = (force.len() - 1) as f64;
         let (slope, drift) = match options.drift {
-            Drift::Keep => (0.0, "stays; --drift remove takes it off"),
+            Drift::Keep => (0.0, "stays (--drift remove takes it off)"),
             Drift::Remove => (line.slope, "was removed"),
-            Drift::Known(drift) => (drift / last, "as given was removed"),
+            Drift::Known(drift) => (drift / last, "was removed as given"),
         };
         let (zero, middle) = (options.zero.unwrap_or(line.mean), 0.5 * (free - 1) as f64);
         force
@@ -148,8 +148,8 @@ impl MeasuredCurve {
         }
         let found = if options.noise.is_some() { "given" } else { "that before contact" };
         statements.push(format!(
-            "Zero of the force at {}. Drift {} ± {} from the first to the last point before contact extended to the curve, \
-             which {drift}. Noise {}, {found}.",
+            "Zero of the force at {}. Drift over the whole curve, by the part before contact: {} ± {}; it {drift}. Noise {}, \
+             {found}.",
             newton(zero), newton(line.slope * last), newton(line.slope_error() * last), newton(noise)
         ));
         let is_estimated = [options.zero.is_none(), options.drift == Drift::Remove];

@@ -2,7 +2,7 @@
 
 use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
-use crate::analysis::DisplacementCurve;
+use crate::analysis::{DisplacementCurve, DisplacementPoint};
 use crate::contact::{Contact, ContactError, CurvePoint, Direction, Foundation, HessRule, Leg};
 use crate::scene::{Form, Scene};
 use crate::simulation::Simulation;
@@ -68,10 +68,14 @@ impl<'a> Model<'a> {
                 0 => press(&contact, here.as_ref(), turn - offset, &places, stiffness)?,
                 _ => pull(here.as_ref(), &places, stiffness)?,
             };
-            let last = curve.points().last().copied();
-            let force = |place: &f64| zero + curve.at(*place).or(last).map_or(0.0, |point| point.force);
-            forces.extend(places.iter().map(force));
-            let at = curve.at(turn - offset).or(last).map_or(0.0, |point| point.indentation);
+            // Beyond the ends of a segment, by the noise of the displacement, the force is that of the end.
+            let at = |place: f64| {
+                let ends = [curve.points().first(), curve.points().last()].into_iter().flatten().copied();
+                let away = |point: &DisplacementPoint| (point.displacement - place).abs();
+                curve.at(place).or_else(|| ends.min_by(|one, other| away(one).total_cmp(&away(other))))
+            };
+            forces.extend(places.iter().map(|&place| zero + at(place).map_or(0.0, |point| point.force)));
+            let at = at(turn - offset).map_or(0.0, |point| point.indentation);
             let is_apart = |leg: &Leg| leg.direction() == Direction::Unloading && at <= leg.end();
             here = leg.filter(|leg| !is_apart(leg)).map(|leg| (leg, at));
             start = end;

@@ -190,8 +190,7 @@ impl Search<'_> {
                 break;
             }
             let even = best.1.iter().zip(PRIMES).map(|(_, prime)| FAR * (share_of(number, prime) - 0.5));
-            let change = linear.information.solve_transposed(even.collect());
-            let place = best.1.iter().zip(change).map(|(at, change)| at + change).collect();
+            let place = self.moved(&best.1, &linear, even.collect());
             let (_, place) = self.polish(place, FINER * noise)?;
             let found = self.polish(place, noise)?;
             if found.0 < best.0 {
@@ -202,23 +201,27 @@ impl Search<'_> {
         Ok((best.1, linear))
     }
 
+    /// The point within the ranges at these coordinates around another one, in which the linearised cost grows evenly.
+    fn moved(&self, at: &[f64], linear: &Linear, even: Vec<f64>) -> Vec<f64> {
+        let change = linear.information.solve_transposed(even);
+        let moved = at.iter().zip(change).zip(&self.space.coordinates);
+        moved.map(|((at, change), one)| (at + change).clamp(one.ends().0, one.ends().1)).collect()
+    }
+
     /// Least cost close to a point, in coordinates in which the linearised cost grows evenly.
     fn polish(&mut self, mut at: Vec<f64>, noise: f64) -> Result<Found, ExperimentError> {
-        let ends: Vec<(f64, f64)> = self.space.coordinates.iter().map(Coordinate::ends).collect();
         let (low, high) = (vec![-BOX; at.len()], vec![BOX; at.len()]);
         let mut cost = self.cost(&at, noise);
         for _ in 0..MOST_SEARCHES {
             let linear = self.linearise(&at, noise)?;
-            let moved = |even: &[f64]| -> Vec<f64> {
-                let change = linear.information.solve_transposed(even.to_vec());
-                let moved = at.iter().zip(change).map(|(at, change)| at + change);
-                moved.zip(&ends).map(|(at, ends)| at.clamp(ends.0, ends.1)).collect()
+            let cost_at = |even: &[f64]| {
+                let place = self.moved(&at, &linear, even.to_vec());
+                self.cost(&place, noise)
             };
-            let found =
-                least(vec![0.0; at.len()], (&low, &high), IN_ERRORS, |even| self.cost(&moved(even), noise));
+            let found = least(vec![0.0; at.len()], (&low, &high), IN_ERRORS, cost_at);
             let gain = cost - found.0;
             if gain > 0.0 {
-                (cost, at) = (found.0, moved(&found.1));
+                (cost, at) = (found.0, self.moved(&at, &linear, found.1));
             }
             if gain < SMALL {
                 break;
