@@ -1,34 +1,33 @@
-//! Preloads on the command line: `1uN..20uN`, and their number.
+//! Preloads on the command line: `1uN..20uN`, their number, and `log` for equal ratios.
 
+use crate::draw::AxisScale;
 use crate::scene::parse_quantity;
-use crate::study::{Axis, PRELOADS};
+use crate::study::Axis;
 
 /// Number of preloads by default.
 const USUAL: usize = 64;
+const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
-/// Parses a range of forces and, after a colon, the number of forces.
+/// Parses a range of forces and, after colons, the number of forces and `log`.
 pub(super) fn parse_preloads(text: &str) -> Result<Axis, String> {
-    let (from, to, count) = parse_range(text)?;
-    Axis::of_preloads(from, to, count).ok_or_else(allowed)
+    let mut parts = text.split(':').map(str::trim);
+    let ends = parse_range(parts.next().unwrap_or_default())?;
+    let (mut count, mut scale) = (USUAL, AxisScale::Linear);
+    for part in parts {
+        match part.parse() {
+            Ok(number) => count = number,
+            Err(_) if part == "log" => scale = AxisScale::Logarithmic,
+            Err(_) => return Err(ALLOWED.into()),
+        }
+    }
+    Axis::of_preloads(ends, count, scale)
 }
 
-/// Parses two forces, N, and the number of preloads between them.
-pub(super) fn parse_range(text: &str) -> Result<(f64, f64, usize), String> {
-    let (range, count) = text.split_once(':').map_or((text, None), |(range, count)| (range, Some(count)));
-    let count = count.map_or(Ok(USUAL), |count| count.trim().parse().map_err(|_| allowed()))?;
-    let (from, to) = range.split_once("..").ok_or_else(allowed)?;
-    let force = |text: &str| parse_quantity(text, "N").map_err(|error| format!("{error}; {}", allowed()));
-    let (from, to) = (force(from)?, force(to)?);
-    Axis::of_preloads(from, to, count).map(|_| (from, to, count)).ok_or_else(allowed)
-}
-
-fn allowed() -> String {
-    format!(
-        "allowed: two forces of at least 0 N, the second one larger, and {} to {} as their number, such as \
-         0..20uN or 1e-6..2e-5:64",
-        PRELOADS.start(),
-        PRELOADS.end()
-    )
+/// Parses two forces, N.
+pub(super) fn parse_range(text: &str) -> Result<(f64, f64), String> {
+    let (from, to) = text.split_once("..").ok_or(ALLOWED)?;
+    let force = |text: &str| parse_quantity(text, "N").map_err(|error| format!("{error}; {ALLOWED}"));
+    Ok((force(from)?, force(to)?))
 }
 
 #[cfg(test)]
@@ -36,14 +35,32 @@ mod tests {
     use super::*;
 
     #[test]
-    fn preloads_are_two_forces_and_a_number() {
-        assert_eq!(parse_range("0..20uN"), Ok((0.0, 2e-5, 64)));
-        assert_eq!(parse_range("1e-6 .. 2e-5:8"), Ok((1e-6, 2e-5, 8)));
-        for wrong in
-            ["", "1", "1..", "2..1", "1..1", "-1..1", "0..1:1", "0..1:513", "0..1:x", "0..1m/s", "0..inf"]
-        {
+    fn preloads_are_two_forces_a_number_and_a_scale() {
+        let values = |text| parse_preloads(text).unwrap().values;
+        assert_eq!(values("0..20uN").len(), 64);
+        assert_eq!(values("-1e-6 .. 2e-6:4"), [-1e-6, 0.0, 1e-6, 2e-6]);
+        for text in ["1nN..1uN:4:log", "1nN..1uN:log:4"] {
+            let values = values(text);
+            assert!(values.len() == 4 && (values[1] / 1e-8 - 1.0).abs() < 1e-12, "{values:?}");
+        }
+        for (wrong, allowed) in [
+            ("", "two forces"),
+            ("1", "two forces"),
+            ("1..", "two forces"),
+            ("0..1:x", "two forces"),
+            ("0..1:-5", "two forces"),
+            ("0..1m/s", "two forces"),
+            ("0..inf", "two forces"),
+            ("2..1", "`from` must be less than `to`"),
+            ("1..1", "`from` must be less than `to`"),
+            ("0..1:1", "allowed: from 2 to 512"),
+            ("0..1:513", "allowed: from 2 to 512"),
+            ("0..1:log", "begins above 0"),
+            ("-1..1:log", "begins above 0"),
+            ("0..1e31", "allowed: from -1e30 to 1e30 N"),
+        ] {
             let error = parse_preloads(wrong).unwrap_err();
-            assert!(error.contains("allowed: two forces"), "{wrong}: {error}");
+            assert!(error.contains(allowed), "{wrong}: {error}");
         }
     }
 }

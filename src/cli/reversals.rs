@@ -4,9 +4,10 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES};
 use super::preloads::parse_range;
 use super::scene::{SceneArguments, simulation_of};
+use crate::draw::AxisScale;
 use crate::export::{Format, ReversalReport, SMOOTHING};
 use crate::simulation::{RunError, TURNING_POINTS};
-use crate::study::{Axis, Results};
+use crate::study::{Axis, PRELOADS, Results, Staircase};
 use clap::Args;
 use std::io::Write;
 
@@ -64,7 +65,8 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
     if text.contains(':') {
         return Err("allowed: two forces, such as 1uN..20uN; --count is the number of turning points".into());
     }
-    parse_range(text).map(|(from, to, _)| (from, to))
+    let ends = parse_range(text)?;
+    Axis::of_preloads(ends, *PRELOADS.start(), AxisScale::Linear).map(|_| ends)
 }
 
 pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
@@ -77,7 +79,7 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let mut simulation = simulation_of(&document);
     let (count, never) = (usize::from(options.count), || false);
     let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
-    let (mut loops, mut preloads) = (None, None);
+    let (mut loops, mut preloads, mut staircase) = (None, None, None);
     // Tables hold the map alone.
     if !format.is_table() {
         if let levels @ 1.. = usize::from(options.loops) {
@@ -85,10 +87,15 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
         }
         let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
         let (from, to) = options.preloads.unwrap_or((0.0, largest));
-        if let Some(asked) = Axis::of_preloads(from, to, count) {
+        if let Ok(asked) = Axis::of_preloads((from, to), count, AxisScale::Linear) {
             let (record, folder) = (&Results::OF_PRELOADS, document.resolve(""));
             let solved = Results::of_scene(scene, &folder, record, 1, Some(&asked), 1);
             preloads = Some(solved.map_err(|error| CliError::named(document.name(), error))?);
+            if format.is_picture() {
+                staircase = Some(
+                    Staircase::find(scene, &asked, &mut simulation, &never, &mut |_| ()).map_err(failed)?,
+                );
+            }
         }
     }
     let report = ReversalReport {
@@ -96,6 +103,7 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
         scene,
         map: &map,
         preloads: preloads.as_ref(),
+        staircase: staircase.as_ref(),
         loops,
         smoothing: usize::from(options.smoothing),
         map_table: options.map,

@@ -12,7 +12,7 @@ use crate::export::{
     force_panels,
 };
 use crate::scene::{Document, Scene, open_argument};
-use crate::study::{Axis, Quantity, Results};
+use crate::study::{Axis, Quantity, Results, Staircase};
 use crate::text::wrap;
 use clap::Args;
 use std::io::{self, Write};
@@ -67,11 +67,15 @@ pub struct RunArguments {
     pub lines: Option<u32>,
     /// Compute the adhesion force for many preloads instead of the loading
     ///
-    /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128. One loading,
-    /// and one unloading from each preload; with --lines, the mean over the profiles and its
-    /// 95 % confidence interval.
-    #[arg(long, value_name = "A..B", conflicts_with_all = ["profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
+    /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128; with :log at equal
+    /// ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload; with --lines,
+    /// median, quartiles, range and mean over the profiles. A preload below 0 N turns while the bodies
+    /// are still drawn together, and is at least the force at first touch.
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true, conflicts_with_all = ["profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
+    /// Write a table of the drawn curves instead of one row for each preload of each profile
+    #[arg(long, requires = "preloads")]
+    pub curves: bool,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
@@ -107,6 +111,22 @@ impl RunArguments {
             .map_err(|error| CliError::named(document.name(), error))
     }
 
+    /// Adhesion of a scene against preload, and the staircase where this is shown or judges preloads below zero.
+    fn adhesion(
+        &self,
+        document: &Document,
+        scene: &Scene,
+        preloads: &Axis,
+        is_drawn: bool,
+    ) -> Result<(Results, Option<Staircase>), CliError> {
+        let mut simulation = simulation_of(document);
+        let staircase = (is_drawn || self.curves || preloads.values[0] < 0.0)
+            .then(|| Staircase::find(scene, preloads, &mut simulation, &|| false, &mut |_| ()))
+            .transpose()
+            .map_err(|error| CliError::named(document.name(), error))?;
+        Ok((self.solved(document, scene, &Results::OF_PRELOADS)?, staircase))
+    }
+
     /// The scene of a document, with springs and edges for the tolerance if one is given. Text states the choice; with
     /// other formats it is on standard error.
     fn scene_of(&self, document: &Document, format: Format) -> Result<(Scene, Option<Choice>), CliError> {
@@ -134,12 +154,14 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     let mut write = |report: &dyn Report| {
         arguments.output.write(stdout, report, format, Origin::Scene(&document, &scene))
     };
-    let solved = |record: &[Quantity]| arguments.solved(&document, &scene, record);
-    if arguments.preloads.is_some() {
-        return write(&PreloadReport { title, choice, results: &solved(&Results::OF_PRELOADS)? });
+    if let Some(preloads) = &arguments.preloads {
+        let (results, staircase) = arguments.adhesion(&document, &scene, preloads, format.is_picture())?;
+        let (results, staircase, curves) = (&results, staircase.as_ref(), arguments.curves);
+        return write(&PreloadReport { title, choice, results, staircase, curves });
     }
     if arguments.lines.is_some() {
-        return write(&LinesReport { choice, results: &solved(LinesReport::RECORD)? });
+        let results = &arguments.solved(&document, &scene, LinesReport::RECORD)?;
+        return write(&LinesReport { choice, results });
     }
     let outcome = compute(&document, &scene)?;
     let estimate = match choice {
@@ -164,9 +186,11 @@ fn figure(
     for document in &documents {
         let (scene, _) = arguments.scene_of(document, format)?;
         let title = document.title();
-        if arguments.preloads.is_some() {
-            let results = &arguments.solved(document, &scene, &Results::OF_PRELOADS)?;
-            figures.extend(PreloadReport { title, choice: None, results }.figure());
+        if let Some(preloads) = &arguments.preloads {
+            let (results, staircase) = arguments.adhesion(document, &scene, preloads, true)?;
+            let (results, staircase) = (&results, staircase.as_ref());
+            let report = PreloadReport { title, choice: None, results, staircase, curves: false };
+            figures.extend(report.figure());
         } else if arguments.profile || arguments.fragments {
             figures.push(contact_figure(arguments, document, &scene)?);
         } else {

@@ -31,9 +31,10 @@ impl Reversal {
 }
 
 impl Body {
-    /// Loads this separated body once and unloads it from each of these targets, which begin separated at d = 0. Calls
-    /// `see` with the index of the target and its reversal, from the shallowest on; the forces are those at `points`,
-    /// ascending indentations in m. The body stays separated.
+    /// Loads this separated body once and unloads it from each of these targets, which begin separated at d = 0. A force is
+    /// reached where the loading is first at least as large: a pulling one at first touch, or while the bodies are still
+    /// drawn together. Calls `see` with the index of the target and its reversal, from the shallowest on; the forces are
+    /// those at `points`, ascending indentations in m. The body stays separated.
     ///
     /// # Errors
     /// A target out of reach or without contact, [`ContactError::OutOfMemory`]; the first error of `see`.
@@ -46,7 +47,14 @@ impl Body {
         let loading = self.leg_in(Direction::Loading)?;
         let mut turns = Vec::with_capacity(targets.len());
         for (index, &target) in targets.iter().enumerate() {
-            let at = match plan(target, CurvePoint::default(), loading.contact().loading_stiffness) {
+            let approach = match Goal::from(target) {
+                // A pulling force as well: while the bodies are drawn together.
+                goal @ Goal::Force(force) if force < 0.0 && force.is_finite() => {
+                    Ok(Some((Direction::Loading, goal)))
+                }
+                _ => plan(target, CurvePoint::default(), loading.contact().loading_stiffness),
+            };
+            let at = match approach {
                 Ok(Some((Direction::Loading, goal))) => {
                     loading.reach(goal, 0.0, &mut self.work).map(|(at, _)| at)
                 }

@@ -19,6 +19,7 @@ use super::studies::Findings;
 use super::theme::Appearance;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
+use crate::draw::{AxisScale, Span};
 use crate::export::LoopQuantities;
 use crate::scene::{Change, Document, Move, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
@@ -67,6 +68,14 @@ pub struct CurveLook {
     pub loss: bool,
 }
 
+/// Horizontal axis of adhesion against preload.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PreloadAxis {
+    pub scale: AxisScale,
+    /// Preloads in coordinates of the scale; `None`: around the preload of the scene.
+    pub span: Option<Span>,
+}
+
 #[derive(Clone, Debug)]
 pub struct Ghost {
     pub document: Document,
@@ -113,6 +122,8 @@ pub struct View {
     pub look: CloseUpTarget,
     pub profile: LineView,
     pub curve: CurveLook,
+    /// Axis of adhesion against preload.
+    pub preloads: PreloadAxis,
     /// Position of the crosshair as a share of the profile, or of the horizontal axis of another chart.
     pub crosshair: Option<f64>,
     /// True if times are shown: they differ from run to run.
@@ -184,6 +195,7 @@ impl App {
                 look: CloseUpTarget { focus: Focus::Summit, springs },
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),
+                preloads: PreloadAxis::default(),
                 crosshair: None,
                 shows_times: true,
                 traffic: None,

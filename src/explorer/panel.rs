@@ -5,7 +5,7 @@ use super::layout::{inside, is_framed, split_profile};
 use super::theme::{Appearance, Meaning};
 use super::view::text::{Part, filled, fitted, wrapped};
 use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, key, legend};
-use crate::scene::format_rounded;
+use crate::scene::{format_range, format_rounded};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
@@ -64,8 +64,9 @@ impl Panel {
         if let Body::Chart(plot) = &self.body { Some(&plot.chart) } else { None }
     }
 
-    /// Adds a line at a share of the horizontal axis, and the values of all named curves there on the lower edge.
-    pub fn read_at(&mut self, share: f64, look: Appearance) {
+    /// Adds a line at a share of the horizontal axis, and the values of all named curves there: on the
+    /// lower edge, or below the chart where they need more than a line of this width.
+    pub fn read_at(&mut self, share: f64, look: Appearance, width: u16) {
         let Body::Chart(plot) = &mut self.body else { return };
         let Chart { x: across, y: up, layers, .. } = &mut plot.chart;
         let at = across.span.low + share * across.span.width();
@@ -73,19 +74,40 @@ impl Panel {
         let value = |axis: &Axis, number| format_rounded(number, 3, &axis.unit);
         let mut parts = vec![format!("{} {}", across.symbol_or_name(), value(across, x))];
         for layer in layers.iter().filter(|layer| !layer.name.is_empty()) {
-            let Shape::Curve { points, .. } = &layer.shape else { continue };
-            let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), up.scale.coordinate(point.1));
-            let between = points.windows(2).map(|pair| (place(&pair[0]), place(&pair[1])));
-            let is_here =
-                |(from, to): &((f64, f64), (f64, f64))| (from.0 - at) * (to.0 - at) <= 0.0 && from.0 != to.0;
-            if let Some((from, to)) = between.into_iter().find(is_here) {
-                let y = from.1 + (to.1 - from.1) * (at - from.0) / (to.0 - from.0);
-                parts.push(format!("{} {}", layer.name, value(up, up.scale.number(y))));
+            let read = |points: &[(f64, f64)]| {
+                let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), point.1);
+                let mut between = points.windows(2).map(|pair| (place(&pair[0]), place(&pair[1])));
+                let (from, to) =
+                    between.find(|(from, to)| (from.0 - at) * (to.0 - at) <= 0.0 && from.0 != to.0)?;
+                let [low, high] = [from.1, to.1].map(|y| up.scale.coordinate(y));
+                // The ends themselves where there is nothing between them, or no coordinate.
+                let share = (at - from.0) / (to.0 - from.0);
+                let is_level = low == high || !(low.is_finite() && high.is_finite());
+                Some(if is_level { from.1 } else { up.scale.number(low + (high - low) * share) })
+            };
+            match &layer.shape {
+                Shape::Curve { points, .. } => {
+                    parts.extend(read(points).map(|y| format!("{} {}", layer.name, value(up, y))));
+                }
+                Shape::Band(points) => {
+                    let end = |of: fn(&(f64, f64, f64)) -> f64| {
+                        read(&points.iter().map(|point| (point.0, of(point))).collect::<Vec<_>>())
+                    };
+                    let ends = end(|point| point.1).zip(end(|point| point.2));
+                    let range = ends.map(|ends| format_range(ends, 3, &up.unit));
+                    parts.extend(range.map(|range| format!("{} {range}", layer.name)));
+                }
+                _ => {}
             }
         }
         layers.insert(0, crate::draw::Layer::unnamed(Ink::Cursor, Shape::Upright(x)));
         let style = look.theme.style(Meaning::Cursor);
-        self.edge = parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect();
+        let parts: Vec<Part> = parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect();
+        let lines = filled(parts.clone(), "  ", usize::from(width.saturating_sub(2)));
+        match lines.len() {
+            0..=1 => self.edge = parts,
+            _ => drop(self.foot.splice(..0, lines)),
+        }
     }
 }
 

@@ -48,13 +48,13 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
         Content::Pane(format) => {
             let curves = || {
                 let figure = app.figure().filter(|figure| app.is_current() && figure.table().is_some())?;
-                Some(("asperity", Box::new(figure) as Box<dyn Report>))
+                Some(("asperity".into(), Box::new(figure) as Box<dyn Report>))
             };
             let report = (app.view.pane.row().report)(app).or_else(curves);
             let (command, report) = report.ok_or_else(missing)?;
             let kept = if command == PATH_COMMAND { with_path(app).and_then(Result::ok) } else { None };
             let document = kept.as_ref().unwrap_or(&app.edit.document);
-            let command = command_line(command, document.name(), document.overrides());
+            let command = command_line(&command, document.name(), document.overrides());
             let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));
             let provenance = match format {
                 Format::Json => String::new(),

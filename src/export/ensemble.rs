@@ -6,7 +6,7 @@ use super::summary::tabor_number;
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::io::{Kind, Table, object};
-use crate::scene::{format_quantity, format_rounded};
+use crate::scene::{format_range, format_rounded};
 use crate::study::{Quantity, Results, Statistics};
 use crate::text::grouped;
 
@@ -63,10 +63,8 @@ impl Report for LinesReport<'_> {
         let (count, springs) = (grouped(plan.lines), grouped(plan.scene.numerics.points));
         let last = plan.seed_of(plan.lines - 1);
         sheet.heading(&format!("{count} random lines of {springs} springs, seeds {} to {last}", plan.seed));
-        let mut rows = vec![
-            ["", "mean", "standard deviation", "standard error", "95 % confidence", "lines"]
-                .map(String::from),
-        ];
+        let header = ["", "median", "quartiles", "range", "mean", "95 % of the mean", "profiles"];
+        let (mut rows, mut warnings) = (vec![header.map(String::from)], Vec::new());
         for (name, quantity) in [
             ("adhesion force F_a", Quantity::AdhesionForce),
             ("preload indentation", Quantity::PreloadIndentation),
@@ -74,20 +72,16 @@ impl Report for LinesReport<'_> {
             ("contact fraction", Quantity::ContactFraction),
         ] {
             let Some(all) = self.statistics(quantity) else { continue };
-            let Some(spread) = all.spread else { continue };
-            let number = |value| format_quantity(value, quantity.unit());
-            let (low, high) = spread.confidence_interval;
-            rows.push([
-                name.into(),
-                number(all.mean),
-                number(spread.standard_deviation),
-                number(spread.standard_error),
-                format!("{} to {}", number(low), number(high)),
-                grouped(all.count as u64),
-            ]);
+            let number = |value| format_rounded(value, 3, quantity.unit());
+            let range = |ends| format_range(ends, 2, quantity.unit());
+            let [lower, median, upper] = all.quartiles;
+            let [quartiles, ends, confidence] = [(lower, upper), all.range, all.ends()].map(range);
+            let count = grouped(all.count as u64);
+            rows.push([name.into(), number(median), quartiles, ends, number(all.mean), confidence, count]);
+            warnings.extend(all.warning(name));
         }
         sheet.table(&rows);
-        sheet.row_of("F_a", profiles_text(self.results.statistics(0, Quantity::AdhesionForce)));
+        warnings.iter().for_each(|warning| sheet.paragraph(warning));
         // Profiles of one spectrum have one Tabor number, which limits the dissipated energy.
         let value = |line, quantity| self.results.value(0, line, quantity);
         let dissipating = self.lines().filter(|line| value(*line, Quantity::DissipatedEnergy).is_some());
@@ -154,11 +148,4 @@ impl Report for LinesReport<'_> {
         }
         Some(table.done())
     }
-}
-
-/// Median and quartiles of the adhesion forces of several profiles, N; `None` for fewer than two.
-pub(super) fn profiles_text(forces: Option<Statistics>) -> Option<String> {
-    let Statistics { count, quartiles, .. } = forces.filter(|forces| forces.count >= 2)?;
-    let [lower, median, upper] = quartiles.map(|force| format_rounded(force, 2, "N"));
-    Some(format!("{count} profiles: median {median} (quartiles {lower} to {upper})"))
 }

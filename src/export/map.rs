@@ -6,8 +6,8 @@ use crate::io::{Kind, Table};
 use crate::study::{Cell, Grid, Quantity, Statistics};
 
 impl Report for Grid {
-    /// The computed cells: values of the axes by their paths, profiles, regimes, and the mean of each quantity with the
-    /// ends of its 95 % confidence, in SI units.
+    /// The computed cells: values of the axes by their paths, profiles, regimes, and the statistics of each quantity, in SI
+    /// units.
     fn table(&self) -> Option<Table<'_>> {
         let columns = self.across.values.len();
         let mut table = Table::of(move || {
@@ -27,8 +27,7 @@ impl Report for Grid {
             });
         }
         for (place, layer) in self.layers.iter().enumerate() {
-            let [mean, _, low, high] = Statistics::COLUMNS;
-            for (ending, of) in [mean, low, high] {
+            for (ending, of) in Statistics::COLUMNS {
                 let name = format!("{}_{ending}", layer.quantity.name());
                 table = table
                     .with(name, Kind::Real, move |(_, cell)| cell.statistics[place].as_ref().and_then(of));

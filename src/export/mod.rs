@@ -40,7 +40,7 @@ pub(crate) use loop_chart::{
     ForceLoop, LoopQuantities, LoopUnits, force_figure, force_panels, loop_chart, sign,
 };
 pub(crate) use parameters::parameter_lines;
-pub(crate) use preloads::{PreloadReport, preload_axes, preload_layers};
+pub(crate) use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 pub(crate) use provenance::{check_measured_files, files_provenance, named_from};
 pub(crate) use report::check_extension;
 pub(crate) use reversals::{ReversalReport, SMOOTHING, density_chart, everett_chart};

@@ -4,16 +4,14 @@ use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
 use crate::accuracy::Choice;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use crate::io::{Table, object};
-use crate::scene::format_quantity;
-use crate::study::{Results, Spread, Statistics};
+use crate::io::{Kind, Table, object};
+use crate::scene::{format_quantity, format_range, format_rounded};
+use crate::study::{Results, Staircase, Statistics};
 use crate::text::grouped;
 use std::ops::Range;
 
 /// Most rows of the table.
 const MOST_ROWS: usize = 32;
-/// Most preloads that are drawn as single signs.
-const MOST_SIGNS: usize = 128;
 
 /// Adhesion against preload on one or more profiles.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +20,12 @@ pub struct PreloadReport<'a> {
     pub title: &'a str,
     /// Choice of springs for a tolerance, if one was given.
     pub choice: Option<&'a Choice>,
-    /// The records of [`Results::OF_PRELOADS`].
+    /// The records of [`Results::OF_PRELOADS`], as far as computed.
     pub results: &'a Results,
+    /// The staircase of the first profile, for figures and tables of curves.
+    pub staircase: Option<&'a Staircase>,
+    /// True for a table of the drawn curves instead of one row for each preload of each profile.
+    pub curves: bool,
 }
 
 impl PreloadReport<'_> {
@@ -50,15 +52,19 @@ impl Report for PreloadReport<'_> {
         let springs = grouped(plan.scene.numerics.points);
         sheet.heading(&format!("Adhesion against preload, {profiles} of {springs} springs"));
         if self.is_mean() {
-            let header = ["preload F_n", "mean F_a", "standard error", "95 % confidence of the mean"];
-            let force = |value: f64| format_quantity(value, "N");
-            let means = self.results.mean_adhesion_forces();
-            let rows = thinned(means.iter(), MOST_ROWS).filter_map(|(preload, all)| {
-                let Spread { standard_error, confidence_interval: (low, high), .. } = all.spread?;
-                let band = format!("{} to {}", force(low), force(high));
-                Some([force(*preload), force(all.mean), force(standard_error), band])
+            let header = ["preload F_n", "median F_a", "quartiles", "range", "mean", "95 % of the mean"];
+            let range = |ends| format_range(ends, 2, "N");
+            let spread = self.results.spread_of_adhesion();
+            let rows = thinned(spread.iter(), MOST_ROWS).map(|(preload, all)| {
+                let [lower, median, upper] = all.quartiles;
+                let [median, mean] = [median, all.mean].map(|force| format_rounded(force, 2, "N"));
+                let [quartiles, ends, confidence] = [(lower, upper), all.range, all.ends()].map(range);
+                [format_quantity(*preload, "N"), median, quartiles, ends, mean, confidence]
             });
             sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
+            if let Some(warning) = warning(&spread) {
+                sheet.heading(&warning);
+            }
         } else {
             let cells: Vec<u64> = (0..plan.cells()).collect();
             let rows = thinned(cells.iter(), MOST_ROWS).map(|&cell| {
@@ -76,28 +82,77 @@ impl Report for PreloadReport<'_> {
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let plan = self.results.plan();
-        let mean = |(preload, statistics)| object! { "preload": preload, "adhesion_force": statistics };
-        let means = || self.results.mean_adhesion_forces().into_iter().map(mean).collect::<Vec<_>>();
+        let spread = |(preload, statistics)| object! { "preload": preload, "adhesion_force": statistics };
+        let spread = || self.results.spread_of_adhesion().into_iter().map(spread).collect::<Vec<_>>();
         let line = |line| {
             object! { "seed": self.seed(line), "preloads": preload_table(self.results, line..line + 1, false) }
         };
+        let curves = self.staircase.filter(|_| self.curves).map(|staircase| {
+            let (force, adhesion) = staircase.touch;
+            object! {
+                "touch": object! { "force": force, "adhesion_force": adhesion },
+                "zero_force": object! { "force": 0.0, "adhesion_force": staircase.zero_force },
+                "preloads": curve_table(self.results, staircase),
+            }
+        });
         Some(Box::new(object! {
             "scene": &plan.scene,
-            "mean": self.is_mean().then(means),
+            "mean": self.is_mean().then(spread),
             "lines": (0..plan.lines).map(line).collect::<Vec<_>>(),
+            "curves"?: curves,
         }))
     }
 
-    /// One row for each preload of each profile, beginning with the seed if profiles have one.
+    /// One row for each preload of each profile, beginning with the seed if profiles have one; or the drawn curves.
     fn table(&self) -> Option<Table<'_>> {
-        Some(preload_table(self.results, 0..self.results.plan().lines, self.seed(0).is_some()))
+        Some(match self.staircase.filter(|_| self.curves) {
+            Some(staircase) => curve_table(self.results, staircase),
+            None => preload_table(self.results, 0..self.results.plan().lines, self.seed(0).is_some()),
+        })
     }
 
-    /// The adhesion force over the preload: of the first profile, and the mean with its 95 % confidence.
+    /// The adhesion force over the preload: of the first profile, and its spread over all of them, with the distribution
+    /// at the largest preload.
     fn figure(&self) -> Option<Figure> {
-        let layers = preload_layers(&self.results.adhesion_forces(0), &self.results.mean_adhesion_forces());
-        Some(Figure::of_chart(self.title, preload_axes(layers)))
+        let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
+        let chart = preload_chart(staircase, &spread);
+        let largest = spread.last().map(|(preload, _)| *preload);
+        let beside = largest.and_then(|preload| distribution(self.results, preload, &chart.y));
+        Some(preload_figure(self.title, chart, beside))
     }
+}
+
+/// A figure of adhesion against preload, with a distribution beside the chart.
+pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
+    let Some(beside) = beside else { return Figure::of_chart(title, chart) };
+    let chart = Chart { heading: Label::quantity("adhesion force", "F_a"), ..chart };
+    let (title, charts) = (title.to_owned(), vec![chart, beside]);
+    Figure { title, charts, size: Figure::SMALL, ..Figure::default() }
+}
+
+/// The curves of [`preload_chart`]: one row for each preload of the staircase, with the spread where it is known.
+fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
+    let spread = results.spread_of_adhesion();
+    let row = move |&(preload, force): &(f64, f64)| {
+        let known = spread.iter().find(|(at, _)| *at == preload).map(|(_, all)| *all);
+        (preload, force, known)
+    };
+    let rows: Vec<(f64, f64, Option<Statistics>)> = staircase.forces.iter().map(row).collect();
+    let mut table = Table::of(move || rows.clone().into_iter())
+        .real("preload", |row| row.0)
+        .real("adhesion_force", |row| row.1)
+        .with("profiles", Kind::Whole, |row| row.2.map_or(0, |all| all.count as u64));
+    for (ending, of) in Statistics::COLUMNS {
+        table = table.real(ending, move |row| row.2.as_ref().and_then(of));
+    }
+    table.done()
+}
+
+/// The warning of the mean over profiles to which one profile adds the largest share.
+pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
+    let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
+    let (preload, most) = spread.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
+    most.warning(&format!("F_a at F_n {}", format_quantity(*preload, "N")))
 }
 
 /// The unloadings from all preloads on these profiles, with the seeds if they are `seeded`.
@@ -134,45 +189,87 @@ pub(super) fn unloadings(
     sheet.table(&std::iter::once(header).chain(rows.map(row)).collect::<Vec<_>>());
 }
 
-/// Layers of the adhesion force, N, over the preload, N: one profile, and the mean of several with its 95 % confidence.
-pub fn preload_layers(one: &[(f64, f64)], means: &[(f64, Statistics)]) -> Vec<Layer> {
-    let mut layers = Vec::new();
-    if let Some((_, Statistics { count, .. })) = means.first() {
-        let band = |(preload, of): &(f64, Statistics)| {
-            of.confidence_interval().map(|(low, high)| (*preload, low, high))
-        };
-        let name = Label::plain(&format!("mean of {count} profiles, 95 % confidence"));
-        layers.push(Layer::new(
-            name.clone(),
-            Ink::Kept,
-            Shape::Band(means.iter().filter_map(band).collect()),
-        ));
-        let points = means.iter().map(|&(preload, of)| (preload, of.mean)).collect();
-        layers.push(Layer::new(name, Ink::Kept, Shape::line(points, Stroke::Dashed)));
-    }
-    // The force of one profile is a staircase, whose steps lie anywhere between two preloads.
-    let shape = match one.len() {
-        0..=MOST_SIGNS => Shape::signs(one.to_vec(), Sign::Dot),
-        _ => Shape::line(one.to_vec(), Stroke::Solid),
-    };
-    layers.push(Layer::new("this profile".into(), Ink::Unloading, shape));
-    layers
-}
+/// Smallest ratio of adhesion forces on a logarithmic scale.
+const LOGARITHMIC_RATIO: f64 = 30.0;
+/// Most decades of adhesion forces.
+const MOST_DECADES: f64 = 6.0;
 
-/// A chart of the adhesion force over the preload with these layers.
-pub fn preload_axes(layers: Vec<Layer>) -> Chart {
-    let mut all = vec![(0.0, 0.0)];
-    for layer in &layers {
-        match &layer.shape {
-            Shape::Curve { points, .. } => all.extend(points),
-            Shape::Band(points) => {
-                all.extend(points.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]))
-            }
-            _ => {}
+/// A chart of the adhesion force, N, over the preload, N: the staircase of one profile, the spread over several, and the
+/// adhesion after both protocols of zero load. Under a logarithmic preload forces of several decades are logarithmic too.
+pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Chart {
+    let mut layers = Vec::new();
+    if let Some((_, Statistics { count, .. })) = spread.first() {
+        let band = |ends: fn(&Statistics) -> (f64, f64)| {
+            let point = |(preload, all): &(f64, Statistics)| (*preload, ends(all).0, ends(all).1);
+            Shape::Band(spread.iter().map(point).collect())
+        };
+        let curve = |of: fn(&Statistics) -> f64, stroke| {
+            Shape::line(spread.iter().map(|(preload, all)| (*preload, of(all))).collect(), stroke)
+        };
+        let range = format!("range of {count} profiles");
+        for (name, ink, shape) in [
+            (range.as_str(), Ink::Quiet, band(|all| all.range)),
+            ("mean", Ink::Surface, curve(|all| all.mean, Stroke::Dotted)),
+            ("quartiles", Ink::Surface, band(|all| (all.quartiles[0], all.quartiles[2]))),
+            ("median", Ink::Surface, curve(|all| all.quartiles[1], Stroke::Dashed)),
+        ] {
+            layers.push(Layer::new(Label::plain(name), ink, shape));
         }
     }
-    let x = Span::around(all.iter().map(|point| point.0), 0.03);
-    let y = Span::around(all.iter().map(|point| point.1), 0.05);
-    let x = Axis::new(AxisScale::Linear, x, "preload", "F_n", "N");
-    Chart::new(x, Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N"), layers)
+    let line = Shape::line(staircase.line(), Stroke::Solid);
+    layers.push(Layer::new("this profile".into(), Ink::Unloading, line));
+
+    let scale = staircase.scale;
+    let ends =
+        [staircase.forces.first(), staircase.forces.last()].map(|end| end.map_or(f64::NAN, |end| end.0));
+    let x = Span::around(ends.into_iter().map(|end| scale.coordinate(end)), 0.03);
+    // A force below the axis, as below zero on a logarithmic one, is marked at its left end.
+    let inside = |force: f64| if scale.coordinate(force) >= x.low { force } else { scale.number(x.low) };
+    let (touch, at_touch) = staircase.touch;
+    for (symbol, protocol, force, adhesion, sign, ink) in [
+        ("F_a(0)", "from first touch", touch, at_touch, Sign::HollowDiamond, Ink::Loading),
+        ("F_a(F=0)", "after zero force", 0.0, staircase.zero_force, Sign::Ring, Ink::Manual),
+    ] {
+        let name = Label::symbol(symbol).then(&format!(" {}, {protocol}", format_rounded(adhesion, 3, "N")));
+        layers.push(Layer::new(name, ink, Shape::signs(vec![(inside(force), adhesion)], sign)));
+    }
+
+    let each = |layer: &Layer| match &layer.shape {
+        Shape::Curve { points, .. } => points.iter().map(|point| point.1).collect(),
+        Shape::Band(points) => points.iter().flat_map(|&(_, low, high)| [low, high]).collect::<Vec<_>>(),
+        _ => Vec::new(),
+    };
+    let forces: Vec<f64> = layers.iter().flat_map(each).collect();
+    let above_zero = || forces.iter().copied().filter(|force| *force > 0.0);
+    let (least, most) = (above_zero().fold(f64::INFINITY, f64::min), above_zero().fold(0.0, f64::max));
+    let (y_scale, y) = if scale == AxisScale::Logarithmic && most >= LOGARITHMIC_RATIO * least {
+        let y = Span::of_values(AxisScale::Logarithmic, above_zero(), MOST_DECADES);
+        (AxisScale::Logarithmic, y.widened(0.05))
+    } else {
+        (AxisScale::Linear, Span::around(forces.iter().copied().chain([0.0]), 0.05))
+    };
+    Chart::new(
+        Axis::new(scale, x, "preload", "F_n", "N"),
+        Axis::new(y_scale, y, "adhesion force", "F_a", "N"),
+        layers,
+    )
+}
+
+/// Empirical distribution of the adhesion force over the profiles at the preload nearest to this one, N, on the vertical
+/// axis of a chart: each profile is a step of the share of profiles across. `None` for fewer than two profiles.
+pub fn distribution(results: &Results, preload: f64, forces: &Axis) -> Option<Chart> {
+    let (preload, mut each) = results.forces_near(preload)?;
+    let own = each.first().copied().filter(|_| each.len() > 1)?;
+    each.sort_by(f64::total_cmp);
+    let share = |index: usize| 100.0 * index as f64 / each.len() as f64;
+    let steps = each.iter().enumerate();
+    let steps = steps.flat_map(|(index, &force)| [(share(index), force), (share(index + 1), force)]);
+    let place = share(each.partition_point(|force| *force < own)) + 0.5 * share(1);
+    let layers = vec![
+        Layer::unnamed(Ink::Surface, Shape::line(steps.collect(), Stroke::Solid)),
+        Layer::unnamed(Ink::Unloading, Shape::signs(vec![(place, own)], Sign::Dot)),
+    ];
+    let heading = format!("profiles at {}", format_rounded(preload, 3, "N"));
+    let x = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 100.0 }, "share of profiles in", "%", "1");
+    Some(Chart { heading: Label::plain(&heading), ..Chart::new(x, forces.clone(), layers) })
 }

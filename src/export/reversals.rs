@@ -1,13 +1,13 @@
 //! First-order reversal curves of a scene as text, JSON, tables and a figure.
 
-use super::preloads::{preload_axes, preload_layers, preload_table, unloadings};
+use super::preloads::{preload_chart, preload_table, unloadings};
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use crate::io::{Table, object};
 use crate::scene::{Scene, format_quantity};
-use crate::study::Results;
+use crate::study::{Results, Staircase};
 use crate::text::grouped;
 
 /// Most rows of the table.
@@ -26,6 +26,8 @@ pub struct ReversalReport<'a> {
     pub map: &'a ReversalMap,
     /// Adhesion against preload, with the records of [`Results::OF_PRELOADS`], if a preload presses the bodies together.
     pub preloads: Option<&'a Results>,
+    /// The same with the exact place of each step, for the figure.
+    pub staircase: Option<&'a Staircase>,
     /// Minor loops, if they were compared.
     pub loops: Option<MinorLoops>,
     /// Steps on either side over which the density is fitted.
@@ -108,22 +110,19 @@ impl Report for ReversalReport<'_> {
 
     /// The adhesion force over the preload, the Everett function and the density.
     fn figure(&self) -> Option<Figure> {
-        let ReversalReport { map, preloads, loops, smoothing, .. } = *self;
+        let ReversalReport { map, loops, smoothing, .. } = *self;
         let mut notes =
             vec![Label::plain(&format!("density: quadratic fit, {smoothing} steps on either side"))];
         notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
-        let forces = preloads.map_or_else(Vec::new, |results| results.adhesion_forces(0));
+        let adhesion = self.staircase.map(|staircase| Chart {
+            heading: Label::quantity("adhesion force", "F_a"),
+            ..preload_chart(staircase, &[])
+        });
+        let maps = [everett_chart(map), density_chart(map, smoothing)];
         Some(Figure {
             title: self.title.to_owned(),
             notes,
-            charts: vec![
-                Chart {
-                    heading: Label::quantity("adhesion force", "F_a"),
-                    ..preload_axes(preload_layers(&forces, &[]))
-                },
-                everett_chart(map),
-                density_chart(map, smoothing),
-            ],
+            charts: adhesion.into_iter().chain(maps).collect(),
             size: Figure::SMALL,
             ..Figure::default()
         })

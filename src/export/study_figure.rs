@@ -13,6 +13,9 @@ const DECADES_FOR_SECOND: f64 = 1.5;
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
+/// Upper end of a confidence interval up to which it is drawn, in largest means: few profiles have wide intervals.
+const MOST_OF_BAND: f64 = 2.0;
+
 /// Least share of the range of one sign in that of the other for colours of both signs.
 const LEAST_OF_A_SIGN: f64 = 0.25;
 
@@ -91,7 +94,7 @@ pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let layers = layers(grid, quantity, &estimates);
     let chart = |scale: AxisScale| {
         let x = axis_over(across, Span::around(places.iter().copied(), 0.03));
-        let y = axis_of(quantity, scale, range(quantity, &estimates, scale));
+        let y = axis_of(quantity, scale, range(grid, quantity, &estimates, scale));
         Chart { heading: heading(quantity), ..Chart::new(x, y, layers.clone()) }
     };
     let is_small = scale == AxisScale::Linear && spans_decades(&estimates);
@@ -143,20 +146,25 @@ fn vanishing_label() -> Label {
 }
 
 /// Range of the vertical axis of curves.
-fn range(quantity: Quantity, estimates: &[Option<Statistics>], scale: AxisScale) -> Span {
+fn range(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>], scale: AxisScale) -> Span {
     let known = || estimates.iter().flatten();
     let from = Span::of_values(scale, known().map(|estimate| estimate.mean), MOST_DECADES);
     let ends = known().flat_map(|one| {
-        let (low, high) = one.ends();
-        [one.mean, low, high]
+        let ((low, high), [lower, _, upper]) = (one.ends(), one.quartiles);
+        let shown = if grid.up.is_none() { 5 } else { 3 };
+        [one.mean, low, high, lower, upper].into_iter().take(shown)
     });
     let all = Span::around(ends.map(|end| scale.coordinate(end)), 0.0);
     match scale {
         AxisScale::Linear if quantity.bounds().0 == 0.0 && from.low == 0.0 => {
-            Span { low: -0.03 * all.high, high: 1.05 * all.high }
+            let high = all.high.min(MOST_OF_BAND * from.high);
+            Span { low: -0.03 * high, high: 1.05 * high }
         }
         AxisScale::Linear => all.widened(0.05),
-        AxisScale::Logarithmic => Span { high: from.high.max(all.high), ..from }.widened(0.05),
+        AxisScale::Logarithmic => {
+            let most = from.high + MOST_OF_BAND.log10();
+            Span { high: all.high.clamp(from.high, most), ..from }.widened(0.05)
+        }
     }
 }
 
@@ -169,7 +177,8 @@ fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_SECOND
 }
 
-/// Curves with their confidence, and upright lines where F_a(0) vanishes.
+/// Curves with their confidence, a single one with median and quartiles of the profiles, and upright lines where F_a(0)
+/// vanishes.
 fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> Vec<Layer> {
     let places = &grid.across.values;
     let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();
@@ -181,9 +190,18 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
             let band = known().map(|(x, one)| (x, ends(one).0, ends(one).1)).collect();
             layers.push(Layer::new("95 % confidence of the mean".into(), ink, Shape::Band(band)));
         }
-        let points = known().map(|(x, one)| (x, one.map_or(f64::NAN, |one| one.mean))).collect();
-        let shape = Shape::Curve { points, stroke: Some(Stroke::Solid), sign: Some(sign) };
-        layers.push(Layer::new(name, ink, shape));
+        let points = |of: fn(&Statistics) -> f64| {
+            known().map(move |(x, one)| (x, one.as_ref().map_or(f64::NAN, of))).collect::<Vec<_>>()
+        };
+        if grid.up.is_none() && estimates.iter().flatten().any(|one| one.count > 1) {
+            let band = points(|one| one.quartiles[0]).into_iter().zip(points(|one| one.quartiles[2]));
+            let band = band.map(|((x, lower), (_, upper))| (x, lower, upper)).collect();
+            layers.push(Layer::new("quartiles of the profiles".into(), Ink::Quiet, Shape::Band(band)));
+            let median = Shape::line(points(|one| one.quartiles[1]), Stroke::Dashed);
+            layers.push(Layer::new("median".into(), Ink::Quiet, median));
+        }
+        let (points, stroke) = (points(|one| one.mean), Some(Stroke::Solid));
+        layers.push(Layer::new(name, ink, Shape::Curve { points, stroke, sign: Some(sign) }));
     };
     match (&grid.up, curves.first()) {
         // Curves that are equal to the last bit do not depend on the axis up.

@@ -1,6 +1,5 @@
 //! Analysed surfaces: text for readers, JSON, and their spectra as a table and as a figure.
 
-use super::ensemble::profiles_text;
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
@@ -60,11 +59,11 @@ pub struct MeasuredFace {
     pub analysis: Analysis,
 }
 
-/// Median and quartiles of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
+/// Median, quartiles and range of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
-    let forces = profiles_text(computed.adhesion_force())?;
+    let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
     let fit = computed.fit_deviation().map(|fit| format!(", fit ± {}", format_rounded(fit, 2, "N")));
-    Some(forces + &fit.unwrap_or_default())
+    Some(format!("{} profiles: {}{}", forces.count, forces.words("N"), fit.unwrap_or_default()))
 }
 
 /// Analysed surfaces of one or both faces, with the known values of their contact.
@@ -218,6 +217,8 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion
     };
     let force = measured_adhesion_text(computed);
     sheet.row("adhesion force F_a", force.unwrap_or_else(|| "none: nothing is pulled".to_owned()));
+    let forces = computed.adhesion_force();
+    forces.and_then(|forces| forces.warning("F_a")).iter().for_each(|warning| sheet.row("", warning));
     let count = computed.profiles.len();
     let labels = ["regime from first touch", "regime after zero force"];
     for (label, regimes) in labels.into_iter().zip(computed.regimes()) {

@@ -149,6 +149,15 @@ pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
+/// A range with its unit, which both ends share where they have the same prefix: `0.33 to 35 µN`, `26 nN to 35 µN`.
+pub(crate) fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> String {
+    let [low, high] = [low, high].map(|end| format_rounded(end, digits, unit));
+    match (low.split_once(' '), high.split_once(' ')) {
+        (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => format!("{number} to {high}"),
+        _ => format!("{low} to {high}"),
+    }
+}
+
 /// A value with its unit and all its digits: [`parse_quantity`] returns the same value.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)

@@ -27,6 +27,14 @@ pub enum RunError {
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
+    /// A preload that no loading reaches, since the first touch already pulls less.
+    #[error("preload {preload:e} N: the force at first touch is {touch:e} N; allowed: at least this force")]
+    BelowTouch {
+        /// The preload, N.
+        preload: f64,
+        /// Force at first touch, N.
+        touch: f64,
+    },
     /// The contact could not be computed.
     #[error(transparent)]
     Contact(#[from] ContactError),

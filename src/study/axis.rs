@@ -87,7 +87,7 @@ impl Axis {
         let (spacing, values) = match *text {
             AxisText::List { ref values, .. } => (Spacing::List, values.clone()),
             AxisText::Linear { from, to, count, .. } => {
-                check_ends(from, to, count)?;
+                check_ends(from, to, count, MOST_VALUES)?;
                 if !(to - from).is_finite() {
                     return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
                 }
@@ -95,10 +95,8 @@ impl Axis {
                 (Spacing::Linear, self.between(from, to, count, at))
             }
             AxisText::Logarithmic { from, to, count, .. } => {
-                check_ends(from, to, count)?;
-                if from <= 0.0 {
-                    return Err(format!("from {from:?}: a logarithmic axis begins above 0"));
-                }
+                check_ends(from, to, count, MOST_VALUES)?;
+                check_logarithm(from)?;
                 let (first, last) = (from.ln(), to.ln());
                 let at = |share: f64| (first * (1.0 - share) + last * share).exp();
                 (Spacing::Logarithmic, self.between(from, to, count, at))
@@ -330,10 +328,15 @@ impl Target {
     }
 }
 
+/// Checks the beginning of a logarithmic axis.
+pub(super) fn check_logarithm(from: f64) -> Result<(), String> {
+    if from > 0.0 { Ok(()) } else { Err(format!("from {from:?}: a logarithmic axis begins above 0")) }
+}
+
 /// Checks the ends and the number of values of an axis.
-fn check_ends(from: f64, to: f64, count: u64) -> Result<(), String> {
-    if !(2..=MOST_VALUES).contains(&count) {
-        return Err(format!("count = {count}: allowed: from 2 to {MOST_VALUES}"));
+pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), String> {
+    if !(2..=most).contains(&count) {
+        return Err(format!("count = {count}: allowed: from 2 to {most}"));
     }
     if !(from.is_finite() && to.is_finite()) {
         return Err(format!("from {from:?} to {to:?}: both ends must be finite"));

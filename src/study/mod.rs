@@ -73,7 +73,7 @@ pub use parquet::write_parquet;
 pub use place::moved;
 pub use plan::{MOST_CELLS, MOST_LINES, MOST_RECORDS, Plan, StiffnessRange};
 pub use plan_text::{Changes, PLAN_VERSION, PLANS, PlanErrors};
-pub use preloads::PRELOADS;
+pub use preloads::{PRELOADS, Staircase};
 pub use quantity::Quantity;
 pub use results::{Merged, Results};
 pub use run::{Options, Progress, run};

@@ -1,6 +1,7 @@
 //! Numbers of random profiles: their mean, spread and quartiles, and how many are in each regime.
 
 use crate::analysis::Regime;
+use crate::scene::{format_range, format_rounded};
 use serde::Serialize;
 use std::cell::Cell;
 use std::f64::consts::FRAC_2_PI;
@@ -11,6 +12,9 @@ pub(crate) const CONFIDENCE: f64 = 0.95;
 /// Smallest share of random profiles in one regime for which the profiles agree.
 const AGREEING_SHARE: f64 = 0.75;
 
+/// Largest share of one profile in a mean without a warning.
+const MOST_OF_ONE: f64 = 0.5;
+
 /// A quantity over random profiles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
@@ -19,10 +23,8 @@ pub struct Statistics {
     /// Mean.
     pub mean: f64,
     /// Lower quartile, median and upper quartile, interpolated between neighbours.
-    #[serde(skip)]
     pub quartiles: [f64; 3],
     /// Smallest and largest value.
-    #[serde(skip)]
     pub range: (f64, f64),
     /// Spread of the values and confidence of the mean; `None` for one value, or too few to state a confidence.
     #[serde(flatten)]
@@ -36,8 +38,8 @@ pub struct Spread {
     pub standard_deviation: f64,
     /// Standard error of the mean.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t, within the possible values of
-    /// the quantity.
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t on a scale on which the quantity has
+    /// no bounds.
     pub confidence_interval: (f64, f64),
 }
 
@@ -46,10 +48,7 @@ pub type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
     /// Statistics of values of a quantity between these bounds; `None` without values.
-    ///
-    /// The confidence interval is cut at the bounds: the true mean cannot lie beyond them, so the interval contains the
-    /// mean as often as before.
-    pub fn of(values: Vec<f64>, (least, most): (f64, f64)) -> Option<Self> {
+    pub fn of(values: Vec<f64>, bounds: (f64, f64)) -> Option<Self> {
         let mut sorted = values.clone();
         sorted.sort_by(f64::total_cmp);
         let range = (*sorted.first()?, *sorted.last()?);
@@ -63,8 +62,7 @@ impl Statistics {
         let spread = (values.len() > 1).then(|| {
             let standard_error = standard_deviation / count.sqrt();
             let half = quantile(values.len() as u32 - 1) * standard_error;
-            // Rounding may have carried the mean itself across a bound.
-            let confidence_interval = ((mean - half).max(least.min(mean)), (mean + half).min(most.max(mean)));
+            let confidence_interval = interval(mean, half, bounds);
             Spread { standard_deviation, standard_error, confidence_interval }
         });
         let quartiles = [0.25, 0.5, 0.75].map(|share| {
@@ -77,12 +75,41 @@ impl Statistics {
     }
 
     /// Columns of tables of statistics: endings of their names, and values.
-    pub const COLUMNS: [(&str, Column); 4] = [
+    pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
         ("low", |all| Some(all.spread?.confidence_interval.0)),
         ("high", |all| Some(all.spread?.confidence_interval.1)),
+        ("min", |all| Some(all.range.0)),
+        ("q1", |all| Some(all.quartiles[0])),
+        ("median", |all| Some(all.quartiles[1])),
+        ("q3", |all| Some(all.quartiles[2])),
+        ("max", |all| Some(all.range.1)),
     ];
+
+    /// Median, quartiles and range of several values in words, or the only value.
+    pub fn words(&self, unit: &str) -> String {
+        let ([lower, median, upper], (least, most)) = (self.quartiles, self.range);
+        let median = format_rounded(median, 2, unit);
+        if self.count < 2 {
+            return median;
+        }
+        let [quartiles, range] = [(lower, upper), (least, most)].map(|ends| format_range(ends, 2, unit));
+        format!("median {median} (quartiles {quartiles}, range {range})")
+    }
+
+    /// A warning where one of at least three profiles makes more than half of the mean of `what`.
+    pub fn warning(&self, what: &str) -> Option<String> {
+        let share = self.share_of_largest().filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
+        let percent = format_rounded(100.0 * share, 2, "1");
+        Some(format!("One profile makes {percent} % of the mean of {what}: the median is the better guide."))
+    }
+
+    /// Share of the largest value in the sum of values of which none is below zero.
+    pub fn share_of_largest(&self) -> Option<f64> {
+        let share = self.range.1 / (self.mean * self.count as f64);
+        Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
+    }
 
     /// Both ends of the confidence interval of the mean, or the mean twice.
     pub fn ends(&self) -> (f64, f64) {
@@ -93,6 +120,26 @@ impl Statistics {
     pub fn confidence_interval(&self) -> Option<(f64, f64)> {
         self.spread.map(|spread| spread.confidence_interval)
     }
+}
+
+/// The mean with `half` the width of its interval added at both ends: plainly for a quantity without bounds, to the
+/// logarithm of the distance from one bound, and to the logarithm of the ratio of the distances from two. The interval
+/// never reaches a bound, and is the plain one where it is narrow.
+fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
+    let (above, below) = (mean - least, most - mean);
+    // Rounding may have carried the mean itself across a bound.
+    if above <= 0.0 || below <= 0.0 {
+        return (mean, mean);
+    }
+    let end = |half: f64| match (above.is_finite(), below.is_finite()) {
+        (true, true) => {
+            let odds = above / below * (half / above + half / below).exp();
+            most - (most - least) / (1.0 + odds)
+        }
+        (true, false) => least + above * (half / above).exp(),
+        _ => mean + half,
+    };
+    (end(-half), end(half))
 }
 
 /// Number of profiles in each regime.
@@ -206,6 +253,8 @@ fn share_within(t: f64, freedom: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
     #[test]
     fn quantiles_are_those_of_the_tables() {
@@ -262,12 +311,61 @@ mod tests {
         assert_eq!((all.count, all.range), (3, (1e-200, 5e-200)));
         assert!(near(standard_error, 2e-200 / 3.0_f64.sqrt()));
         assert!(near(confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
+        assert_eq!(
+            all.words("N"),
+            "median 3e-200 N (quartiles 2e-200 to 4e-200 N, range 1e-200 to 5e-200 N)"
+        );
         let one = of(&[0.3], (0.0, 1.0)).unwrap();
         assert_eq!((one.count, one.mean, one.range, one.spread), (1, 0.3, (0.3, 0.3), None));
         assert_eq!(of(&[], (0.0, 1.0)), None);
         let zeros = of(&[0.0; 4], (0.0, 1.0)).unwrap();
         assert_eq!((zeros.mean, zeros.confidence_interval()), (0.0, Some((0.0, 0.0))));
-        let shares = of(&[0.0, 1.0], (0.0, 1.0)).unwrap().confidence_interval();
-        assert_eq!(shares, Some((0.0, 1.0)), "a share is never below 0 or above 1");
+    }
+
+    #[test]
+    fn intervals_keep_off_the_bounds_and_are_plain_where_they_are_narrow() {
+        let (share, force, any) = ((0.0, 1.0), (0.0, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY));
+        let wide = [0.0, 1e-9, 0.0, 0.9];
+        for (values, bounds) in [(wide, share), (wide, force), ([1.0, 1.0, 1.0, 0.2], share)] {
+            let all = Statistics::of(values.to_vec(), bounds).unwrap();
+            let (low, high) = all.confidence_interval().unwrap();
+            assert!(bounds.0 < low && low < all.mean && all.mean < high && high < bounds.1, "{all:?}");
+        }
+        // The logarithm of a force: one factor to both sides.
+        let all = Statistics::of(wide.to_vec(), force).unwrap();
+        let (low, high) = all.confidence_interval().unwrap();
+        assert!((all.mean / low / (high / all.mean) - 1.0).abs() < 1e-9, "{all:?}");
+        let narrow = vec![0.5001, 0.4999, 0.5002, 0.4998];
+        let ends = [share, force, any].map(|bounds| Statistics::of(narrow.clone(), bounds).unwrap().ends());
+        assert!(ends.iter().all(|end| (end.0 - ends[2].0).abs() < 1e-7 && (end.1 - ends[2].1).abs() < 1e-7));
+        assert_eq!(Statistics::of(vec![0.0; 3], share).unwrap().ends(), (0.0, 0.0));
+    }
+
+    /// Means of 16 log-normal numbers, the logarithm with a standard deviation of 1.
+    #[test]
+    fn intervals_contain_skewed_means_more_often_than_plain_ones() {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+        let (samples, truth, mut hits, mut plain) = (4000, 0.5_f64.exp(), 0, 0);
+        for _ in 0..samples {
+            let all =
+                Statistics::of((0..16).map(|_| normal().exp()).collect(), (0.0, f64::INFINITY)).unwrap();
+            let (low, high) = all.ends();
+            hits += usize::from(low <= truth && truth <= high);
+            let half = student_t(15) * all.spread.unwrap().standard_error;
+            plain += usize::from((truth - all.mean).abs() <= half);
+        }
+        let share = |count: usize| count as f64 / f64::from(samples);
+        assert!((0.88..0.93).contains(&share(hits)) && share(plain) < share(hits) - 0.02, "{hits} {plain}");
+    }
+
+    #[test]
+    fn one_profile_may_make_the_mean() {
+        let of = |values: &[f64]| Statistics::of(values.to_vec(), (0.0, 100.0)).unwrap().warning("F_a");
+        let warning = "One profile makes 90 % of the mean of F_a: the median is the better guide.";
+        assert_eq!(of(&[1.0, 0.0, 9.0]).as_deref(), Some(warning));
+        for values in [&[1.0, 8.0, 7.0][..], &[0.0, 9.0], &[0.0; 4], &[-1.0, 0.0, 9.0]] {
+            assert_eq!(of(values), None);
+        }
     }
 }

@@ -226,10 +226,13 @@ fn summaries_are_the_statistics_of_the_rows() {
                 continue;
             }
             let expected = Statistics::of(values, quantity.bounds()).unwrap();
-            let found = ["mean", "sd", "low", "high"].map(|of| number(&format!("{name}_{of}")));
+            let endings = ["mean", "sd", "low", "high", "min", "q1", "median", "q3", "max"];
+            let found = endings.map(|of| number(&format!("{name}_{of}")));
             let Spread { standard_deviation, confidence_interval: (low, high), .. } =
                 expected.spread.unwrap();
-            assert_eq!(found, [expected.mean, standard_deviation, low, high], "{name}");
+            let ([lower, median, upper], (least, most)) = (expected.quartiles, expected.range);
+            let all = [expected.mean, standard_deviation, low, high, least, lower, median, upper, most];
+            assert_eq!(found, all, "{name}");
             assert_eq!(results.statistics(cell, *quantity), Some(expected));
             assert!(low >= quantity.bounds().0 && high <= quantity.bounds().1, "{name}: {low} to {high}");
         }

@@ -14,7 +14,9 @@ use super::pane::Pane;
 use super::parameters::Parameter;
 use super::prompt::Purpose;
 use super::request::Focus;
-use super::update::{accuracy, compare, crosshair, dialogue, edit, files, look, map, movement, stages};
+use super::update::{
+    accuracy, compare, crosshair, dialogue, edit, files, look, map, movement, preloads, stages,
+};
 use Run::{Character, Do, Edit};
 use tui_input::InputRequest;
 
@@ -201,15 +203,16 @@ static TABLE: &[Entry] = &[
     row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.look.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
     row("f", EXPLORE, "first-touch", Do(|app| app.view.look.focus = Focus::Summit), "", "show the point of first touch", LOOK),
     row("D", EXPLORE, "toggle-lengths", Do(|app| app.toggle(Pane::Lengths)), "", "show the distribution of patch lengths in place of the close-up", LOOK),
-    row("+ =", EXPLORE, "zoom-in", Do(|app| look::zoom(app, 1)), "", "zoom in: profile if selected, else close-up", LOOK),
+    row("+ =", EXPLORE, "zoom-in", Do(|app| look::zoom(app, 1)), "", "zoom in: profile or preloads if selected, else close-up", LOOK),
     row("-", OTHER_PANES, "zoom-out", Do(|app| look::zoom(app, -1)), "", "zoom out", LOOK),
-    row("(", EXPLORE, "pan-left", Do(|app| look::pan(app, -1)), "", "pan left along the profile", LOOK),
-    row(")", EXPLORE, "pan-right", Do(|app| look::pan(app, 1)), "", "pan right along the profile", LOOK),
+    row("(", EXPLORE, "pan-left", Do(|app| look::pan(app, -1)), "", "pan left along the profile, or to smaller preloads in their pane", LOOK),
+    row(")", EXPLORE, "pan-right", Do(|app| look::pan(app, 1)), "", "pan right, or to larger preloads", LOOK),
     row("w", EXPLORE, "toggle-follow", Do(look::toggle_follow), "", "keep the profile centred on the patch of the close-up", LOOK),
-    row("0", OTHER_PANES, "reset-zoom", Do(look::reset_zoom), "", "show the whole profile", LOOK),
+    row("0", OTHER_PANES, "reset-zoom", Do(look::reset_zoom), "", "show the whole profile, or the usual preloads in their pane", LOOK),
     row("A", EXPLORE, "toggle-accuracy", Do(|app| app.toggle(Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
     row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
     row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
+    row("X", EXPLORE, "toggle-preload-scale", Do(preloads::toggle_scale), "log/linear", "plot adhesion against preload on logarithmic axes, or on linear ones", LOOK).rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
     row("O", EXPLORE, "next-reversal-map", Do(|app| app.toggle(if app.is_shown(Pane::Everett) || app.is_shown(Pane::Density) { Pane::Density } else { Pane::Everett })), "", "show the Everett function of reversal curves, then their density, in place of profile and close-up", LOOK),
     row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show changes of F_a by ±10 % of each number, in place of profile and close-up", LOOK),
     row("Tab", EXPLORE, "next-pane", Do(look::next_pane), "pane", "select the next pane", LOOK).rank(2),

@@ -61,7 +61,7 @@ fn study(computed: &SolvedScene) -> Study {
 
 fn report(app: &App) -> Exported<'_> {
     let (document, table) = (&app.edit.document, app.studies.value::<Costs>()?.table.as_ref()?);
-    Some(("asperity cost", Box::new(CostReport::new(document.title(), document.scene(), table))))
+    Some(("asperity cost".into(), Box::new(CostReport::new(document.title(), document.scene(), table))))
 }
 
 /// Relative errors whose requirements are stated, with lines in the plot.

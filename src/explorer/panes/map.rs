@@ -11,7 +11,7 @@ use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
-use crate::scene::format_rounded;
+use crate::scene::{format_range, format_rounded};
 use crate::study::{Axis, Cell, Grid, LiveMap, Place, Quantity, Statistics, live_plan};
 use crate::text::grouped;
 use ratatui::layout::Size;
@@ -59,7 +59,7 @@ fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
 }
 
 fn cells(app: &App) -> Exported<'_> {
-    Some(("asperity", Box::new(app.grid()?.clone())))
+    Some(("asperity".into(), Box::new(app.grid()?.clone())))
 }
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -320,12 +320,11 @@ fn cell_values(
     format!("{at}: {}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
 }
 
-/// A mean, with its confidence where known and the range of the profiles.
+/// A mean, with median and range of profiles that differ.
 fn value(all: Statistics, unit: &str) -> String {
-    let (shown, (least, most)) = (|value| format_rounded(value, 2, unit), all.range);
-    let confidence = all.confidence_interval().filter(|(low, high)| low < high);
-    let confidence =
-        confidence.map_or_else(String::new, |(low, high)| format!(" ± {}", shown((high - low) / 2.0)));
-    let range = if least < most { format!(" ({} to {})", shown(least), shown(most)) } else { String::new() };
-    format!("{}{confidence}{range}", shown(all.mean))
+    let [mean, median] = [all.mean, all.quartiles[1]].map(|value| format_rounded(value, 2, unit));
+    match all.range {
+        (least, most) if least == most => mean,
+        range => format!("{mean} (median {median}, {})", format_range(range, 2, unit)),
+    }
 }

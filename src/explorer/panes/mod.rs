@@ -59,7 +59,8 @@ impl Pane {
         let is_chart =
             self == app.view.pane && self.row().keys == Some(Context::Crosshair) && app.section().is_none();
         if let Some(position) = app.view.crosshair.filter(|_| is_chart) {
-            panel.read_at(position, app.view.appearance);
+            let width = if self.row().place == Place::Large { size.width } else { u16::MAX };
+            panel.read_at(position, app.view.appearance, width);
         }
         panel
     }

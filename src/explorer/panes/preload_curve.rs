@@ -1,132 +1,204 @@
-//! Adhesion against preload of the scene: the adhesion force of its own profile for many preloads, then the mean over
-//! random profiles, coarser in the preload.
+//! Adhesion against preload of the scene: first the staircase of its own profile, then the spread over random profiles.
 
 use crate::analysis::Figures;
+use crate::draw::{AxisScale, Span};
+use crate::explorer::app::PreloadAxis;
 use crate::explorer::snapshot::SolvedScene;
-use crate::scene::Solver;
-use crate::simulation::{RunError, Simulation};
-use crate::study::{Axis, Results};
+use crate::scene::{Move, Solver};
+use crate::simulation::Simulation;
+use crate::study::{Axis, Results, Staircase, Statistics};
 
-/// Number of preloads on the profile of the scene, and step between those on random profiles.
-const FINE: usize = 257;
-const EVERY: usize = 8;
+/// Number of preloads, and place of the preload of the scene among them: on a linear axis from the force at first touch to
+/// twice the preload, on a logarithmic one of six decades two decades below the end.
+const PRELOADS: usize = 64;
+const PLACES: (f64, f64) = (31.0, 42.0);
+const DECADES: f64 = 6.0;
+/// Relative difference of preloads that are equal but for rounding.
+const SAME: f64 = 1e-9;
+/// Random profiles.
 pub const PROFILES: usize = 16;
-/// Largest preload in preloads of the scene.
-const REACH: f64 = 2.0;
 
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    pub own: Results,
-    /// Random profiles at some of the preloads, that of the scene the first; `None` for a scene with one profile.
-    pub random: Option<Results>,
+    /// The axis that was asked for.
+    asked: PreloadAxis,
+    /// The preloads.
+    pub axis: Axis,
+    /// The profile of the scene.
+    pub staircase: Staircase,
+    /// Random profiles at these preloads, that of the scene the first; a single one of a scene with one profile.
+    pub results: Results,
 }
 
 impl PreloadCurve {
-    /// The curve of a computed scene, still empty.
-    pub fn new(computed: &SolvedScene) -> Result<Self, &'static str> {
-        if computed.scene.numerics.solver != Solver::Exact {
-            return Err("many preloads at once need the exact solver");
-        }
-        if computed.scene.adhesion.is_none() {
-            return Err("without adhesion nothing holds the bodies together");
-        }
-        let Figures { preload, adhesion_force, .. } = computed.outcome.figures;
-        let scale = preload.filter(|&force| force > 0.0).or(adhesion_force).filter(|&force| force > 0.0);
-        let fine = scale.and_then(|scale| Axis::of_preloads(0.0, REACH * scale, FINE));
-        let fine = fine.ok_or("no stage presses the bodies together")?;
-        let mut coarse = fine.clone();
-        coarse.values = coarse.values.into_iter().step_by(EVERY).collect();
-        let begin = |lines: usize, preloads: &Axis| {
-            let results =
-                Results::begin(&computed.scene, &Results::OF_PRELOADS, lines as u64, Some(preloads));
-            results.map_err(|_| "there is not enough memory for the curve")
-        };
-        let random = computed.scene.seed().map(|_| begin(PROFILES, &coarse)).transpose()?;
-        Ok(PreloadCurve { own: begin(1, &fine)?, random })
-    }
-
-    pub fn is_whole(&self) -> bool {
-        self.own.is_whole(0) && self.random.as_ref().is_none_or(|random| random.is_whole(0))
-    }
-
-    pub fn profiles(&self) -> usize {
-        self.random.as_ref().map_or(0, |random| random.records_of(0).count())
-    }
-
-    /// Computes the missing part, the profile of the scene first. `report` receives the curve after each addition.
+    /// Computes the curve of a computed scene, or the missing part of one that was begun. `report` receives the curve after
+    /// each addition.
+    ///
+    /// # Errors
+    /// The reason why the scene has no such curve, a profile or contact that fails, or a stop.
     pub fn compute(
-        &mut self,
+        computed: &SolvedScene,
+        asked: PreloadAxis,
+        begun: Option<PreloadCurve>,
         simulation: &mut Simulation,
         stop: &dyn Fn() -> bool,
         report: &mut dyn FnMut(&PreloadCurve),
-    ) -> Result<(), RunError> {
-        if !self.own.is_whole(0) {
-            self.own.extend(simulation, stop, &mut |_| ())?;
-            report(self);
+    ) -> Result<PreloadCurve, String> {
+        let begun = begun.filter(|begun| begun.asked == asked && begun.staircase.is_whole());
+        let mut curve = begun.map_or_else(|| Self::begin(computed, asked, simulation, stop), Ok)?;
+        if !curve.staircase.is_whole() {
+            let (scene, axis) = (&computed.scene, curve.axis.clone());
+            let found = Staircase::find(scene, &axis, simulation, stop, &mut |part| {
+                curve.staircase = part.clone();
+                report(&curve);
+            });
+            found.map_err(|error| error.to_string())?;
         }
-        let Some(mut random) = self.random.take() else { return Ok(()) };
-        let done = random.extend(simulation, stop, &mut |random| {
-            report(&PreloadCurve { own: self.own.clone(), random: Some(random.clone()) });
+        let mut results = curve.results.clone();
+        let done = results.extend(simulation, stop, &mut |part| {
+            report(&PreloadCurve { results: part.clone(), ..curve.clone() });
         });
-        self.random = Some(random);
-        done
+        done.map_err(|error| error.to_string())?;
+        Ok(PreloadCurve { results, ..curve })
+    }
+
+    /// The curve of a computed scene, still empty.
+    fn begin(
+        computed: &SolvedScene,
+        asked: PreloadAxis,
+        simulation: &mut Simulation,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Self, String> {
+        let SolvedScene { scene, outcome, .. } = computed;
+        if scene.numerics.solver != Solver::Exact {
+            return Err("many preloads at once need the exact solver".into());
+        }
+        if scene.adhesion.is_none() {
+            return Err("without adhesion nothing holds the bodies together".into());
+        }
+        let Figures { preload, adhesion_force, .. } = outcome.figures;
+        let preload = preload.filter(|&force| force > 0.0).or(adhesion_force).filter(|&force| force > 0.0);
+        let preload = preload.ok_or("no stage presses the bodies together")?;
+        let mut touch = 0.0;
+        let touched = simulation.reverse(scene, (&[Move::ToTouch], &[]), stop, &mut |_, reversal| {
+            touch = reversal.turn.force;
+            Ok(())
+        });
+        touched.map_err(|error| error.to_string())?;
+        let last = (PRELOADS - 1) as f64;
+        let scale = asked.scale;
+        let usual = match scale {
+            AxisScale::Linear => Span { low: touch, high: touch + (preload - touch) * last / PLACES.0 },
+            AxisScale::Logarithmic => {
+                let low = scale.coordinate(preload) - DECADES * PLACES.1 / last;
+                Span { low, high: low + DECADES }
+            }
+        };
+        let Span { low, high } = asked.span.unwrap_or(usual);
+        let from = if scale == AxisScale::Linear { low.max(touch) } else { scale.number(low) };
+        let axis = Axis::of_preloads((from, scale.number(high)), PRELOADS, scale)?;
+        let lines = scene.seed().map_or(1, |_| PROFILES as u64);
+        let results = Results::begin(scene, &Results::OF_PRELOADS, lines, Some(&axis));
+        let results = results.map_err(|_| "there is not enough memory for the curve")?;
+        Ok(PreloadCurve { asked, axis, staircase: Staircase::default(), results })
+    }
+
+    /// Returns true once all profiles are computed.
+    pub fn is_whole(&self) -> bool {
+        self.staircase.is_whole() && self.results.is_whole(0)
+    }
+
+    /// Number of computed random profiles.
+    pub fn profiles(&self) -> usize {
+        self.results.records_of(0).count()
+    }
+
+    /// Range of the preloads, in coordinates of their scale.
+    pub fn span(&self) -> Option<Span> {
+        let at = |force: &f64| self.axis.scale().coordinate(*force);
+        Some(Span { low: at(self.axis.values.first()?), high: at(self.axis.values.last()?) })
+    }
+
+    /// The adhesion force over the computed profiles at a preload of the axis, N; `None` for fewer than two.
+    pub fn at(&self, preload: f64) -> Option<Statistics> {
+        let spread = self.results.spread_of_adhesion().into_iter();
+        let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();
+        spread.into_iter().find(at).map(|(_, all)| all)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Move, Scene, open};
+    use crate::scene::{Scene, open};
     use std::cell::Cell;
     use std::sync::Arc;
+
+    const LINEAR: PreloadAxis = PreloadAxis { scale: AxisScale::Linear, span: None };
 
     fn computed(name: &str) -> SolvedScene {
         let mut scene = open(name).unwrap().scene().clone();
         scene.numerics.points = 2048;
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        SolvedScene { generation: 1, scene: Arc::new(scene), outcome, full_contact: 0.0 }
+        SolvedScene { generation: 1, scene: Arc::new(scene), outcome }
+    }
+
+    fn curve(computed: &SolvedScene, asked: PreloadAxis) -> Result<PreloadCurve, String> {
+        let simulation = &mut Simulation::default();
+        PreloadCurve::compute(computed, asked, None, simulation, &|| false, &mut |_| ())
     }
 
     #[test]
-    fn the_curve_grows_and_goes_on_where_it_was_stopped() {
+    fn the_curve_grows_and_continues_where_it_was_stopped() {
         let computed = computed("pressure-sensitive");
-        let mut curve = PreloadCurve::new(&computed).unwrap();
-        let reported = Cell::new(0);
-        let stop = || reported.get() >= 4;
-        let mut sizes = Vec::new();
-        let done = curve.compute(&mut Simulation::default(), &stop, &mut |curve| {
-            reported.set(reported.get() + 1);
-            sizes.push(curve.profiles());
-        });
-        assert!(done.unwrap_err().is_interruption());
-        assert_eq!((sizes, curve.profiles(), curve.own.is_whole(0)), (vec![0, 1, 2, 3], 3, true));
-        curve.compute(&mut Simulation::default(), &|| false, &mut |_| ()).unwrap();
-        assert!(curve.is_whole() && curve.profiles() == PROFILES);
-        let means = curve.random.as_ref().unwrap().mean_adhesion_forces();
-        let means: Vec<f64> = means.iter().map(|(_, one)| one.mean).collect();
-        assert!(means.windows(2).all(|pair| pair[0] <= pair[1]) && means[0] < 0.2 * means[32], "{means:?}");
-        // In the middle is the preload of the scene.
-        let (preload, force) = curve.own.adhesion_forces(0)[FINE / 2];
-        assert!((preload / computed.outcome.figures.preload.unwrap() - 1.0).abs() < 1e-12);
-        assert!((force / computed.outcome.figures.adhesion_force.unwrap() - 1.0).abs() < 1e-9);
+        let (simulation, profiles, parts) = (&mut Simulation::default(), Cell::new(0), Cell::new(0));
+        let stop = || profiles.get() >= 3;
+        let mut last = None;
+        let mut see = |curve: &PreloadCurve| {
+            profiles.set(curve.profiles());
+            parts.set(parts.get() + 1);
+            last = Some(curve.clone());
+        };
+        let done = PreloadCurve::compute(&computed, LINEAR, None, simulation, &stop, &mut see);
+        let begun = last.unwrap();
+        assert!(done.is_err() && begun.staircase.is_whole() && begun.profiles() == 3 && parts.get() > 4);
+        let mut first = None;
+        let mut see = |part: &PreloadCurve| {
+            first.get_or_insert(part.profiles());
+        };
+        let whole = PreloadCurve::compute(&computed, LINEAR, Some(begun), simulation, &|| false, &mut see);
+        let whole = whole.unwrap();
+        assert_eq!((first, whole.profiles(), whole.is_whole()), (Some(4), PROFILES, true));
+        assert_eq!(curve(&computed, LINEAR), Ok(whole.clone()));
+        // The preload of the scene is among those of the axis, and its adhesion force on the staircase.
+        let figures = computed.outcome.figures;
+        let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
+        let at = whole.staircase.forces.iter().find(|at| (at.0 / preload - 1.0).abs() < SAME).unwrap();
+        assert!((at.1 / force - 1.0).abs() < 1e-9);
+        assert_eq!(whole.at(preload).map(|all| all.count), Some(PROFILES));
+        assert_eq!((whole.at(0.7 * preload), whole.axis.values[0]), (None, whole.staircase.touch.0));
+        // Another axis is another curve.
+        let ratios = curve(&computed, PreloadAxis { scale: AxisScale::Logarithmic, span: None }).unwrap();
+        let (first, last) = (ratios.axis.values[0], ratios.axis.values[PRELOADS - 1]);
+        assert!((last / first / 1e6 - 1.0).abs() < 1e-9 && ratios.at(preload).is_some());
     }
 
     #[test]
     fn scenes_without_preload_or_exact_solver_have_no_curve() {
         let mut one = computed("jkr-sphere");
-        assert_eq!(PreloadCurve::new(&one).unwrap().random, None);
+        assert_eq!(curve(&one, LINEAR).unwrap().profiles(), 1);
         let mut scene = Scene::clone(&one.scene);
         scene.numerics.solver = Solver::Stepwise { step: 1e-9 };
         one.scene = Arc::new(scene.clone());
-        assert!(PreloadCurve::new(&one).unwrap_err().contains("exact solver"));
+        assert!(curve(&one, LINEAR).unwrap_err().contains("exact solver"));
         scene.numerics.solver = Solver::Exact;
         scene.loading = vec![Move::ToIndentation(-1e-9)];
         one.outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         one.scene = Arc::new(scene.clone());
-        assert!(PreloadCurve::new(&one).unwrap_err().contains("presses"));
+        assert!(curve(&one, LINEAR).unwrap_err().contains("presses"));
         scene.adhesion = None;
         one.scene = Arc::new(scene);
-        assert!(PreloadCurve::new(&one).unwrap_err().contains("adhesion"));
+        assert!(curve(&one, LINEAR).unwrap_err().contains("adhesion"));
     }
 }

@@ -1,47 +1,58 @@
-//! Adhesion against preload: the curve of the profile, the mean over random profiles with its confidence, and the
+//! Adhesion against preload: the staircase of the profile, the spread over random profiles, adhesion without load, and the
 //! preload of the scene.
 
 use super::{Exported, PROFILES, PaneRow, PreloadCurve};
-use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Sign};
+use crate::draw::{AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
-use crate::explorer::panel::{Panel, names};
+use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::text::filled;
-use crate::export::{PreloadReport, preload_axes, preload_layers};
-use crate::study::Results;
+use crate::explorer::view::text::{filled, wrapped};
+use crate::export::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 use ratatui::layout::Size;
-use ratatui::text::Span as Text;
+use ratatui::text::{Line, Span as Text};
 use std::sync::Arc;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
+    figure: |app, _| {
+        let (chart, beside) = charts(app, app.studies.value()?);
+        Some(preload_figure(app.edit.document.title(), chart, beside))
+    },
     report,
     keys: Some(Context::Crosshair),
     studies: |app, computed| {
         let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
-        vec![Study::new(computed.generation, false, move |simulation, stop, report| {
-            let mut curve = begun.map_or_else(|| PreloadCurve::new(&computed), Ok)?;
-            let done = curve.compute(simulation, stop, &mut |curve| report(curve.clone()));
-            done.map(|()| curve).map_err(|error| error.to_string())
+        let asked = app.view.preloads;
+        let key = format!("{} {asked:?}", computed.generation);
+        vec![Study::new(key, false, move |simulation, stop, report| {
+            let report: &mut dyn FnMut(&PreloadCurve) = &mut |curve| report(curve.clone());
+            PreloadCurve::compute(&computed, asked, begun, simulation, stop, report)
         })]
     },
     help: &[(
         "Preloads",
-        "i: adhesion force over preload, of this profile and the mean of random profiles with its 95 % confidence; the \
-         line and ◆ are the present preload",
+        "i: adhesion force over preload, of this profile as the staircase that it is, and over random profiles median, \
+         quartiles, mean and range; ◇ after a turn at first touch, ○ where the force is back at zero; the line and ◆ are \
+         the present preload. On the right the share of profiles up to each force, at the crosshair or the present \
+         preload. + - ( ) change the range, X the scale",
     )],
     ..PaneRow::EMPTY
 };
 
+/// The drawn curves, with the command that computes the same table.
 fn report(app: &App) -> Exported<'_> {
     let curve = app.studies.value::<PreloadCurve>()?;
-    // The mean once all random profiles are computed, until then the profile of the scene.
-    let whole = |results: &&Results| results.is_whole(0);
-    let results = curve.random.as_ref().filter(whole).or(Some(&curve.own).filter(whole))?;
-    let report = PreloadReport { title: app.edit.document.title(), choice: None, results };
-    Some(("asperity run", Box::new(report)))
+    let (axis, lines) = (&curve.axis, curve.results.plan().lines);
+    let (from, to) = (axis.values.first()?, axis.values.last()?);
+    let scale = if axis.scale() == AxisScale::Logarithmic { ":log" } else { "" };
+    let lines = if lines > 1 { format!(" --lines {lines}") } else { String::new() };
+    let command = format!("asperity run --preloads={from:?}..{to:?}:{}{scale}{lines} --curves", axis.count());
+    let (title, results) = (app.edit.document.title(), &curve.results);
+    let report =
+        PreloadReport { title, choice: None, results, staircase: Some(&curve.staircase), curves: true };
+    Some((command.into(), Box::new(report)))
 }
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -49,28 +60,38 @@ fn panel(app: &App, size: Size) -> Panel {
     let Some(curve) = app.studies.value::<PreloadCurve>() else {
         return Panel::of_text(title, app.studies.failure::<PreloadCurve>().unwrap_or("computing …"));
     };
-    let chart = chart(app, curve);
-    let mut parts = names(&chart, app.view.appearance);
-    if !curve.is_whole() && curve.profiles() >= 2 {
+    let look = app.view.appearance;
+    let (chart, beside) = charts(app, curve);
+    // The title of the pane has the names of both axes.
+    let chart = chart.with_symbols();
+    let mut parts = names(&chart, look);
+    if !curve.is_whole() && curve.profiles() >= 1 {
         let progress = format!("{} of {} profiles", curve.profiles(), PROFILES);
-        parts.insert(1, vec![Text::styled(progress, app.view.appearance.theme.style(Meaning::Title))]);
+        parts.insert(1, vec![Text::styled(progress, look.theme.style(Meaning::Title))]);
     }
-    Panel { head: filled(parts, "  ", size.width.into()), ..Panel::of_chart(title, chart) }
+    let warning = warning(&curve.results.spread_of_adhesion()).unwrap_or_default();
+    let foot = wrapped(&Line::styled(warning, look.theme.style(Meaning::Key)), size.width);
+    let mut panel =
+        Panel { head: filled(parts, "  ", size.width.into()), foot, ..Panel::of_chart(title, chart) };
+    if let Body::Chart(plot) = &mut panel.body {
+        plot.beside = beside.map(Chart::with_symbols);
+    }
+    panel
 }
 
-fn chart(app: &App, curve: &PreloadCurve) -> Chart {
-    let means = curve.random.as_ref().map_or_else(Vec::new, Results::mean_adhesion_forces);
-    let mut layers = preload_layers(&curve.own.adhesion_forces(0), &means);
+/// The curves with the present preload, and the distribution over the profiles at the crosshair or the present preload.
+fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
+    let mut chart = preload_chart(&curve.staircase, &curve.results.spread_of_adhesion());
     let figures = app.current().map(|one| one.outcome.figures);
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
-        layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(preload)));
+        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(preload)));
         let shape = Shape::signs(vec![(preload, force)], Sign::Diamond);
-        layers.push(Layer::new("present preload".into(), Ink::Cursor, shape));
+        chart.layers.push(Layer::new("present preload".into(), Ink::Cursor, shape));
     }
-    let chart = preload_axes(layers);
-    // The title of the pane has the names of both axes.
-    let axis = |axis: &Axis, symbol| Axis::new(AxisScale::Linear, axis.span, "", symbol, "N");
-    let (x, y) = (axis(&chart.x, "F_n"), axis(&chart.y, "F_a"));
-    Chart { x, y, ..chart }
+    let x = &chart.x;
+    let crosshair = app.view.crosshair.map(|share| x.scale.number(x.span.low + share * x.span.width()));
+    let read = crosshair.or(present.map(|(preload, _)| preload));
+    let beside = read.and_then(|preload| distribution(&curve.results, preload, &chart.y));
+    (chart, beside)
 }

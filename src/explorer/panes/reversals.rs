@@ -51,11 +51,12 @@ fn report(app: &App) -> Exported<'_> {
         scene: document.scene(),
         map,
         preloads: None,
+        staircase: None,
         loops: None,
         smoothing: SMOOTHING,
         map_table: true,
     };
-    Some(("asperity reversals --map", Box::new(report)))
+    Some(("asperity reversals --map".into(), Box::new(report)))
 }
 
 fn panel(app: &App, size: Size, title: &str, chart: impl Fn(&ReversalMap) -> Chart) -> Panel {

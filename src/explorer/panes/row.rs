@@ -9,10 +9,11 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::export::{PathReport, Report, RunReport};
 use ratatui::layout::Size;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Command and result of an exported pane.
-pub type Exported<'a> = Option<(&'static str, Box<dyn Report + 'a>)>;
+pub type Exported<'a> = Option<(Cow<'static, str>, Box<dyn Report + 'a>)>;
 
 pub struct PaneRow {
     /// Place in a window with room for all.
@@ -56,5 +57,5 @@ pub fn outcome(app: &App) -> Exported<'_> {
     let (title, scene, outcome) =
         (app.edit.document.title(), app.edit.document.scene(), &app.current()?.outcome);
     let report = RunReport { title, scene, outcome, choice: None, estimate: app.studies.value() };
-    Some(("asperity run", Box::new(report)))
+    Some(("asperity run".into(), Box::new(report)))
 }

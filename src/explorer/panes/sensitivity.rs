@@ -36,7 +36,7 @@ pub static ROW: PaneRow = PaneRow {
 fn report(app: &App) -> Exported<'_> {
     let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
     let sensitivity = app.studies.value().filter(|_| app.studies.is_done::<Sensitivity>())?;
-    Some(("asperity sensitivity", Box::new(SensitivityReport { title, scene, sensitivity })))
+    Some(("asperity sensitivity".into(), Box::new(SensitivityReport { title, scene, sensitivity })))
 }
 
 fn panel(app: &App, size: Size) -> Panel {

@@ -1,6 +1,6 @@
 //! Changes of the view: panes, close-up, parts of the line, quantities, colours.
 
-use super::Effect;
+use super::{Effect, preloads};
 use crate::explorer::app::{App, CloseUpTarget, Pane};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::ContactSnapshot;
@@ -16,8 +16,11 @@ pub fn go_to_fragment(app: &mut App, question: fn(Option<usize>) -> Focus) {
     app.view.look.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
-/// Shows the whole profile, and the close-up in its initial size.
+/// Shows the whole profile, and the close-up in its initial size; the usual preloads where their pane is selected.
 pub fn reset_zoom(app: &mut App) {
+    if app.view.pane == Pane::Preloads {
+        return preloads::show(app, app.view.preloads.scale, None);
+    }
     app.view.profile = LineView::WHOLE;
     app.view.look.springs = CloseUpTarget::springs_shown(&app.edit.document);
 }
@@ -65,8 +68,11 @@ fn springs(app: &App) -> usize {
     app.solved.as_ref().map_or(1, |computed| computed.outcome.line.points).max(1)
 }
 
-/// Zooms the profile, where it is the chosen pane, or the close-up; positive steps are closer.
+/// Zooms the profile or the preloads, where they are the chosen pane, or the close-up; positive steps are closer.
 pub fn zoom(app: &mut App, steps: i32) {
+    if app.view.pane == Pane::Preloads {
+        return preloads::change(app, if steps > 0 { 0.5 } else { 2.0 }, 0.0);
+    }
     let most = springs(app);
     if app.view.pane == Pane::Profile {
         let least = (FEWEST_SPRINGS as f64 / most as f64).min(1.0);
@@ -108,9 +114,12 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     }
 }
 
-/// Moves along the line by quarters of the visible part.
+/// Moves along the line, or along the preloads, by quarters of the visible part.
 pub fn pan(app: &mut App, quarters: i32) {
     let quarters = f64::from(quarters) / 4.0;
+    if app.view.pane == Pane::Preloads {
+        return preloads::change(app, 1.0, quarters);
+    }
     if app.view.pane == Pane::Profile {
         let half = app.view.profile.share / 2.0;
         let centre = app.view.profile.centre + quarters * app.view.profile.share;

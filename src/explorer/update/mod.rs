@@ -11,6 +11,7 @@ pub(super) mod look;
 pub(super) mod map;
 mod mouse;
 pub(super) mod movement;
+pub(super) mod preloads;
 pub(super) mod stages;
 
 pub use super::action::Effect;

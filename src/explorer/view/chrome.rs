@@ -7,12 +7,14 @@ use crate::contact::CurvePoint;
 use crate::explorer::action::{EXPORTS, Traffic};
 use crate::explorer::app::{App, Message};
 use crate::explorer::keys::footer as footer_keys;
+use crate::explorer::panes::PreloadCurve;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::update::Choosing;
-use crate::scene::{format_quantity, format_rounded};
+use crate::scene::{format_quantity, format_range, format_rounded};
+use crate::study::{MeasuredAdhesion, Statistics};
 use crate::text::grouped;
 use ratatui::text::{Line, Span};
 use std::f64::consts::PI;
@@ -168,7 +170,13 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
         facts.push(of_loop(format!("computing, stage {stage} of {stages}"), Meaning::Quiet));
     }
     if let Some(adhesion) = figures.adhesion_force.filter(|force| *force != 0.0) {
-        facts.push(of_loop(format!("F_a {}{error}", force(adhesion)), Meaning::Title));
+        let profiles = profiles(app).filter(|_| is_wide);
+        let whose = if profiles.is_some() { " this profile" } else { "" };
+        facts.push(of_loop(format!("F_a {}{whose}{error}", force(adhesion)), Meaning::Title));
+        facts.extend(profiles.map(|Statistics { count, quartiles: [lower, median, upper], .. }| {
+            let (median, quartiles) = (format_rounded(median, 2, "N"), format_range((lower, upper), 2, "N"));
+            of_loop(format!("{count} profiles: median {median} ({quartiles})"), Meaning::Title)
+        }));
     } else if let Some(largest) = figures.preload.filter(|force| *force != 0.0) {
         // Without tensile force.
         facts.push(of_loop(format!("F_max {}{error}", force(largest)), Meaning::Title));
@@ -210,6 +218,14 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
         facts.push(of_state(contact(snapshot.point)));
     }
     facts
+}
+
+/// The adhesion force over random profiles, where these have been computed at the preload of the scene.
+fn profiles(app: &App) -> Option<Statistics> {
+    let preload = app.current()?.outcome.figures.preload;
+    let at = |preload| app.studies.value::<PreloadCurve>()?.at(preload);
+    let measured = || app.studies.value::<MeasuredAdhesion>()?.adhesion_force();
+    preload.and_then(at).or_else(measured).filter(|forces| forces.count >= 2)
 }
 
 /// Stiffness E* l of the present contact with its edges in place (Popov and Filippov 2012, eq. (1)), and the mean pressure

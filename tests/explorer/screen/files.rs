@@ -151,7 +151,12 @@ fn every_pane_is_exported_as_a_figure() {
     assert!(exported(&mut driver, "a.svg").contains("present preload"));
     // A table is that of the pane.
     let tables = [
-        (super::preloads::computed_preloads(rough()), Pane::Preloads, "asperity run", "preload,"),
+        (
+            super::preloads::computed_preloads(rough()),
+            Pane::Preloads,
+            "asperity run --preloads=-",
+            "preload,adhesion_force,profiles,mean,",
+        ),
         (super::accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
         (super::reversals::reversed(rough()), Pane::Density, "asperity reversals", "everett,density"),
         (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,kappa,lines,regime,"),

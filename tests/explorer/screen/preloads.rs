@@ -3,6 +3,7 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use asperity::explorer::action::Action;
+use asperity::explorer::app::Pane;
 use asperity::explorer::panes::{PROFILES, PreloadCurve};
 use asperity::explorer::update::studies;
 use asperity::scene::Document;
@@ -48,9 +49,60 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
                 assert!(text.contains(words), "{words}\n{text}");
             }
             assert_eq!(text.contains("3 of 16 profiles"), profiles == 3, "{text}");
-            assert!(text.contains(&format!("mean of {profiles} profiles")), "{text}");
+            assert!(text.contains(&format!("range of {profiles} profiles")), "{text}");
+            // The status line and the crosshair.
+            assert!(text.contains("from first touch"), "{text}");
+            driver.press("*");
+            let text = driver.text();
+            for curve in ["F_n ", "this profile ", "median ", "quartiles ", "mean "] {
+                assert!(text.contains(curve), "{curve}: {text}");
+            }
+            driver.press("*");
         }
+        driver.resize((200, 40));
+        let spread = format!(" this profile ± … · {profiles} profiles: median ");
+        assert!(driver.text().contains(&spread), "{}", driver.text());
     }
+}
+
+#[test]
+fn keys_change_the_range_and_the_scale_of_the_preloads() {
+    let mut driver = shown(rough(), 2);
+    let range = |driver: &Driver| {
+        let curve = driver.app.studies.value::<PreloadCurve>().unwrap();
+        (curve.axis.values[0], curve.axis.values[curve.axis.values.len() - 1])
+    };
+    let usual = range(&driver);
+    let preload = driver.app.solved.as_ref().unwrap().outcome.figures.preload.unwrap();
+    assert!(usual.0 < 0.0 && usual.1 > 1.9 * preload, "{usual:?}");
+    let mut after = |keys: &str| {
+        driver.press(keys);
+        compute(&mut driver, 1);
+        range(&driver)
+    };
+    let near = |found: (f64, f64), expected: (f64, f64)| {
+        let apart = [found.0 - expected.0, found.1 - expected.1];
+        assert!(apart.iter().all(|apart| apart.abs() < 1e-9 * preload), "{found:?} for {expected:?}");
+    };
+    // The preload of the scene keeps its place.
+    let closer = after("+");
+    near(closer, (preload - 0.5 * (preload - usual.0), preload + 0.5 * (usual.1 - preload)));
+    let quarter = 0.25 * (closer.1 - closer.0);
+    near(after(")"), (closer.0 + quarter, closer.1 + quarter));
+    near(after("( ("), (closer.0 - quarter, closer.1 - quarter));
+    near(after("0"), usual);
+    // No preload is below the force at first touch.
+    let far = after("( ( (");
+    near((far.0, 0.0), (usual.0, 0.0));
+    let (from, to) = after("X");
+    assert!(from > 0.0 && (to / from / 1e6 - 1.0).abs() < 1e-9);
+    let (from, to) = after("-");
+    assert!((to / from / 1e12 - 1.0).abs() < 1e-6);
+    near(after("X"), usual);
+    // In another pane the keys have their other meaning.
+    driver.app.view.pane = Pane::Force;
+    driver.press("+ ( 0");
+    assert_eq!(range(&driver), usual);
 }
 
 #[test]
