@@ -15,6 +15,7 @@ import tempfile
 try:
     import numpy as np
     from SurfaceTopography import NonuniformLineScan, Topography, UniformLineScan
+    from SurfaceTopography.Container.SurfaceContainer import InMemorySurfaceContainer
 except ImportError as error:
     print(f"SurfaceTopography cannot be imported ({error}): nothing is compared")
     sys.exit(77)
@@ -62,6 +63,12 @@ def main(program, folder):
         close(file, asperity(program, f"{folder}/{file}")["rms_height"], expected, tolerance)
     spaced = ["--unit", "m", "--spacing", f"{scale}m"]
     close("map.npy", asperity(program, f"{folder}/map.npy", *spaced)["rms_height"], expected)
+
+    InMemorySurfaceContainer([full, full]).to_zip(f"{folder}/container.zip")
+    report = asperity(program, f"{folder}/container.zip")
+    close("container.zip", report["rms_height"], expected)
+    if [file["measurement"] for file in report["files"]] != ["topography0.nc", "topography1.nc"]:
+        sys.exit(f"container.zip: {report['files']}")
 
     profile = heights[:, 5].copy()
     x = np.arange(POINTS) * scale

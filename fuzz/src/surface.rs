@@ -18,9 +18,12 @@ pub fn surface(bytes: &[u8]) {
     };
     let unstated = ReadOptions { interpolate: true, ..ReadOptions::default() };
     let mut read = Vec::new();
-    for options in
-        [ReadOptions::default(), unstated, stated, ReadOptions { channel: Some(0), resample: true, ..stated }]
-    {
+    for options in [
+        ReadOptions::default(),
+        unstated,
+        stated,
+        ReadOptions { channel: Some(0), resample: true, ..stated.clone() },
+    ] {
         match parse(bytes, &options) {
             Ok(surface) => {
                 assert_surface(&surface);

@@ -215,14 +215,13 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
 fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {
     let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
     for file in files {
-        let surface =
-            read(file, &options.reading).map_err(|error| CliError::named(path_name(file), error))?;
-        facts.push(SurfaceFile::new(file.clone(), &surface));
-        surfaces.push(surface);
+        let read = read(file, &options.reading).map_err(|error| CliError::named(path_name(file), error))?;
+        facts.extend(read.iter().map(|surface| SurfaceFile::new(file.clone(), surface)));
+        surfaces.extend(read);
     }
     let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
-        let file = files.get(error.surface().unwrap_or(0));
-        CliError::named(file.map(|file| path_name(file)).unwrap_or_default(), error)
+        let file = facts.get(error.surface().unwrap_or(0));
+        CliError::named(file.map(|file| path_name(&file.path)).unwrap_or_default(), error)
     })?;
     Ok(MeasuredFace { files: facts, analysis })
 }

@@ -56,10 +56,15 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
         _ => (Shades::Sequential, Span::of_values(scale, ends.into_iter(), MOST_DECADES_OF_MAP)),
     };
     let class = |regime: &Option<Regime>| REGIMES.iter().position(|(one, ..)| Some(*one) == *regime);
+    // The axis of a regime names its protocol; beside other quantities letters show the regime from first touch.
+    let letters_of = match quantity.is_regime() {
+        true => String::new(),
+        false => format!(" ({})", quantity.short_protocol()),
+    };
     let class_names = REGIMES.map(|(regime, sign, letter, ink)| Class {
         sign,
         letter: Some(letter),
-        name: regime.name().to_owned(),
+        name: format!("{}{letters_of}", regime.name()),
         ink,
     });
     let map = HeatMap {
@@ -116,6 +121,9 @@ fn axis_over(axis: &study::Axis, span: Span) -> Axis {
 
 /// Name of a quantity in words.
 fn name(quantity: Quantity) -> String {
+    if quantity.is_regime() {
+        return format!("regime {}", quantity.protocol());
+    }
     let hyphenated = [("zero load", "zero-load"), ("zero force a", "zero-force a"), ("pull off", "pull-off")];
     let name = quantity.name().replace('_', " ");
     hyphenated.iter().fold(name, |name, (words, word)| name.replace(words, word))

@@ -9,7 +9,7 @@ use crate::scene::{Move, Scene, format_quantity, format_rounded};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
-use crate::text::{grouped, path_name, per_cent};
+use crate::text::{grouped, path_name, per_cent, printable};
 use crate::topography::Topography;
 use serde::Serialize;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
@@ -33,6 +33,8 @@ const LINE: &str = "equivalent line";
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceFile {
     pub path: PathBuf,
+    /// Name of the measurement in a container; empty for a file of its own.
+    pub name: String,
     pub format: &'static str,
     /// Points of a row, and number of rows.
     pub points: [usize; 2],
@@ -47,7 +49,8 @@ impl SurfaceFile {
         let points = [surface.columns(), surface.rows()];
         let spacing = surface.spacing().unwrap_or_default();
         let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
-        SurfaceFile { path, format: surface.format(), points, lengths, interpolated: surface.interpolated() }
+        let (name, interpolated) = (surface.name().to_owned(), surface.interpolated());
+        SurfaceFile { path, name, format: surface.format(), points, lengths, interpolated }
     }
 }
 
@@ -251,7 +254,8 @@ fn describe(file: &SurfaceFile) -> String {
         0 => String::new(),
         some => format!(", {:.2} % interpolated", 100.0 * some as f64 / (columns * rows) as f64),
     };
-    format!("{} ({}): {shape}{interpolated}", path_name(&file.path), file.format)
+    let name = if file.name.is_empty() { String::new() } else { format!(" {:?}", printable(&file.name)) };
+    format!("{}{name} ({}): {shape}{interpolated}", path_name(&file.path), file.format)
 }
 
 fn measured(sheet: &mut Sheet, analysis: &Analysis) {
@@ -347,6 +351,7 @@ fn face_json<'a>(
         let axes = if file.points[1] > 1 { 2 } else { 1 };
         object! {
             "file": file.path.to_string_lossy(),
+            "measurement"?: Some(&file.name).filter(|name| !name.is_empty()),
             "format": file.format,
             "points": &file.points[..axes],
             "lengths": &file.lengths[..axes],

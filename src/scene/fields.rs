@@ -148,6 +148,12 @@ pub const FIELDS: &[Field] = &[
         .meaning("true: missing points of the file get heights from their neighbours; false: they are refused"),
     row("roughness.resample", SWITCH).of("Measured").name("resampling of uneven profiles").default("false")
         .meaning("true: profiles with points at uneven distances are resampled linearly at the mean distance"),
+    row("roughness.align_rows", SWITCH).of("Measured").name("levelling of rows").default("false")
+        .meaning("true: the median of each row of a map is subtracted, since its rows are offset against each other"),
+    row("roughness.robust", SWITCH).of("Measured").name("replacement of outliers").default("false")
+        .meaning("true: heights far from those around them, as spikes, are replaced by heights from their neighbours"),
+    row("roughness.surface_name", FILE_NAME).of("Measured").name("surface of a container").default("None")
+        .meaning("name of a surface, or of one of its measurements, in a container with several"),
     row("roughness.channel", Whole(0, u32::MAX as u64)).of("Measured").name("channel of the file")
         .step(Integer(1, 10)).default("None").meaning("number of the channel of a file that has several"),
     row("roughness.continue_to", Range::closed(1e-15, 10.0)).of("Measured").quantity("shortest wavelength", "λ_s", "m").default("None")

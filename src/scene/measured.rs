@@ -52,6 +52,18 @@ pub struct Measured {
     #[cfg_attr(feature = "tui", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub resample: bool,
+    /// Subtract the median of each row of maps, whose rows are offset against each other
+    #[cfg_attr(feature = "tui", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub align_rows: bool,
+    /// Replace outliers, such as spikes, from their neighbours
+    #[cfg_attr(feature = "tui", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub robust: bool,
+    /// Surface of a container with several, or one of its measurements, by name
+    #[cfg_attr(feature = "tui", arg(long, value_name = "NAME"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_name: Option<String>,
     /// Channel of files with several, by its number
     #[cfg_attr(feature = "tui", arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(..1 << 32)))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -111,8 +123,6 @@ impl Measured {
 
     /// Options of the readers and of the spectrum for a checked surface, whose profile is the line itself or not.
     pub fn options(&self, as_line: bool) -> MeasuredOptions {
-        // A plane fitted to a periodic surface would leave a step at its borders.
-        let default = if self.periodic { Detrend::Mean } else { Detrend::Tilt };
         MeasuredOptions {
             as_line: as_line.then(|| self.detrend.unwrap_or(Detrend::None)),
             reading: ReadOptions {
@@ -124,9 +134,12 @@ impl Measured {
                 channel: self.channel.and_then(|channel| channel.try_into().ok()),
                 cut: self.row.map(Cut::Row).or(self.column.map(Cut::Column)),
                 resample: self.resample,
+                align_rows: self.align_rows,
+                robust: self.robust,
+                surface_name: self.surface_name.clone(),
             },
             spectrum: Options {
-                detrend: self.detrend.unwrap_or(default),
+                detrend: self.detrend,
                 periodic: self.periodic,
                 end: self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength)),
                 tip_radius: None,

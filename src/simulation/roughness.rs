@@ -135,7 +135,7 @@ impl RoughnessMaker {
         }
         let surface = Arc::new(MeasuredRoughness::new(&read_faces(faces)?, options)?);
         if let MeasuredRoughness::Equivalent(_) = *surface {
-            self.equivalent = Some((faces.to_vec(), *options, Arc::clone(&surface)));
+            self.equivalent = Some((faces.to_vec(), options.clone(), Arc::clone(&surface)));
         }
         Ok(surface)
     }

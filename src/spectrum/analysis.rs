@@ -18,6 +18,11 @@ const LEAST_POINTS: usize = 32;
 /// Share of the squared gradient that may be beyond the end of the spectrum.
 const NEGLIGIBLE: f64 = 1e-4;
 
+/// Part of the waves, the last ones, from which the floor of interpolated points follows, and the share of the floor that is
+/// chance.
+const FLOOR: usize = 8;
+const CHANCE: f64 = 0.25;
+
 /// Largest ratio of the powers beyond the end of the spectrum to those of as many waves before.
 const DROP: f64 = 0.03;
 
@@ -27,15 +32,19 @@ const NARROW: f64 = 2.0;
 /// Waves before an end inside the scan that the self-affine fit leaves out.
 const BEFORE_END: f64 = 4.0;
 
+/// Relative difference of lengths and of distances of points of equal scans.
+const SAME: f64 = 1e-6;
+
 /// Wave numbers to which a spectrum without an end may continue, over the last resolved one.
 const CONTINUED: f64 = 4.0;
 
 /// Choices of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Part removed before the analysis.
-    pub detrend: Detrend,
-    /// True if the surface repeats itself at its borders: then no window is used.
+    /// Part removed before the analysis; `None`: as a container states, else the tilt, or the mean of a periodic surface,
+    /// where a plane would leave a step at the borders.
+    pub detrend: Option<Detrend>,
+    /// True if the surface repeats itself at its borders, as a container may state too: then no window is used.
     pub periodic: bool,
     /// End of the spectrum.
     pub end: End,
@@ -96,20 +105,31 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         return Err(SpectrumError::Nothing);
     }
     let mut sums = Sums::default();
+    // Only the longest scans hold the height of the line, and only the finest ones its gradient.
+    let (mut of_longest, mut of_finest) = ((0.0, Sums::default()), (0.0, Sums::default()));
     let mut reliability: Option<f64> = None;
-    let mut length = 0.0_f64;
     let powers = Powers::of(surfaces, options, 0, |surface, heights, distances| {
         let columns = surface.columns();
         check_rough(surface.heights(), heights)?;
         sums.add(heights, columns, distances);
+        let scan = columns as f64 * distances[0];
+        for ((most, sums), size) in [(&mut of_longest, scan), (&mut of_finest, 1.0 / distances[0])] {
+            if size > *most * (1.0 + SAME) {
+                (*most, *sums) = (size, Sums::default());
+            }
+            if size >= *most * (1.0 - SAME) {
+                sums.add(heights, columns, distances);
+            }
+        }
         if let Some(radius) = options.tip_radius {
             let cutoff = reliability_cutoff(heights, columns, distances[0], radius);
             reliability = reliability.into_iter().chain(cutoff).reduce(f64::max);
         }
-        length = length.max(columns as f64 * distances[0]);
         Ok(())
     })?;
-    let (range, resolved) = (powers.range(last_significant), powers.range(<[_]>::len)[1]);
+    let has_gaps = surfaces.iter().any(|surface| surface.interpolated() > 0);
+    let range = powers.range(&|waves| last_significant(waves, has_gaps));
+    let resolved = powers.range(&|waves| waves.len())[1];
     let ends_inside = range[1] < resolved;
     let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
@@ -130,7 +150,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
     let mut power_law = self_affine(&observations, &isotropic).filter(|_| apart == 0.0);
     let mut largest = [0.0_f64; 4];
-    let places = if surfaces.iter().any(|surface| surface.interpolated() > 0) { 1..4 } else { 0..0 };
+    let places = if has_gaps { 1..4 } else { 0..0 };
     for quarters in places {
         let powers = Powers::of(surfaces, options, quarters, |_, _, _| Ok(()))?;
         let observations = powers.observations(range[1]);
@@ -155,9 +175,11 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         let longer = fitted(&observations, End::Continues(CONTINUED * range[1]));
         isotropic.missing = longer.map_or([f64::INFINITY; 3], change);
     }
-    let statistics = sums.statistics();
     if options.end == End::Ends {
-        isotropic.check_identities(&statistics);
+        // Levelling takes height from the rows.
+        let is_levelled = surfaces.iter().any(|surface| surface.aligned);
+        let height = Some(of_longest.1.statistics().rms_height).filter(|_| !is_levelled);
+        isotropic.check_identities(height, &of_finest.1.statistics());
     }
     let line = isotropic.line_moments();
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
@@ -165,7 +187,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         return Err(SpectrumError::NoMaximum);
     }
     Ok(Analysis {
-        statistics,
+        statistics: sums.statistics(),
         spectra: powers.spectra(),
         power_law,
         isotropic,
@@ -173,7 +195,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         reliability_cutoff: reliability,
         profiles: powers.profiles.iter().map(|power| power.profiles).sum(),
         maps: powers.maps.len() as u64,
-        length,
+        length: of_longest.0,
         end: options.end,
         ends_inside,
         offsets: powers.maps.iter().any(|map| map.offsets),
@@ -212,9 +234,11 @@ impl Powers {
                 )));
             }
             let mut heights = surface.copied_heights(quarters).map_err(refused)?;
-            options.detrend.remove(&mut heights, columns);
+            let periodic = options.periodic || surface.periodic;
+            let default = if periodic { Detrend::Mean } else { Detrend::Tilt };
+            options.detrend.or(surface.detrend).unwrap_or(default).remove(&mut heights, columns);
             check(surface, &heights, distances)?;
-            powers.add(&heights, [columns, rows], distances, !options.periodic)?;
+            powers.add(&heights, [columns, rows], distances, !periodic, surface.aligned)?;
         }
         Ok(powers)
     }
@@ -225,6 +249,7 @@ impl Powers {
         points: [usize; 2],
         distances: [f64; 2],
         windowed: bool,
+        aligned: bool,
     ) -> Result<(), SpectrumError> {
         let [columns, rows] = points;
         // Rows, or columns.
@@ -239,8 +264,10 @@ impl Powers {
         for (axis, powers) in self.axes.iter_mut().enumerate() {
             group(powers, points[axis], distances[axis], windowed).add(lines(axis))?;
         }
-        let map = MapPower::new(heights, columns, distances, windowed)?;
-        let long = (0..2).find(|axis| windowed && map.steps[1 - axis] >= NARROW * map.steps[*axis]);
+        let map = MapPower::new(heights, columns, distances, windowed, aligned)?;
+        // Columns of levelled rows have lost their long waves.
+        let is_long = |axis: &usize| map.steps[1 - axis] >= NARROW * map.steps[*axis];
+        let long = (0..if aligned { 1 } else { 2 }).find(|axis| windowed && is_long(axis));
         if let Some(axis) = long {
             let mut power = ProfilePower::new(points[axis], distances[axis], windowed);
             power.add(lines(axis))?;
@@ -265,7 +292,7 @@ impl Powers {
 
     /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest profile, or the last of the
     /// finest map; `last` of their waves.
-    fn range(&self, last: fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
+    fn range(&self, last: &dyn Fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let count = last(&power.waves);
             [power.step, (count as f64 + 0.5) * power.step]
@@ -297,15 +324,21 @@ impl Powers {
 }
 
 /// Finds the end of a spectrum of waves (wave number, power): the number of waves after which the rest has a negligible share
-/// of the squared gradient and far smaller powers; all waves if the spectrum has no end.
-fn last_significant(waves: &[(f64, f64)]) -> usize {
+/// of the squared gradient and far smaller powers; all waves if the spectrum has no end. The powers of errors of single
+/// interpolated points are alike in all waves: with such a floor, as the last waves have it, only the excess above counts.
+fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     let sum = |waves: &[(f64, f64)]| waves.iter().map(square).sum::<f64>();
-    let negligible = NEGLIGIBLE * sum(waves);
-    let (mut end, mut rest) = (waves.len(), 0.0);
-    while end > 1 && rest + square(&waves[end - 1]) <= negligible {
+    let squares = |waves: &[(f64, f64)]| waves.iter().map(|(q, _)| q * q).sum::<f64>();
+    let last = &waves[waves.len() - waves.len() / FLOOR..];
+    let floor = if has_floor && !last.is_empty() { sum(last) / squares(last) } else { 0.0 };
+    let negligible = NEGLIGIBLE * sum(waves) + CHANCE * floor * squares(waves);
+    let (mut end, mut excess) = (waves.len(), 0.0);
+    let excess_of = |wave: &(f64, f64)| square(wave) - floor * wave.0 * wave.0;
+    while end > 1 && excess + excess_of(&waves[end - 1]) <= negligible {
         end -= 1;
-        rest += square(&waves[end]);
+        excess += excess_of(&waves[end]);
     }
+    let rest = sum(&waves[end..]);
     let beyond = waves.len() - end;
     let before = beyond.min(end);
     let as_many = sum(&waves[end - before..end]);
@@ -314,7 +347,7 @@ fn last_significant(waves: &[(f64, f64)]) -> usize {
 
 /// The powers of profiles of these points, newly made if there are none yet.
 fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: bool) -> &mut ProfilePower {
-    let same = |power: &ProfilePower| power.points == points && (power.spacing / spacing - 1.0).abs() < 1e-6;
+    let same = |power: &ProfilePower| power.points == points && (power.spacing / spacing - 1.0).abs() < SAME;
     let index = powers.iter().position(same).unwrap_or_else(|| {
         powers.push(ProfilePower::new(points, spacing, windowed));
         powers.len() - 1

@@ -32,7 +32,7 @@ impl<'a> Model<'a> {
     /// Model with nodes from the smallest to the largest observed wave number, including half a wave.
     pub fn new(observations: &'a [Observation], [low, high]: [f64; 2], end: End) -> Self {
         let nodes = Nodes::new(low, high, NODES_PER_DECADE, end);
-        let terms = observations.iter().map(|observation| observation.terms(&nodes, end)).collect();
+        let terms = observations.iter().map(|observation| observation.terms(&nodes)).collect();
         Model { observations, terms, nodes }
     }
 
@@ -138,17 +138,26 @@ impl<'a> Model<'a> {
     }
 
     /// Largest departure of the moments of the measured powers from those of the fitted means over the same waves, among
-    /// profiles or maps of one kind, relative to the moments of the whole spectrum.
+    /// profiles or maps of one kind, relative to the moments of the whole spectrum. Of several kinds, only what is beyond chance.
     fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
         let mut largest = [0.0_f64; 3];
         let mut means = self.means(&found.values);
-        for kind in self.observations.chunk_by(|one, next| one.kind == next.kind) {
-            let mut sums = [0.0; 3];
+        let kinds: Vec<_> = self.observations.chunk_by(|one, next| one.kind == next.kind).collect();
+        for kind in &kinds {
+            let (mut sums, mut variances) = ([0.0; 3], [0.0; 3]);
             for (observed, mean) in kind.iter().zip(&mut means) {
-                let differences = observed.moments(observed.power - mean);
-                sums.iter_mut().zip(differences).for_each(|(sum, difference)| *sum += difference);
+                let (differences, scatter) =
+                    (observed.moments(observed.power - mean), observed.moments(mean));
+                for index in 0..3 {
+                    sums[index] += differences[index];
+                    variances[index] += scatter[index].powi(2) / observed.waves;
+                }
             }
-            largest.iter_mut().zip(sums).for_each(|(largest, sum)| *largest = largest.max(sum.abs()));
+            for ((largest, sum), variance) in largest.iter_mut().zip(sums).zip(variances) {
+                // Scans that share a spectrum depart from it by chance, which is in the statistical error.
+                let chance = if kinds.len() > 1 { 2.0 * f64::sqrt(variance) } else { 0.0 };
+                *largest = largest.max(sum.abs() - chance);
+            }
         }
         let whole = found.integrals();
         [0, 1, 2].map(|index| TAU * largest[index] / whole[index])

@@ -289,9 +289,9 @@ impl IsotropicSpectrum {
         [0, 1, 2].map(|index| there[index] / here[index] - 1.0)
     }
 
-    /// Adds to the errors of the method what the rms height and gradient of the line depart from those of the measured
-    /// points by more than three standard errors, as for a spike under the window.
-    pub(super) fn check_identities(&mut self, measured: &Statistics) {
+    /// Adds to the errors of the method what the rms height and gradient of the line depart from a height, if it is known, and
+    /// the gradient of the measured points by more than three standard errors, as for a spike under the window.
+    pub(super) fn check_identities(&mut self, height: Option<f64>, measured: &Statistics) {
         let resolved = self.line_moments();
         let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
         let departure = |moment: Moment, least: f64, most: f64| {
@@ -299,7 +299,7 @@ impl IsotropicSpectrum {
             // The squares have twice the relative error.
             if beyond > 3.0 * moment.error { 2.0 * beyond / moment.value } else { 0.0 }
         };
-        let height = departure(resolved.rms_height, measured.rms_height, measured.rms_height);
+        let height = height.map_or(0.0, |height| departure(resolved.rms_height, height, height));
         // Differences of neighbours reduce the slope of a wave of two points by π/2.
         let gradient = departure(resolved.rms_gradient, gradient, FRAC_PI_2 * gradient);
         for (error, departure) in self.method.iter_mut().zip([height, height.max(gradient), gradient]) {

@@ -1,6 +1,6 @@
 //! Observed powers with the model of their means: integrals of the isotropic spectrum.
 
-use super::isotropic::{End, Nodes, Term, gauss};
+use super::isotropic::{Nodes, Term, gauss};
 use super::periodogram::{MapPower, ProfilePower};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -126,8 +126,8 @@ impl Observation {
         [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
     }
 
-    /// Terms of the mean power for a spectrum with these nodes.
-    pub fn terms(&self, nodes: &Nodes, end: End) -> Vec<Term> {
+    /// Terms of the mean power for a spectrum with these nodes, and of the aliases of waves that the points do not resolve.
+    pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         let mut terms = Vec::new();
         let shares: &[(f64, f64)] = if self.windowed { &HANN_SHARES } else { &[(0.0, 1.0)] };
         match self.kind {
@@ -135,7 +135,7 @@ impl Observation {
                 for (waves, share) in shares {
                     let q = self.wave_number + waves * step;
                     add_cut(&mut terms, nodes, q.abs(), *share);
-                    if let End::Continues(_) = end {
+                    if nodes.end > 0.5 * sampling {
                         for alias in 1..=MOST_ALIASES {
                             let period = sampling * f64::from(alias);
                             add_cut(&mut terms, nodes, period - q, *share);
@@ -145,7 +145,7 @@ impl Observation {
                 }
             }
             Kind::Plane { steps, sampling } => {
-                if let End::Continues(_) = end {
+                if nodes.end > 0.5 * sampling[0].min(sampling[1]) {
                     add_aliases(&mut terms, nodes, self.wave_number, sampling);
                 }
                 // Waves between rows have their neighbours at the distances along them.
@@ -205,7 +205,7 @@ fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::isotropic::known;
+    use super::super::isotropic::{End, known};
     use super::*;
 
     fn mean(terms: &[Term], values: &[f64]) -> f64 {

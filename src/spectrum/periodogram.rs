@@ -148,12 +148,14 @@ impl AxisPower {
 }
 
 impl MapPower {
-    /// Power of the heights (m) in rows of `columns` points.
+    /// Power of the heights (m) in rows of `columns` points. If the rows are levelled one by one (`aligned`), the waves between
+    /// rows alone are left out.
     pub fn new(
         heights: &[f64],
         columns: usize,
         [along, between]: [f64; 2],
         windowed: bool,
+        aligned: bool,
     ) -> Result<Self, SpectrumError> {
         let rows = heights.len() / columns;
         let half = columns / 2 + 1;
@@ -174,7 +176,8 @@ impl MapPower {
         waves.try_reserve_exact(half * rows).map_err(out_of_memory)?;
         let mut axes = [0, 1].map(|_| AxisPower::default());
         let reach = if windowed { 1.0 } else { 0.0 };
-        for x in 0..half {
+        let levelled = if aligned { reach as usize + 1 } else { 0 };
+        for x in levelled..half {
             for (y, value) in column.iter_mut().enumerate() {
                 *value = coefficients[y * half + x] * row_window[y];
             }
@@ -306,7 +309,7 @@ mod tests {
                 kx * (i % columns) as f64 / columns as f64 + ky * (i / columns) as f64 / rows as f64
             };
             let heights: Vec<f64> = (0..columns * rows).map(|i| 2.0 * (TAU * phase(i) + 0.4).sin()).collect();
-            let map = MapPower::new(&heights, columns, [0.5, 0.25], false).unwrap();
+            let map = MapPower::new(&heights, columns, [0.5, 0.25], false, false).unwrap();
             let largest = map.waves.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
             let q = (kx * map.steps[0]).hypot(ky * map.steps[1]);
             assert!((largest.0 - q).abs() < 1e-12, "{largest:?}");

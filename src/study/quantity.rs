@@ -197,6 +197,16 @@ impl Quantity {
     /// The regimes by the two protocols.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
+    /// The protocol of the regime that is mapped with a quantity, in words.
+    pub(crate) fn protocol(self) -> &'static str {
+        if self == Quantity::RegimeAfterZeroForce { "after zero net force" } else { "from first touch" }
+    }
+
+    /// The same in a title or a legend.
+    pub(crate) fn short_protocol(self) -> &'static str {
+        if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "touch" }
+    }
+
     /// Returns true for a regime, which is not a number.
     pub fn is_regime(self) -> bool {
         Quantity::REGIMES.contains(&self)

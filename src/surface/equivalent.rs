@@ -2,7 +2,7 @@
 
 use super::{Amplitude, MeasuredOptions, MeasuredProfile, SurfaceError};
 use crate::spectrum::{Analysis, IsotropicSpectrum, LineMoments, analyse, line_moments};
-use crate::topography::{content, parse};
+use crate::topography::{content, parse_all};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -27,13 +27,16 @@ pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
 impl MeasuredOptions {
     /// Analyses the files of a face.
     pub(crate) fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
-        let parse = |(path, content): &(PathBuf, Vec<u8>)| {
-            parse(content, &self.reading).map_err(|error| SurfaceError::measured(path, &error))
-        };
-        let surfaces = face.iter().map(parse).collect::<Result<Vec<_>, SurfaceError>>()?;
+        let (mut surfaces, mut files) = (Vec::new(), Vec::new());
+        for (path, content) in face {
+            let read =
+                parse_all(content, &self.reading).map_err(|error| SurfaceError::measured(path, &error))?;
+            files.resize(files.len() + read.len(), path);
+            surfaces.extend(read);
+        }
         analyse(&surfaces, &self.spectrum).map_err(|error| {
-            let file = face.get(error.surface().unwrap_or(0));
-            SurfaceError::measured(file.map_or(Path::new(""), |(path, _)| path), &error)
+            let file = files.get(error.surface().unwrap_or(0));
+            SurfaceError::measured(file.map_or(Path::new(""), |path| path), &error)
         })
     }
 }

@@ -10,7 +10,7 @@ use realfft::RealFftPlanner;
 const TRANSFORM_BYTES: u64 = 96;
 
 /// Options of a scene for its measured surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
     /// Part removed from the profile if it is the line itself; `None` for an equivalent line.
     pub as_line: Option<Detrend>,

@@ -42,6 +42,18 @@ pub enum TopographyError {
     OutOfMemory(usize),
 }
 
+impl TopographyError {
+    /// The error with the name of the measurement that has it.
+    pub(super) fn within(self, name: &str) -> Self {
+        match self {
+            TopographyError::Refused(reason) => {
+                TopographyError::Refused(format!("{}: {reason}", shown(name)))
+            }
+            other => other,
+        }
+    }
+}
+
 impl From<ReadError> for TopographyError {
     fn from(error: ReadError) -> Self {
         TopographyError::Refused(error.to_string())

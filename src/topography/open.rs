@@ -1,9 +1,10 @@
 //! The format of a file, determined by its first bytes, and its reader.
 
+use super::archive::{self, Archive};
 use super::bytes::{MOST_EXPANSION, most_expanded};
 use super::error::{Place, TopographyError, refused};
 use super::reading::{ReadOptions, Reading};
-use super::{Topography, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
+use super::{Topography, container, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
@@ -18,8 +19,8 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// A reader of a whole binary file.
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
-/// First bytes of the binary formats. All others are text.
-const SIGNATURES: [(&[u8], BinaryReader); 10] = [
+/// First bytes of the binary formats. All others but archives are text.
+const SIGNATURES: [(&[u8], BinaryReader); 9] = [
     (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
     (gsf::SIGNATURE, |bytes, _| gsf::read(bytes)),
     (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
@@ -29,15 +30,14 @@ const SIGNATURES: [(&[u8], BinaryReader); 10] = [
     (b"aISO-1.0", |bytes, _| sdf::read_text(bytes)),
     (b"aBCR-1.0", |bytes, _| sdf::read_text(bytes)),
     (b"bISO-1.0", |bytes, _| sdf::read_binary(bytes)),
-    (b"PK\x03\x04", |bytes, _| x3p::read(bytes)),
 ];
 
-/// Reads a surface from a regular file of at most 1 GiB.
+/// Reads a surface, or all measurements of a surface in a container, from a regular file of at most 1 GiB.
 ///
 /// # Errors
 /// [`TopographyError`] if the file cannot be read or is no surface.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<Topography, TopographyError> {
-    parse(&content(path)?, options)
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
+    parse_all(&content(path)?, options)
 }
 
 /// Reads the bytes of a regular file of at most 1 GiB, for [`parse`].
@@ -48,14 +48,74 @@ pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
 
-/// Reads a surface from the content of a file.
+/// Reads the only surface from the content of a file.
+///
+/// # Errors
+/// As [`read`], and for several measurements.
+pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
+    let mut surfaces = parse_all(bytes, options)?;
+    match (surfaces.pop(), surfaces.len()) {
+        (Some(surface), 0) => Ok(surface),
+        (_, others) => {
+            let fault = format!("{} measurements of a surface", others + 1);
+            let allowed = "one: --surface-name with its name, in a scene roughness.surface_name";
+            Err(refused(Place::File, fault, allowed))
+        }
+    }
+}
+
+/// Reads a surface, or all measurements of a surface in a container, from the content of a file.
 ///
 /// # Errors
 /// As [`read`].
-pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
+pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
+    let is_archive = bytes.starts_with(archive::SIGNATURE);
+    if let (Some(_), false) = (&options.surface_name, is_archive) {
+        let allowed = "a container of surfaces, or no --surface-name, in a scene roughness.surface_name";
+        return Err(refused(Place::File, "a file of one surface, without a name", allowed));
+    }
+    if !is_archive {
+        return Ok(vec![resolved(reading(bytes, options)?, options)?]);
+    }
+    let mut archive = Archive::new(bytes)?;
+    let [in_json, in_yaml] = container::INDICES;
+    let index = archive.first_of(&[x3p::INDEX, in_json, in_yaml]).ok_or_else(|| {
+        let allowed = format!("{} of X3P, or {in_json} or {in_yaml} of a container", x3p::INDEX);
+        refused(Place::File, "an archive without an index", allowed)
+    })?;
+    if index == x3p::INDEX {
+        return Ok(vec![resolved(x3p::read(archive)?, options)?]);
+    }
+    let content = archive.unpacked(index, container::LONGEST_INDEX)?;
+    let measurements = container::measurements(index, &content, options.surface_name.as_deref())?;
+    let read = |measurement: container::Measurement| {
+        let options = measurement.options(options)?;
+        let content = archive.unpacked(measurement.file()?, MOST_BYTES)?;
+        let within = |error: TopographyError| error.within(&measurement.name);
+        let reading = measurement.completed(reading(&content, &options).map_err(within)?);
+        let surface = resolved(reading, &options).map_err(within)?;
+        Ok(Topography {
+            detrend: measurement.detrend(),
+            periodic: measurement.is_periodic,
+            name: measurement.name,
+            ..surface
+        })
+    };
+    measurements.into_iter().map(read).collect()
+}
+
+/// Reads the numbers of a file of one surface.
+fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
     let content = unpacked(bytes)?;
+    if content.starts_with(archive::SIGNATURE) {
+        return x3p::read(Archive::new(&content)?);
+    }
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
-    let reading = reader.map_or_else(|| text::read(&content), |(_, read)| read(&content, options))?;
+    reader.map_or_else(|| text::read(&content), |(_, read)| read(&content, options))
+}
+
+/// The surface of numbers, or its row or column.
+fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, TopographyError> {
     let mut surface = reading.resolve(options)?;
     if let Some(cut) = options.cut {
         surface = surface.cut(cut)?;

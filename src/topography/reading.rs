@@ -2,13 +2,13 @@
 
 use super::error::{Place, TopographyError, refused};
 use super::surface::{Cut, Grid, LARGEST, Topography};
-use super::{Unit, missing};
+use super::{Unit, missing, outliers};
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;
 
 /// Values of the user that a file may omit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
@@ -26,6 +26,12 @@ pub struct ReadOptions {
     pub cut: Option<Cut>,
     /// True if uneven profiles are resampled at their mean distance.
     pub resample: bool,
+    /// True if the median of each row of a map is subtracted, since its rows are offset against each other.
+    pub align_rows: bool,
+    /// True if outliers are replaced by heights from their neighbours.
+    pub robust: bool,
+    /// Name of the surface of a container with several, or of a measurement.
+    pub surface_name: Option<String>,
 }
 
 /// Numbers of a file before conversion, in its units.
@@ -120,8 +126,18 @@ impl Reading {
             }
             None => Grid::Even([even(0)?, even(1)?]),
         };
-        let interpolated = if missing { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
-        Topography { format, heights, columns, grid, interpolated }.checked()
+        let rows = heights.len() / columns;
+        if options.align_rows && rows < 2 {
+            return Err(refused(Place::File, "a profile, which has no rows to align", "a map"));
+        }
+        if options.align_rows {
+            outliers::level_rows(&mut heights, columns)?;
+        }
+        let outliers = if options.robust { outliers::remove(&mut heights, columns)? } else { 0 };
+        let has_gaps = missing || outliers > 0;
+        let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
+        let surface = Topography::new(format, heights, columns, grid, interpolated)?;
+        Ok(Topography { aligned: options.align_rows, ..surface })
     }
 
     /// Converts heights to m. Returns true if some are missing.

@@ -1,7 +1,7 @@
 //! Measured heights in m with their positions.
 
 use super::error::{Place, TopographyError, gathered, refused};
-use super::missing;
+use super::{Detrend, missing};
 
 /// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
 /// could overflow.
@@ -46,11 +46,30 @@ pub struct Topography {
     pub(super) grid: Grid,
     /// Indices of the points with interpolated heights.
     pub(super) interpolated: Vec<usize>,
+    /// True if the rows were levelled one by one.
+    pub(crate) aligned: bool,
+    /// Name of the measurement in a container; empty for a file of its own.
+    pub(super) name: String,
+    /// Part that is no roughness, and true for a surface that repeats itself at its borders, as a container states.
+    pub(crate) detrend: Option<Detrend>,
+    pub(crate) periodic: bool,
 }
 
 impl Topography {
-    /// Checks that no slope is above 1e9.
-    pub(super) fn checked(self) -> Result<Self, TopographyError> {
+    /// A surface of a file of its own, without slopes above 1e9.
+    pub(super) fn new(
+        format: &'static str,
+        heights: Vec<f64>,
+        columns: usize,
+        grid: Grid,
+        interpolated: Vec<usize>,
+    ) -> Result<Self, TopographyError> {
+        let (name, aligned, detrend, periodic) = (String::new(), false, None, false);
+        Topography { format, heights, columns, grid, interpolated, aligned, name, detrend, periodic }
+            .checked()
+    }
+
+    fn checked(self) -> Result<Self, TopographyError> {
         let slope = |index: usize| {
             let distance = match &self.grid {
                 Grid::Positions(positions) => positions[index] - positions[index - 1],
@@ -80,7 +99,12 @@ impl Topography {
         self.interpolated.first().copied()
     }
 
-    /// Number of points with interpolated heights.
+    /// Name of the measurement in a container; empty for a file of its own.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Number of points with interpolated heights, outliers among them.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
@@ -155,6 +179,7 @@ impl Topography {
             heights: gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?,
             columns: points,
             grid: Grid::Even([spacing; 2]),
+            aligned: false,
             interpolated: self.interpolated.iter().filter_map(place).collect(),
             ..self
         })
@@ -229,7 +254,7 @@ mod tests {
     use super::*;
 
     fn surface(heights: &[f64], columns: usize, grid: Grid) -> Result<Topography, TopographyError> {
-        Topography { format: "", heights: heights.to_vec(), columns, grid, interpolated: vec![] }.checked()
+        Topography::new("", heights.to_vec(), columns, grid, Vec::new())
     }
 
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {

@@ -112,7 +112,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
             "Paraboloid(radius: 1.0)",
             "Measured(file: \"x\", further_files: [\"z\"], opposite: \"y\", row: 1, as_line: false, detrend: Tilt, \
              periodic: true, unit: \"mm\", height_unit: \"nm\", spacing: 1.0e-6, interpolate: true, resample: true, \
-             channel: 1, continue_to: 1.0e-9, seed: 2)",
+             align_rows: true, robust: true, surface_name: \"y\", channel: 1, continue_to: 1.0e-9, seed: 2)",
             "Stepwise(step: 1.0)",
         ),
         ("Cone(angle: 0.1)", "SelfAffine(hurst: 0.5, modes: (1, 2), seed: 1, rms_height: 1.0e-9)", "Exact"),

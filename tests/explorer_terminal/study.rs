@@ -13,9 +13,12 @@ fn a_folder_opens_as_the_map_of_its_study() {
     let home = folder.path().to_str().unwrap();
     let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
     let mut terminal = paused(program);
-    for message in
-        ["Small study", "Study small: regime over H, κ, 12 profiles", "F_n/(E* h L) = 0.01", "◆ H 0.5, κ 1"]
-    {
+    for message in [
+        "Small study",
+        "Study small: regime (touch) over H, κ, 12 profiles",
+        "F_n/(E* h L) = 0.01",
+        "◆ H 0.5, κ 1",
+    ] {
         terminal.wait_for(message);
     }
     // Browsing is no change that anyone has to save.

@@ -6,8 +6,8 @@ mod generate;
 use super::documentation::markdown;
 use super::generated::check;
 use asperity::spectrum::{Analysis, End, Moment, Options, PowerLaw, analyse};
-use asperity::topography::Topography;
-use generate::{Normal, Profiles, Spectrum, cut, map, topography};
+use asperity::topography::{ReadOptions, Topography};
+use generate::{Normal, Profiles, Spectrum, cut, map, read, topography};
 use std::f64::consts::TAU;
 
 /// Waves of the finest resolved wavelength on the length of a surface, and points.
@@ -303,4 +303,85 @@ fn a_departure_from_the_measured_height_is_part_of_the_error() {
     let (found, measured) = (analysis.line.rms_height, analysis.statistics.rms_height);
     assert!(found.value > 1.5 * measured && found.statistical < 0.1 * found.value, "{found:?} {measured}");
     assert!((found.value - measured).abs() < 1.96 * found.error, "{found:?} {measured}");
+}
+
+/// Maps with the faults of instruments: single points with errors of up to ten times the rms height, rows that are offset by
+/// its half, and spectra that end inside the scan.
+#[test]
+#[ignore = "takes ten seconds or more; .ci/run runs it"]
+fn faulty_maps_have_the_moments_of_their_surface() {
+    const MAP: usize = 256;
+    const MAPS: u64 = 15;
+    let (mut rows, mut covered) = (Vec::new(), [0; 3]);
+    for (number, (name, spikes, offsets, last)) in [
+        ("1 % spikes", 0.01, 0.0, 128.0),
+        ("row offsets", 0.0, 0.5, 128.0),
+        ("1 % spikes, end inside", 0.01, 0.0, 50.0),
+        ("all three", 0.01, 0.5, 50.0),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let options =
+            ReadOptions { robust: spikes > 0.0, align_rows: offsets > 0.0, ..ReadOptions::default() };
+        // Moments of a mended and, of some, of a faulty map, over those of the surface, and the errors of the former.
+        let measure = |seed: u64| {
+            let spectrum = Spectrum { hurst: [0.3, 0.5, 0.8][seed as usize % 3], roll_off: 16.0, last };
+            let seed = MAPS * number as u64 + seed;
+            let (exact, mut normal) = (spectrum.line(), Normal::new(seed + 1000));
+            let offset: Vec<f64> = (0..MAP).map(|_| offsets * normal.normal()).collect();
+            let whole = map(&spectrum, MAP, seed);
+            let faulty = whole.heights().iter().enumerate().map(|(index, z)| {
+                let spike = if normal.uniform() < spikes { 20.0 * (normal.uniform() - 0.5) } else { 0.0 };
+                z + (spike + offset[index / MAP]) * exact[0]
+            });
+            let heights: Vec<f64> = faulty.collect();
+            let mended = moments(&estimated(&[read(&heights, MAP, 1.0, &options)]));
+            let plain = (seed % 5 == 0).then(|| moments(&estimated(&[topography(&heights, MAP)])));
+            [0, 1, 2].map(|index| {
+                let ratio = |moments: [Moment; 3]| moments[index].value / exact[index] - 1.0;
+                (ratio(mended), mended[index].error / exact[index], plain.map_or(0.0, ratio).abs())
+            })
+        };
+        let measure = &measure;
+        let maps: Vec<_> = std::thread::scope(|threads| {
+            let started: Vec<_> = (0..MAPS).map(|seed| threads.spawn(move || measure(seed))).collect();
+            started.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        let cells = [0, 1, 2].map(|index| {
+            let mean =
+                |of: &dyn Fn(f64) -> f64| maps.iter().map(|map| of(map[index].0)).sum::<f64>() / MAPS as f64;
+            let largest = maps.iter().map(|map| map[index].2).fold(0.0, f64::max);
+            covered[index] += maps.iter().filter(|map| map[index].0.abs() < 1.96 * map[index].1).count();
+            let bias = mean(&|ratio| ratio);
+            let (spread, rms) =
+                (mean(&|ratio| (ratio - bias).powi(2)).sqrt(), mean(&|ratio| ratio * ratio).sqrt());
+            assert!(rms < [0.05, 0.05, 0.08][index], "{name}: {maps:?}");
+            format!("{:+.1} ± {:.1} ({:.0})", 100.0 * bias, 100.0 * spread, 100.0 * largest)
+        });
+        rows.push([&[name.to_owned()], &cells[..]].concat());
+    }
+    assert!(covered.iter().all(|count| *count >= 54), "{covered:?}");
+    let stated = covered.map(|count| format!("{count} of 60"));
+    rows.push([&["within 1.96 errors".to_owned()], &stated[..]].concat());
+    let rows = rows.into_iter().map(|row| <[String; 4]>::try_from(row).unwrap());
+    check("docs/surfaces.md", "faults", &markdown(["fault", "h, %", "⟨∇z⟩, %", "e_el, %"], rows));
+}
+
+#[test]
+fn scans_of_several_sizes_have_one_spectrum() {
+    // The coarse scans alias the waves that only the fine ones resolve, and these lack the long waves.
+    let spectrum = Spectrum { hurst: 0.7, roll_off: 8.0, last: 2048.0 };
+    let scans = |length: f64| {
+        let profiles = Profiles::on(length, &spectrum, POINTS);
+        (0..24).map(|seed| profiles.profile(seed + (1e6 * length) as u64)).collect::<Vec<_>>()
+    };
+    let [coarse, fine] = [1.0, 1.0 / 8.0].map(scans);
+    let both = estimated(&[&coarse[..], &fine].concat());
+    assert_right("both", &spectrum, &both, 0.12);
+    assert!((both.isotropic.range()[1] / TAU / spectrum.last - 1.0).abs() < 0.01);
+    // A scan alone misses the short waves or the long ones.
+    let [coarse, fine] = [coarse, fine].map(|scans| moments(&estimated(&scans)));
+    let [of_both, exact] = [moments(&both)[0].error, spectrum.line()[1]];
+    assert!(coarse[1].value < 0.9 * exact && fine[0].error > 3.0 * of_both, "{coarse:?} {fine:?}");
 }

@@ -1,7 +1,7 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
 use super::{Exported, PaneRow};
-use crate::accuracy::{CostTable, Estimate, Evidence, Knob, Progress, measure};
+use crate::accuracy::{CostTable, Estimate, Knob, Progress, measure};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
@@ -14,7 +14,7 @@ use crate::explorer::view::stages;
 use crate::explorer::view::text::{filled, wrapped};
 use crate::export::{CostReport, work_precision};
 use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
-use crate::text::grouped;
+use crate::text::{grouped, per_cent};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::path::Path;
@@ -29,7 +29,8 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Accuracy",
         "A: relative error against the time of a run, with springs and edges between them or at them, and with steps of \
-         the stepwise solver; ◆ is the scene. Below it the cost of 1 % and 0.1 %, and the computing stages",
+         the stepwise solver; ◆ is the scene. Below it error and time of the scene, the time of a tenth of this error, \
+         the cost of 1 % and 0.1 %, and the computing stages",
     )],
     ..PaneRow::EMPTY
 };
@@ -170,7 +171,7 @@ fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>>
     let mut lines = Vec::new();
     let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
     if app.is_current() {
-        say(now(app, table));
+        now(app, table).into_iter().for_each(&mut say);
     }
     if let Some(table) = table {
         for bound in TARGETS {
@@ -210,39 +211,55 @@ fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>>
     lines
 }
 
-fn now(app: &App, table: Option<&CostTable>) -> Line<'static> {
-    let theme = app.view.appearance.theme;
+/// Error and time of the scene and the time of a tenth of the error; below, the settings of both.
+fn now(app: &App, table: Option<&CostTable>) -> [Line<'static>; 2] {
     let numerics = app.edit.document.scene().numerics;
-    let springs = grouped(numerics.points);
     let setting = match setting_of(&numerics) {
-        (Knob::Step, step) => format!("{springs} springs, step {}", format_quantity(step, "m")),
-        (Knob::GridSprings, _) => format!("{springs} whole springs"),
-        _ => format!("{springs} springs, edges between springs"),
-    };
-    let error = match app.studies.value() {
-        None if app.studies.failure::<Estimate>().is_some() => ", error unknown".to_owned(),
-        None if app.view.shows_times => ", error …".to_owned(),
-        None => String::new(),
-        Some(Estimate { near_step: true, .. }) => ", near a step of F_a(F_n)".to_owned(),
-        Some(Estimate { error, evidence, .. }) => {
-            let from = match evidence {
-                Evidence::ClosedForm => " by the closed form".to_owned(),
-                Evidence::Solutions(springs) => {
-                    let springs: Vec<_> = springs.iter().map(|&springs| grouped(springs)).collect();
-                    format!(" by {} springs", springs.join(", "))
-                }
-            };
-            format!(", error {error:.1e}{from}")
+        (Knob::Step, step) => {
+            format!("{} springs, step {}", grouped(numerics.points), format_quantity(step, "m"))
         }
+        (knob, _) => springs_of(knob, numerics.points),
     };
-    let absent = table.is_some_and(|table| {
-        app.studies.is_done::<Costs>() && !table.rows.is_empty() && present(&numerics, table).is_none()
+    let estimate = app.studies.value::<Estimate>();
+    let error = match estimate {
+        None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
+        None if app.view.shows_times => "error …".to_owned(),
+        None => String::new(),
+        Some(Estimate { near_step: true, .. }) => "near a step of F_a(F_n)".to_owned(),
+        Some(estimate) => format!("error {}", per_cent(estimate.error)),
+    };
+    let time = table.and_then(|table| Some(format!(" in {}", time_of(present(&numerics, table)?.0))));
+    let bound = estimate.filter(|estimate| !estimate.near_step).map(|estimate| estimate.error / 10.0);
+    let better = table.zip(bound).and_then(|(table, bound)| {
+        let knobs = [Knob::SubCellSprings, Knob::GridSprings].into_iter();
+        let rows = knobs.filter_map(|knob| table.first_row_within(knob, bound));
+        let timed = rows.filter_map(|row| Some((row.seconds?.minimum, row)));
+        let fastest = timed.min_by(|one, other| one.0.total_cmp(&other.0));
+        let found = fastest.map(|(seconds, row)| {
+            let springs = springs_of(row.knob, row.springs);
+            (format!("; a tenth in {}", time_of(seconds)), format!("; for a tenth {springs}"))
+        });
+        found.or_else(|| {
+            app.studies.is_done::<Costs>().then(|| ("; a tenth not found".to_owned(), String::new()))
+        })
     });
-    let absent = if absent { "; not among those tried" } else { "" };
-    Line::from(vec![
-        Text::styled("◆ ", theme.style(Meaning::Cursor)),
-        Text::raw(format!("{setting}{error}{absent}")),
-    ])
+    let (better, springs) = better.unwrap_or_default();
+    let sign = Text::styled("◆ ", app.view.appearance.theme.style(Meaning::Cursor));
+    let error = Text::raw(format!("{error}{}{better}", time.unwrap_or_default()));
+    [Line::from(vec![sign, error]), Line::raw(format!("{setting}{springs}"))]
+}
+
+fn time_of(seconds: f64) -> String {
+    format_rounded(seconds, 2, "s")
+}
+
+fn springs_of(knob: Knob, springs: u64) -> String {
+    let springs = grouped(springs);
+    if knob == Knob::GridSprings {
+        format!("{springs} whole springs")
+    } else {
+        format!("{springs} springs, edges between")
+    }
 }
 
 /// Requirements of a bound; `None` while they are unknown.
@@ -252,9 +269,8 @@ fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
         let finest = table.rows_of(knob).next_back();
         match table.first_row_within(knob, bound) {
             Some(row) => {
-                let time = row
-                    .seconds
-                    .map_or_else(String::new, |time| format!(", {}", format_rounded(time.minimum, 2, "s")));
+                let time =
+                    row.seconds.map_or_else(String::new, |time| format!(", {}", time_of(time.minimum)));
                 Some(format!("{edges}: {}{time}", grouped(row.springs)))
             }
             None if finished => {

@@ -165,8 +165,8 @@ fn nothing_yet(app: &App) -> String {
 
 /// The name of a quantity: its symbol, where unique on the map.
 fn name_of(grid: &Grid, quantity: Quantity) -> String {
-    if quantity == Quantity::RegimeAfterZeroForce {
-        return format!("regime {}", protocol(quantity));
+    if quantity.is_regime() {
+        return format!("regime ({})", quantity.short_protocol());
     }
     let symbol = quantity.symbol();
     let is_only = grid.layers.iter().filter(|layer| layer.quantity.symbol() == symbol).count() == 1;
@@ -264,10 +264,6 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
     lines
 }
 
-fn protocol(regime: Quantity) -> &'static str {
-    if regime == Quantity::RegimeAfterZeroForce { "after zero net force" } else { "from first touch" }
-}
-
 /// Quantities that decide a regime.
 fn deciding(regime: Quantity) -> [Quantity; 2] {
     let after_zero_force = usize::from(regime == Quantity::RegimeAfterZeroForce);
@@ -305,10 +301,10 @@ fn cell_values(
     let mapped = regime.unwrap_or(mapped);
     let regimes = cell.regimes_of(mapped);
     let regime = regimes.most().map(|(regime, count)| match regimes.profiles() as u64 {
-        1 => format!("{} {}", regime.name(), protocol(mapped)),
+        1 => format!("{} {}", regime.name(), mapped.protocol()),
         lines => {
             let count = grouped(count as u64);
-            format!("{} {} ({count} of {} profiles)", regime.name(), protocol(mapped), grouped(lines))
+            format!("{} {} ({count} of {} profiles)", regime.name(), mapped.protocol(), grouped(lines))
         }
     });
     let shown = shown_quantities(mapped, grid);

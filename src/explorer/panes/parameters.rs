@@ -176,9 +176,11 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
         values.push(("F_a,max", format_quantity(force, "N")));
     }
     if let Some(regime) = outcome.regime {
-        let other = outcome.regime_after_zero_force.filter(|other| *other != regime);
-        values.push((if other.is_some() { "touch" } else { "regime" }, regime.name().to_owned()));
-        values.extend(other.map(|other| ("after F=0", other.name().to_owned())));
+        let other = outcome.regime_after_zero_force;
+        let label = if other == Some(regime) { "regime (touch, F=0)" } else { "regime (touch)" };
+        values.push((label, regime.name().to_owned()));
+        let other = other.filter(|other| *other != regime);
+        values.extend(other.map(|other| ("regime (F=0)", other.name().to_owned())));
     }
     values
 }

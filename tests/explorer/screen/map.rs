@@ -72,7 +72,7 @@ fn e_maps_over_the_elastic_energy() {
     fill(&mut driver, &Level::ALL);
     for size in [(120, 40), (80, 24)] {
         driver.resize(size);
-        assert!(driver.text().contains("over H, e_el/γ, 4 profiles"), "{}", driver.text());
+        assert!(driver.text().contains("over H, e_el/γ, 4"), "{}", driver.text());
         assert!(driver.text().contains("◆ H 0.7, e_el/γ "), "{}", driver.text());
     }
     let ratio = driver.app.governing().unwrap().elastic_energy_ratio.unwrap();
@@ -87,7 +87,7 @@ fn e_maps_over_the_elastic_energy() {
     assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
     driver.press("e");
     fill(&mut driver, &Level::ALL);
-    assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+    assert!(driver.text().contains("over H, κ, 4 prof"), "{}", driver.text());
     assert!((place(&driver).0 / kappa - 1.0).abs() < 1e-12);
 }
 
@@ -172,14 +172,12 @@ fn a_scene_without_a_map_says_why() {
 #[test]
 fn the_regime_has_two_protocols() {
     let mut driver = mapped(rough());
-    assert!(driver.text().contains("Map of regime over H, κ"), "{}", driver.text());
+    assert!(driver.text().contains("Map of regime (touch) over H, κ"), "{}", driver.text());
     driver.press("V V V V");
     let text = driver.text();
-    for said in [
-        "Map of regime after zero net force",
-        "map: pressure-insensitive after zero net force (3 of 4",
-        "F_a(F=0)/F_a,max",
-    ] {
+    for said in
+        ["Map of regime (F=0)", "map: pressure-insensitive after zero net force (3 of 4", "F_a(F=0)/F_a,max"]
+    {
         assert!(text.contains(said), "{said}\n{text}");
     }
 }

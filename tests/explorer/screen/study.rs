@@ -225,7 +225,11 @@ fn a_study_is_opened_by_its_path() {
     driver.press("o");
     driver.act(Action::Paste(path("small")));
     driver.press("Enter");
-    assert!(driver.text().contains("Study small: regime over H, κ, 12 profiles"), "{}", driver.text());
+    assert!(
+        driver.text().contains("Study small: regime (touch) over H, κ, 12 profiles"),
+        "{}",
+        driver.text()
+    );
     assert!(is_up_to_date(&driver.app) && !driver.app.edit.is_unsaved());
     let Some(Roughness::SelfAffine { modes, .. }) = driver.app.edit.document.scene().roughness else {
         panic!()

@@ -3,6 +3,7 @@
 use crate::program::{Finished, asperity_in, rows, table};
 use asperity::scene::format_quantity;
 use serde_json::{Value, json};
+use std::io::Write;
 use std::path::Path;
 
 /// A folder with measured files.
@@ -10,7 +11,8 @@ struct Place(tempfile::TempDir);
 
 impl Place {
     /// With the profile `line.txt`, `plain.txt` without units, `column.txt` without distances and units, `holes.txt` with
-    /// missing points, `uneven.txt` with points at uneven distances, a map `map.txt`, and its seventh row and third column.
+    /// missing points, `uneven.txt` with points at uneven distances, a map `map.txt`, its seventh row and third column, and a
+    /// container of two surfaces.
     fn new() -> Self {
         let place = Place(tempfile::tempdir().unwrap());
         let all = heights(512);
@@ -31,9 +33,20 @@ impl Place {
         let row =
             |row: usize| (0..40).map(|column| format!("{:?} ", at(row, column))).collect::<String>() + "\n";
         let map: String = (0..40).map(row).collect();
-        place.write("map.txt", &format!("# Width: 40 µm\n# Height: 40 µm\n# Value units: nm\n{map}"));
+        let map = format!("# Width: 40 µm\n# Height: 40 µm\n# Value units: nm\n{map}");
+        place.write("map.txt", &map);
         let cut =
             |of: &dyn Fn(usize) -> f64| (0..40).map(|i| format!("{i} {:?}\n", of(i))).collect::<String>();
+        let index = "surfaces:\n- {name: ball, topographies: [{datafile: {original: none.txt}}]}\n\
+                     - {name: plate, topographies: [{name: a, datafile: {original: plain.txt}, unit: um}, \
+                     {name: b, datafile: {original: map.txt}, is_periodic: true}]}\n";
+        let mut container =
+            zip::ZipWriter::new(std::fs::File::create(place.path().join("container.zip")).unwrap());
+        for (name, text) in [("meta.yml", index), ("plain.txt", &plain), ("map.txt", &map)] {
+            container.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+            container.write_all(text.as_bytes()).unwrap();
+        }
+        container.finish().unwrap();
         place.write("row.txt", &format!("{units}{}", cut(&|i| at(6, i))));
         place.write("column-3.txt", &format!("{units}{}", cut(&|i| at(i, 2))));
         place
@@ -150,6 +163,8 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
         "uneven.txt --unit um --height-unit nm --resample --continue-to 0.5um",
         "map.txt --row 7",
         "map.txt map.txt --column 3 --opposite map.txt",
+        "map.txt --align-rows --robust",
+        "container.zip --surface-name plate",
     ]
     .into_iter()
     .enumerate()

@@ -55,6 +55,11 @@ impl Normal {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// Number of mean 0 and variance 1.
+    pub fn normal(&mut self) -> f64 {
+        2.0_f64.sqrt() * self.complex().re
+    }
+
     /// Complex number with independent parts of variance ½.
     fn complex(&mut self) -> Complex64 {
         loop {
@@ -89,10 +94,11 @@ pub fn map(spectrum: &Spectrum, points: usize, seed: u64) -> Topography {
     topography(&heights.collect::<Vec<_>>(), points)
 }
 
-/// Profiles on a length of 1: parts of cuts twice as long, so that they do not repeat.
+/// Profiles on a length: parts of cuts twice as long, so that they do not repeat.
 pub struct Profiles {
     amplitudes: Vec<f64>,
     points: usize,
+    length: f64,
     stride: usize,
     transform: Arc<dyn ComplexToReal<f64>>,
 }
@@ -101,10 +107,22 @@ impl Profiles {
     /// Profiles of this number of points. Waves beyond their Nyquist wave number are sampled at points, as by an
     /// instrument.
     pub fn new(spectrum: &Spectrum, points: usize) -> Self {
-        let stride = (2.0 * spectrum.last / points as f64).ceil().max(1.0) as usize;
+        Self::on(1.0, spectrum, points)
+    }
+
+    /// The same on a length, m.
+    pub fn on(length: f64, spectrum: &Spectrum, points: usize) -> Self {
+        let stride = (2.0 * spectrum.last * length / points as f64).ceil().max(1.0) as usize;
         let all = 2 * points * stride;
-        let amplitudes = (0..=all / 2).map(|wave| (0.5 * cut(spectrum, 0.5 * wave as f64)).sqrt()).collect();
-        Profiles { amplitudes, points, stride, transform: RealFftPlanner::new().plan_fft_inverse(all) }
+        let power = |wave: usize| cut(spectrum, 0.5 * wave as f64 / length) / length;
+        let amplitudes = (0..=all / 2).map(|wave| (0.5 * power(wave)).sqrt()).collect();
+        Profiles {
+            amplitudes,
+            points,
+            length,
+            stride,
+            transform: RealFftPlanner::new().plan_fft_inverse(all),
+        }
     }
 
     /// The profile of a seed.
@@ -117,7 +135,7 @@ impl Profiles {
         let mut heights = self.transform.make_output_vec();
         self.transform.process(&mut waves, &mut heights).unwrap();
         let sampled: Vec<f64> = heights.iter().step_by(self.stride).take(self.points).copied().collect();
-        topography(&sampled, 0)
+        read(&sampled, 0, self.length, &ReadOptions::default())
     }
 }
 
@@ -134,18 +152,23 @@ pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
 /// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m. Those that are not a number are
 /// interpolated.
 pub fn topography(heights: &[f64], columns: usize) -> Topography {
+    read(heights, columns, 1.0, &ReadOptions::default())
+}
+
+/// The same on a length, m, with further options.
+pub fn read(heights: &[f64], columns: usize, length: f64, options: &ReadOptions) -> Topography {
     let points = if columns == 0 { heights.len() } else { columns };
     let rows = heights.len().checked_div(columns);
     let shape = rows.map_or(format!("({points},)"), |rows| format!("({rows}, {columns})"));
     let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
-    let length = (header.len() as u16).to_le_bytes();
-    let mut bytes = [b"\x93NUMPY\x01\x00", &length[..], header.as_bytes()].concat();
+    let size = (header.len() as u16).to_le_bytes();
+    let mut bytes = [b"\x93NUMPY\x01\x00", &size[..], header.as_bytes()].concat();
     bytes.extend(heights.iter().flat_map(|z| z.to_le_bytes()));
     let options = ReadOptions {
         unit: Some(Unit::METRE),
-        spacing: Some(1.0 / points as f64),
+        spacing: Some(length / points as f64),
         interpolate: true,
-        ..ReadOptions::default()
+        ..options.clone()
     };
     parse(&bytes, &options).unwrap()
 }
