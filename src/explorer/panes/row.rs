@@ -52,7 +52,7 @@ pub const PATH_COMMAND: &str = "asperity";
 /// The path of manual loading, else the outcome of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     if let Some(ManualState { loading, path, stages, .. }) = &app.manual {
-        return Some((PATH_COMMAND, Box::new(PathReport { loading, path, stages })));
+        return Some((PATH_COMMAND.into(), Box::new(PathReport { loading, path, stages })));
     }
     let (title, scene, outcome) =
         (app.edit.document.title(), app.edit.document.scene(), &app.current()?.outcome);
