@@ -21,8 +21,8 @@ pub fn surface(bytes: &[u8]) {
     for options in [
         ReadOptions::default(),
         unstated,
-        stated,
-        ReadOptions { channel: Some(0), resample: true, ..stated.clone() },
+        stated.clone(),
+        ReadOptions { channel: Some(0), resample: true, ..stated },
     ] {
         match parse(bytes, &options) {
             Ok(surface) => {

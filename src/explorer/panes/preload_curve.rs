@@ -141,7 +141,7 @@ mod tests {
         let mut scene = open(name).unwrap().scene().clone();
         scene.numerics.points = 2048;
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        SolvedScene { generation: 1, scene: Arc::new(scene), outcome }
+        SolvedScene { generation: 1, scene: Arc::new(scene), outcome, full_contact: 0.0 }
     }
 
     fn curve(computed: &SolvedScene, asked: PreloadAxis) -> Result<PreloadCurve, String> {
