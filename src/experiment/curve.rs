@@ -260,7 +260,7 @@ mod tests {
         let point = |index: usize| {
             let way = 300.0 * index as f64 / (count - 1) as f64;
             let displacement = if way < 150.0 { way - 100.0 } else { 200.0 - way };
-            let noise = if index % 2 == 0 { 0.1 } else { -0.1 };
+            let noise = if index.is_multiple_of(2) { 0.1 } else { -0.1 };
             (displacement, 1.0 + noise + 2.0 * displacement.max(0.0))
         };
         (0..count).map(point).collect()
@@ -370,7 +370,7 @@ mod tests {
                 "no part before contact: 0 of",
             ),
             (
-                text(header, |d, f| comma(d, f)).lines().take(302).collect::<Vec<_>>().join("\n"),
+                text(header, comma).lines().take(302).collect::<Vec<_>>().join("\n"),
                 plain(),
                 "the displacement does not turn",
             ),

@@ -91,7 +91,7 @@ impl FromStr for Free {
         let (name, range) = text.split_once('=').map_or((text, None), |(name, range)| (name, Some(range)));
         let names = Parameter::ALL.map(Parameter::name);
         let parameter = Parameter::ALL.into_iter().find(|one| one.name() == name).ok_or_else(|| {
-            let near = did_you_mean(name, names.into_iter());
+            let near = did_you_mean(name, names);
             format!("{name:?} is not a parameter{near}; allowed: {}", names.join(", "))
         })?;
         let above = if parameter.is_signed() { "" } else { " above 0" };

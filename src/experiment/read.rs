@@ -118,9 +118,10 @@ impl Columns {
             let is_own = npy::appended_text(tail).is_some_and(|text| text.starts_with(&PROVENANCE[2..]));
             let names: Vec<_> = names.into_iter().map(|name| (name, None)).collect();
             let choice = Choice::new(&names, values.len(), is_own, options)?;
-            for point in 0..values[0].len() {
+            let count = values.first().map_or(0, Vec::len);
+            (0..count).for_each(|point| {
                 columns.push(choice.places.iter().map(|&place| values[place][point]), &choice);
-            }
+            });
         } else {
             columns.read_text(&bytes, options)?;
         }

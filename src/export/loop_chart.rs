@@ -161,6 +161,9 @@ pub struct ForceLoop<'a> {
     pub stroke: Option<Stroke>,
 }
 
+/// Points of a line in the units of the axes.
+type Places = Vec<(f64, f64)>;
+
 impl<'a> ForceLoop<'a> {
     /// The loop of a loading history with its marks.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
@@ -183,7 +186,7 @@ impl<'a> ForceLoop<'a> {
     }
 
     /// Lines of the curves with their directions, and true for a jump of the instrument.
-    fn lines(&self, units: LoopUnits) -> Vec<(Direction, Vec<(f64, f64)>, bool)> {
+    fn lines(&self, units: LoopUnits) -> Vec<(Direction, Places, bool)> {
         let units = LoopUnits { stiffness: self.stiffness.or(units.stiffness), ..units };
         let mut lines = Vec::new();
         for &(direction, curve) in &self.curves {

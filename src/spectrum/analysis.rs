@@ -128,8 +128,8 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         Ok(())
     })?;
     let has_gaps = surfaces.iter().any(|surface| surface.interpolated() > 0);
-    let range = powers.range(&|waves| last_significant(waves, has_gaps));
-    let resolved = powers.range(&|waves| waves.len())[1];
+    let range = powers.range(|waves| last_significant(waves, has_gaps));
+    let resolved = powers.range(|waves| waves.len())[1];
     let ends_inside = range[1] < resolved;
     let observations = powers.observations(range[1]);
     if let End::Continues(to) = options.end
@@ -292,7 +292,7 @@ impl Powers {
 
     /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest profile, or the last of the
     /// finest map; `last` of their waves.
-    fn range(&self, last: &dyn Fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
+    fn range(&self, last: impl Fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let count = last(&power.waves);
             [power.step, (count as f64 + 0.5) * power.step]
