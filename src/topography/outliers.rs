@@ -89,7 +89,7 @@ mod tests {
             let mut same = heights.clone();
             assert_eq!((remove(&mut same, columns), &same), (Ok(0), &heights));
             let mut spiked = heights.clone();
-            let places = [17, columns * rows - 20];
+            let places = [17, columns * rows - 10];
             places.iter().for_each(|&place| spiked[place] += 400.0);
             spiked[5] = f64::NAN;
             assert_eq!(remove(&mut spiked, columns), Ok(places.len()));
