@@ -59,3 +59,8 @@ pub(super) fn free_count(values: &[f64], least: f64) -> Option<usize> {
     }
     None
 }
+
+/// Sum of products over the shorter length.
+pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}

@@ -1,7 +1,7 @@
 //! Errors of fitted coordinates: a bootstrap of blocks of the residuals through the linearised fit.
 
 use super::MeasuredCurve;
-use super::baseline::Line;
+use super::baseline::{Line, dot};
 use super::search::Linear;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -42,11 +42,6 @@ fn block_length(residuals: &[f64]) -> usize {
     let noise = 2.0 / (residuals.len() as f64).sqrt() * dot(residuals, residuals);
     let correlated = (1..most).take_while(|&lag| dot(residuals, &residuals[lag..]) > noise).count();
     (4 * (1 + correlated)).max(FEWEST).min(most)
-}
-
-/// Sum of products over the shorter length.
-pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
 /// Standard deviation, and 2.5 % and 97.5 % quantiles.

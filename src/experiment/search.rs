@@ -1,6 +1,6 @@
 //! The search for the least residuals: a coarse scan, trust regions from its best points, and the linearised fit.
 
-use super::bootstrap::dot;
+use super::baseline::dot;
 use super::curve::ends;
 use super::error::refused;
 use super::model::Model;
