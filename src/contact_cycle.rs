@@ -69,7 +69,8 @@ impl Contact {
     }
 
     /// Loads the separated body once and unloads it from the ends of these stages, each of which begins at separation:
-    /// the results of [`Contact::load`] for each stage followed by [`Move::ToSeparation`], at the cost of a few.
+    /// the results of [`Contact::load`] for each stage followed by [`Move::ToSeparation`], at the cost of a few. A pulling force
+    /// is an end as well: where the loading first reaches it, at touch or while adhesion draws the bodies together.
     ///
     /// # Errors
     /// [`Error::Run`] for an end that is not finite, without contact, or out of reach.
@@ -216,7 +217,7 @@ mod tests {
                 assert_eq!(reversal.adhesion_force(), cycle.pull_off_force());
                 assert_eq!(Some(reversal.dissipated_energy), cycle.dissipated_energy());
             }
-            assert!(contact.reversals(&[Move::ToForce(-1.0)]).is_err());
+            assert!(contact.reversals(&[Move::ToSeparation]).is_err());
             assert_eq!(contact.reversals(&[]).unwrap(), []);
         }
     }

@@ -164,11 +164,12 @@ impl Columns {
             self.push(row.iter().copied(), choice);
             Ok(())
         };
-        // A line without two numbers is part of the header.
+        // A line without two values, of which one may be missing, is part of the header.
         let is_header = |line: &str| {
             let separator = Separator::of(line);
-            let is_number = |cell: &&str| matches!(Decimal::default().read(cell, separator), Cell::Number(_));
-            separator.split(line).filter(is_number).count() < 2
+            let cells = || separator.split(line).map(|cell| Decimal::default().read(cell, separator));
+            let values = cells().filter(|cell| matches!(cell, Cell::Number(_) | Cell::Missing)).count();
+            values < 2 || !cells().any(|cell| matches!(cell, Cell::Number(_)))
         };
         each_line(bytes, is_header, |line| header.borrow_mut().push(line.to_owned()), take)
     }

@@ -213,7 +213,7 @@ mod tests {
             (
                 "theme: Dark",
                 "theme: Drak",
-                "config.ron:4:12: Drak: allowed: Neutral, Dark, Light, HighContrast, Plain (did you mean Dark?)",
+                "config.ron:4:12: theme = Drak: allowed: Neutral, Dark, Light, HighContrast, Plain (did you mean Dark?)",
             ),
             ("markers: Braille", "marker: Braille", "config.ron:5:5: marker: "),
             (

@@ -184,7 +184,7 @@ static TABLE: &[Entry] = &[
     row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
 
     row("Insert P", LIST, "add-stage", Do(stages::add), "add", "add a stage after the selected one", STAGES).rank(1).shown_if(is_stage),
-    row("Delete X", LIST, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
+    row("Delete Backspace", LIST, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
     row("Shift+↑ K", LIST, "move-stage-up", Do(|app| stages::shift(app, -1)), "move", "move the selected stage up", STAGES).rank(1).shown_if(is_stage),
     row("Shift+↓ J", LIST, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
     row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the stage: force, indentation, displacement, touch, zero force or separation", STAGES).rank(1).shown_if(is_stage),

@@ -39,8 +39,8 @@ fn keys_edit_the_stages() {
         (1, "Insert", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
         (1, "P P", "[ToForce(2.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]", 3),
         (0, "P", "[ToForce(2.0e-5), ToSeparation, ToForce(2.0e-5)]", 3),
-        (2, "X", "[ToForce(2.0e-5)]", 1),
-        (0, "X", "[ToForce(2.0e-5)]", 1),
+        (2, "Backspace", "[ToForce(2.0e-5)]", 1),
+        (0, "Backspace", "[ToForce(2.0e-5)]", 1),
         (1, "P Delete", two, 2),
         (1, "P Shift+Up", "[ToZeroForce, ToForce(2.0e-5), ToSeparation]", 1),
         (1, "P K J", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
@@ -119,7 +119,7 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
     };
     let (one, two) = ("[ToForce(2.0e-5)]", "[ToForce(2.0e-5), ToSeparation]");
     for (stages, stage, keys, why) in [
-        (one, 1, "X", "loading = []: allowed: a list of 1 to 100000"),
+        (one, 1, "Backspace", "loading = []: allowed: a list of 1 to 100000"),
         (one, 0, "L", "only loops and reversals have a number"),
         (two, 2, "K", "cannot pull before contact"),
     ] {
