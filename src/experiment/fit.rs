@@ -385,10 +385,12 @@ mod tests {
         (all, held)
     }
 
+    /// Of 200 curves with `TEST_EFFORT=200`, which takes minutes; of fewer otherwise.
     #[test]
-    #[ignore = "200 fits take minutes"]
-    fn intervals_hold_the_truth_of_two_hundred_curves() {
-        let (all, held) = covered(0..200);
+    #[ignore = "fits of many curves take ten seconds or more"]
+    fn intervals_hold_the_truth_in_most_curves() {
+        let effort = std::env::var("TEST_EFFORT").ok().and_then(|effort| effort.parse().ok());
+        let (all, held) = covered(0..effort.unwrap_or(12).clamp(12, 200));
         assert!(f64::from(held) >= 0.93 * f64::from(all), "{held} of {all}");
     }
 

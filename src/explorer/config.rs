@@ -296,7 +296,7 @@ mod tests {
         std::fs::write(&path, "(version: 1, theme: Pink)").unwrap();
         let why = remember(&path, Appearance { theme: Theme::Dark, marker: Marker::Ascii }, bindings())
             .unwrap_err();
-        assert!(why.contains("config.ron:1:21: Pink"), "{why}");
+        assert!(why.contains("config.ron:1:21: theme = Pink"), "{why}");
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "(version: 1, theme: Pink)");
     }
 }
