@@ -89,8 +89,9 @@ proptest! {
         let curve = DisplacementCurve::new(direction, &points, stiffness);
         let key = |point: &CurvePoint| sign * point.displacement(stiffness);
         let most = points.iter().map(key).fold(f64::NEG_INFINITY, f64::max);
-        for share in wanted.into_iter().filter(|&share| share > 0.0) {
-            let target = key(&points[0]) + share * (most - key(&points[0]));
+        let least = key(&points[0]);
+        for share in wanted.into_iter().filter(|&share| share > 0.0 && least < most) {
+            let target = (least + share * (most - least)).min(most);
             let found = curve.at(sign * target);
             // The first crossing on the way.
             let pair = points.windows(2).find(|pair| key(&pair[1]) >= target).unwrap();
