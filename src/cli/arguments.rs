@@ -50,9 +50,9 @@ pub enum Command {
     Compare(compare::CompareArguments),
     /// Unload a scene from many turning points: reversal curves, adhesion against preload
     Reversals(reversals::ReversalsArguments),
-    /// Change each number of a scene by 10 %: adhesion force, adhesion without a preload, dissipated energy
+    /// Change each number of a scene by 10 %: adhesion force, dissipated energy
     Sensitivity(sensitivity::SensitivityArguments),
-    /// Fit a scene to a measured force curve: work of adhesion and other parameters with errors
+    /// Fit a scene to a measured force curve: work of adhesion, other parameters, errors
     Fit(fit::FitArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a recording
     Demo(demo::DemoArguments),

@@ -30,12 +30,12 @@ pub struct FitArguments {
     /// File of the measured force curve
     #[arg(value_name = "CURVE")]
     pub curve: PathBuf,
-    /// A scene file, or the name of a built-in scene: form, roughness and all values that are known
+    /// A scene file or a built-in scene: form, roughness and all values that are known
     #[arg(value_name = "SCENE")]
     pub model: String,
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Parameters to be found, each with its range if it is known: work=1m..1,offset
+    /// Parameters to be found, with ranges if known: work=1m..1,offset
     #[arg(long, required = true, value_name = "NAME[=A..B]", value_delimiter = ',', num_args = 1)]
     pub free: Vec<Free>,
     #[command(flatten)]

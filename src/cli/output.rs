@@ -36,10 +36,10 @@ pub struct OutputArguments {
     /// Overwrite FILE if it exists
     #[arg(long, requires = "output")]
     pub force: bool,
-    /// text, json, csv, npy, svg, png or pdf, as far as the result has it; default: by the extension of FILE
+    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<Format>,
-    /// Width of a figure for a print: 85mm, 170mm; letters and lines keep their size
+    /// Width of a printed figure: 85mm, 170mm; letters keep their size
     #[arg(long, value_name = "LENGTH", value_parser = width)]
     pub width: Option<f64>,
     /// Add the numbers of the scene in a box to a figure

@@ -32,15 +32,15 @@ Examples:
   asperity run ideal-adhesion pressure-sensitive non-adhesive --panels --width 170mm -o panels.pdf
 
 JSON is one object with scene, profile, figures, curve, contacts and work; CSV and .npy hold the
-curve, in SI units. Compression is positive, indentation is zero at first touch. CSV and .npy contain
-version, command and scene, and open as that scene.";
+curve, in SI units. Compression is positive, indentation is zero at first touch. CSV and .npy
+contain version, command and scene, and open as that scene.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct RunArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// More scenes in the same picture: force curves in one chart, all else in a chart for each
+    /// More scenes in one picture: force curves in one chart, all else in a chart each
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
     /// Draw the force curve of each scene over axes of its own
@@ -67,13 +67,13 @@ pub struct RunArguments {
     pub lines: Option<u32>,
     /// Compute the adhesion force for many preloads instead of the loading
     ///
-    /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128; with :log at equal
-    /// ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload; with --lines,
-    /// median, quartiles, range and mean over the profiles. A preload below 0 N turns while the bodies
-    /// are still drawn together, and is at least the force at first touch.
+    /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128; with :log at
+    /// equal ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload; with
+    /// --lines, median, quartiles, range and mean over the profiles. A preload below 0 N turns
+    /// while the bodies are still drawn together, and is at least the force at first touch.
     #[arg(long, value_name = "A..B", allow_hyphen_values = true, conflicts_with_all = ["profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
-    /// Write a table of the drawn curves instead of one row for each preload of each profile
+    /// Write a table of the drawn curves instead of all profiles
     #[arg(long, requires = "preloads")]
     pub curves: bool,
     /// Threads that share the profiles; default: one for each core

@@ -8,7 +8,7 @@ use crate::scene::{Form, Scene};
 use crate::simulation::Simulation;
 
 /// Points of the force curve of each segment beside those at the measured displacements.
-const SAMPLES: usize = 128;
+const SAMPLES: usize = 256;
 /// Points of the curve on which the end of a loading is looked for.
 const COARSE: usize = 64;
 /// Extensions of a loading that does not reach the displacement of its end.

@@ -64,7 +64,7 @@ fn force(text: &str) -> Result<f64, String> {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "tui", derive(clap::Args))]
 pub struct CurveOptions {
-    /// Columns of displacement, force and, if given, number of the segment: names or numbers
+    /// Columns of displacement, force and segment: names or numbers
     ///
     /// Default: by the names in the header; of two columns the first is the displacement. Without
     /// a column of segments these end where the displacement turns.
@@ -73,25 +73,25 @@ pub struct CurveOptions {
         arg(long, value_name = "D,F[,SEGMENT]", value_delimiter = ',', verbatim_doc_comment)
     )]
     pub columns: Vec<String>,
-    /// Units of displacement and force where the file states none, such as nm,nN
+    /// Units of displacement and force where none are stated: nm,nN
     #[cfg_attr(feature = "tui", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
     pub units: Vec<String>,
-    /// Reverse a quantity, so that pressing is positive; default: by the approach
-    #[cfg_attr(feature = "tui", arg(long, value_name = "QUANTITY"))]
+    /// Reverse none, displacement, force or both; default: by the approach
+    #[cfg_attr(feature = "tui", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
     pub negate: Option<Negate>,
-    /// Measured force, such as 2nN, that is zero; default: the mean before contact
+    /// Measured force that is zero: 2nN; default: the mean before contact
     #[cfg_attr(feature = "tui", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
-    /// Linear drift of the force: keep (default), remove, or a force from the first to the last point
+    /// Linear drift: keep (default), remove, or a force from first to last point
     #[cfg_attr(
         feature = "tui",
         arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
     )]
     pub drift: Drift,
-    /// Standard deviation of the force, such as 0.1nN; default: that before contact
+    /// Standard deviation of the force: 0.1nN; default: that before contact
     #[cfg_attr(feature = "tui", arg(long, value_name = "FORCE", value_parser = force))]
     pub noise: Option<f64>,
-    /// Number of points before contact; default: up to the first change of the force
+    /// Number of points before contact; default: up to the first change
     #[cfg_attr(feature = "tui", arg(long, value_name = "COUNT"))]
     pub free_points: Option<usize>,
 }

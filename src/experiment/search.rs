@@ -30,7 +30,7 @@ const BOX: f64 = 20.0;
 const MOST_SEARCHES: usize = 4;
 /// Residual over the noise above which the last rounds are repeated, how often at most, and from points in a box of this
 /// width in standard errors.
-const EXPECTED: f64 = 1.2;
+const EXPECTED: f64 = 1.05;
 const SHAKES: usize = 6;
 const FAR: f64 = 40.0;
 /// Gain of a search that ends a round.

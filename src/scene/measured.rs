@@ -52,7 +52,7 @@ pub struct Measured {
     #[cfg_attr(feature = "tui", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub resample: bool,
-    /// Subtract the median of each row of maps, whose rows are offset against each other
+    /// Subtract the median of each row of maps with offset rows
     #[cfg_attr(feature = "tui", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub align_rows: bool,
@@ -60,7 +60,7 @@ pub struct Measured {
     #[cfg_attr(feature = "tui", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
-    /// Surface of a container with several, or one of its measurements, by name
+    /// Name of a surface or measurement in a container of several
     #[cfg_attr(feature = "tui", arg(long, value_name = "NAME"))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_name: Option<String>,

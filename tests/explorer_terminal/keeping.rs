@@ -106,7 +106,10 @@ fn a_configuration_is_read_and_written_when_asked() {
     assert!(code == Some(1) && message.contains("there is a file of that name already"), "{message}");
     fs::write(&file, "(version: 1, theme: Pink)").unwrap();
     let (code, _, message) = run(&["--config", file.to_str().unwrap()]);
-    assert!(code == Some(1) && message.contains("config.ron:1:21: Pink: allowed: Neutral"), "{message}");
+    assert!(
+        code == Some(1) && message.contains("config.ron:1:21: theme = Pink: allowed: Neutral"),
+        "{message}"
+    );
     // The user's own file does not keep the explorer from opening.
     let mut terminal = again(home, "--no-mouse").start();
     terminal.wait_for("config.ron:1:21: Pink");

@@ -123,7 +123,7 @@ fn all_fields_are_drawn_and_many_texts_are_allowed() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let mut drawn = |drawn: Drawn| -> Vec<String> {
         let texts = drawn.scene_texts();
-        (0..600).map(|_| texts.new_tree(&mut runner).unwrap().current()).collect()
+        (0..1500).map(|_| texts.new_tree(&mut runner).unwrap().current()).collect()
     };
     let [sound, wrong] = [Drawn::default(), Drawn::default().with_mistakes()].map(&mut drawn);
     for field in FIELDS {

@@ -25,8 +25,8 @@ Examples:
 One task of the array computes one shard, on as many threads as it has processors; the last one
 merges. A killed program is started again within its task, a task whose node is lost on another
 node, and both go on where the results end. Whatever is computed twice is counted once. The folder
-must be seen by all nodes; it receives the messages of the tasks. Behind -- go the options of sbatch,
-such as --array=1-100%10 for at most ten tasks at a time.
+must be seen by all nodes; it receives the messages of the tasks. Behind -- go the options of
+sbatch, such as --array=1-100%10 for at most ten tasks at a time.
 
 Without a scheduler, GNU parallel does it on this machine, or with --sshlogin on others that see the
 folder; the same line goes on with what has failed:

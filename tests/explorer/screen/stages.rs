@@ -106,7 +106,7 @@ fn edits_of_stages_keep_comments() {
     let moved =
         "[\n        ToZeroForce,\n        ToForce(20.0e-6), // press\n        ToSeparation, // pull\n    ]";
     assert!(driver.app.edit.document.text().contains(moved), "{}", driver.app.edit.document.text());
-    driver.press("J X");
+    driver.press("J Backspace");
     assert_eq!(driver.app.edit.document.text(), text);
     assert_eq!(driver.app.edit.document.overrides(), []);
 }
