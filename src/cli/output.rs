@@ -36,7 +36,7 @@ pub struct OutputArguments {
     /// Overwrite FILE if it exists
     #[arg(long, requires = "output")]
     pub force: bool,
-    /// text, json, csv, npy, svg, png or pdf; default: by the extension of FILE
+    /// text, json, csv, npy, svg, png or pdf; default: by the extension
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<Format>,
     /// Width of a printed figure: 85mm, 170mm; letters keep their size

@@ -82,13 +82,13 @@ pub struct CurveOptions {
     /// Measured force that is zero: 2nN; default: the mean before contact
     #[cfg_attr(feature = "tui", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
-    /// Linear drift: keep (default), remove, or a force from first to last point
+    /// Linear drift: keep (default), remove, or a force over the curve
     #[cfg_attr(
         feature = "tui",
         arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
     )]
     pub drift: Drift,
-    /// Standard deviation of the force: 0.1nN; default: that before contact
+    /// Standard deviation of the force; default: that before contact
     #[cfg_attr(feature = "tui", arg(long, value_name = "FORCE", value_parser = force))]
     pub noise: Option<f64>,
     /// Number of points before contact; default: up to the first change

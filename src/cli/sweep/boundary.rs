@@ -31,8 +31,8 @@ pub struct BoundaryArguments {
     /// Threshold, as a share of F_a,max (repeatable)
     #[arg(long = "level", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
-    /// Parameter of boundaries
-    #[arg(long, value_enum, value_name = "PARAMETER", default_value = "kappa")]
+    /// Parameter of boundaries: kappa or elastic_energy_ratio
+    #[arg(long, value_enum, value_name = "PARAMETER", default_value = "kappa", hide_possible_values = true)]
     pub over: RoughnessParameter,
     #[command(flatten)]
     pub output: OutputArguments,
