@@ -112,7 +112,7 @@ fn a_configuration_is_read_and_written_when_asked() {
     );
     // The user's own file does not keep the explorer from opening.
     let mut terminal = again(home, "--no-mouse").start();
-    terminal.wait_for("config.ron:1:21: Pink");
+    terminal.wait_for("config.ron:1:21: theme = Pink");
     quit(&mut terminal);
     assert_eq!(fs::read_to_string(&file).unwrap(), "(version: 1, theme: Pink)");
 }
