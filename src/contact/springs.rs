@@ -106,7 +106,7 @@ impl Contact {
         Contact { springs, foundation, edges, hess, loading_stiffness, closing: Arc::default() }
     }
 
-    /// The same contact under an instrument of this stiffness, N/m, above zero; infinite: rigid.
+    /// Sets the stiffness of the instrument, N/m, above zero; infinite: rigid.
     #[must_use]
     pub fn with_loading_stiffness(self, loading_stiffness: f64) -> Self {
         Contact { loading_stiffness, ..self }
@@ -121,7 +121,7 @@ impl Contact {
         self.loading_stiffness / self.foundation.spring_stiffness()
     }
 
-    /// The same springs and edges on another foundation under another rule.
+    /// Creates a contact of the same springs and edges with another foundation and rule.
     pub(crate) fn with_rule(&self, foundation: Foundation, hess: Option<HessRule>) -> Self {
         Self::of(Arc::clone(&self.springs), self.edges, foundation, hess)
     }

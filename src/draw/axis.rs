@@ -80,7 +80,7 @@ impl Axis {
         }
     }
 
-    /// Ticks at coordinates, about `most` of them labelled, and two if there are so many round numbers.
+    /// Ticks at coordinates, about `most` of them labelled, but two where the span contains two round numbers.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };

@@ -55,7 +55,7 @@ pub struct Fit {
     pub parameters: Vec<FittedParameter>,
     /// Root mean square residual, N.
     pub residual: f64,
-    /// The same in contact over the noise; a point on the wrong side of a jump counts as 5 times the noise.
+    /// Root mean square residual in contact over the noise; a point on the wrong side of a jump counts as 5 times the noise.
     pub misfit: f64,
     pub correlations: Vec<(Parameter, Parameter, f64)>,
     /// Pairs that the curve does not separate; one parameter twice that the curve does not determine.
@@ -249,7 +249,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use std::fmt::Write;
 
-    /// What a measured curve is made of.
+    /// Scene and disturbances from which a curve is made.
     struct Made {
         scene: Scene,
         offset: f64,

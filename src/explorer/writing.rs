@@ -2,7 +2,7 @@
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
-use super::panes::PATH_COMMAND;
+use super::panes::OPEN_COMMAND;
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::update::stages::with_path;
@@ -48,11 +48,11 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
         Content::Pane(format) => {
             let curves = || {
                 let figure = app.figure().filter(|figure| app.is_current() && figure.table().is_some())?;
-                Some(("asperity".into(), Box::new(figure) as Box<dyn Report>))
+                Some((OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>))
             };
             let report = (app.view.pane.row().report)(app).or_else(curves);
             let (command, report) = report.ok_or_else(missing)?;
-            let kept = if command == PATH_COMMAND { with_path(app).and_then(Result::ok) } else { None };
+            let kept = if command == OPEN_COMMAND { with_path(app).and_then(Result::ok) } else { None };
             let document = kept.as_ref().unwrap_or(&app.edit.document);
             let command = command_line(&command, document.name(), document.overrides());
             let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));

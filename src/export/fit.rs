@@ -16,7 +16,7 @@ pub struct FitReport<'a> {
     pub title: &'a str,
     /// The measured curve.
     pub curve: &'a MeasuredCurve,
-    /// Its fit.
+    /// Parameters that describe the curve, with their errors.
     pub fit: &'a Fit,
 }
 

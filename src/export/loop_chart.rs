@@ -54,7 +54,7 @@ struct Quantity {
     symbol: &'static str,
     unit: &'static str,
     over: Option<(f64, &'static str)>,
-    /// Its value at a point, with a loading stiffness, N/m.
+    /// Value of the quantity at a point, under an instrument of a stiffness, N/m.
     of: fn(&CurvePoint, f64) -> f64,
 }
 

@@ -20,7 +20,7 @@ pub use crate::export::SceneSpectra;
 pub use accuracy::Costs;
 pub use force::indentation_at;
 pub use preload_curve::{PROFILES, PreloadCurve};
-pub use row::{Exported, PATH_COMMAND, PaneRow};
+pub use row::{Exported, OPEN_COMMAND, PaneRow};
 
 use super::app::App;
 use super::keys::Context;

@@ -46,13 +46,14 @@ impl PaneRow {
     };
 }
 
-/// Command of the path of manual loading: the explorer opens on the path as the loading of the scene.
-pub const PATH_COMMAND: &str = "asperity";
+/// Command of a result that no other command computes: the explorer opens on the scene, with the path of manual loading as
+/// its loading.
+pub const OPEN_COMMAND: &str = "asperity";
 
 /// The path of manual loading, else the outcome of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     if let Some(ManualState { loading, path, stages, .. }) = &app.manual {
-        return Some((PATH_COMMAND.into(), Box::new(PathReport { loading, path, stages })));
+        return Some((OPEN_COMMAND.into(), Box::new(PathReport { loading, path, stages })));
     }
     let (title, scene, outcome) =
         (app.edit.document.title(), app.edit.document.scene(), &app.current()?.outcome);

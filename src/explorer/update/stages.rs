@@ -140,7 +140,7 @@ fn step_protocol(app: &mut App, steps: i32, coarse: bool) {
     edit::take_over(app, changed)
 }
 
-/// These stages in place of the present ones, of which those that are equal stay.
+/// Replaces the stages of a scene by a loading; a stage that does not change keeps its text.
 fn replaced(document: &Document, loading: impl IntoIterator<Item = Move>) -> Stages {
     let present = &document.scene().loading;
     let placed = |(at, stage)| ((present.get(at) == Some(&stage)).then_some(at), stage);
