@@ -2,6 +2,8 @@
 
 use super::error::CliError;
 use super::scene::Overrides;
+use crate::experiment::{CurveOptions, MeasuredCurve};
+use crate::explorer::app::Measured;
 use crate::explorer::autosave;
 use crate::explorer::config::{Config, default_path};
 use crate::explorer::keys::bindings;
@@ -10,6 +12,7 @@ use crate::explorer::{self, Opening, OpeningError, Options, view};
 use crate::export::brief_summary;
 use crate::scene::{Document, quoted};
 use crate::simulation::Simulation;
+use crate::text::path_name;
 use clap::Args;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -27,6 +30,11 @@ pub struct ExploreArguments {
     pub overrides: Overrides,
     #[command(flatten)]
     pub look: LookArguments,
+    /// Show this measured force curve over the displacement, with the residual of the scene
+    #[arg(long, value_name = "CURVE", conflicts_with = "restore")]
+    pub measured: Option<PathBuf>,
+    #[command(flatten, next_help_heading = "Measured curve")]
+    pub reading: CurveOptions,
     /// Open the unsaved changes of a session that was interrupted
     ///
     /// While the explorer runs, unsaved changes are kept in ~/.local/state/asperity/unsaved.
@@ -159,5 +167,16 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
         error => CliError::message(error.to_string()),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
+    if arguments.measured.is_none() && arguments.reading != CurveOptions::default() {
+        return Err(CliError::message(
+            "--columns, --units and the like read a measured curve: --measured CURVE names its file",
+        ));
+    }
+    if let Some(path) = &arguments.measured {
+        let name = path_name(path);
+        let curve = MeasuredCurve::read(path, &arguments.reading);
+        opening.measured =
+            Some(Measured::new(name.clone(), curve.map_err(|error| CliError::named(&name, error))?));
+    }
     Ok(opening)
 }

@@ -4,6 +4,7 @@ use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
 use crate::analysis::Governing;
 use crate::scene::{Document, Scene, SceneErrors, ron_float};
+use crate::text::round_to;
 
 /// A change of a field: its path and its value in RON.
 type Change = (String, String);
@@ -83,15 +84,29 @@ pub(super) fn with_values(
         (free(Parameter::Stiffness), change("loading_stiffness", values[Parameter::Stiffness as usize])),
         (free(Parameter::Radius), change("form.radius", values[Parameter::Radius as usize])),
     ];
-    let turns = curve.turns();
-    let stages: String = turns[..turns.len() - 1]
-        .iter()
-        .map(|turn| format!("ToDisplacement({}), ", ron_float(turn - values[Parameter::Offset as usize])))
-        .collect();
-    let loading = ("loading".to_owned(), format!("[{stages}ToSeparation]"));
+    let loading = curve.loading(values[Parameter::Offset as usize]);
     let changes: Vec<Change> =
         rows.into_iter().filter(|row| row.0).map(|row| row.1).chain([loading]).collect();
     document.set_all(&changes).map_err(wrong)
+}
+
+impl MeasuredCurve {
+    /// The document loaded as the curve was, with first touch at this measured displacement, m.
+    ///
+    /// # Errors
+    /// A scene that does not allow such a loading.
+    pub fn load(&self, document: &Document, offset: f64) -> Result<Document, SceneErrors> {
+        document.set_all(&[self.loading(offset)])
+    }
+
+    fn loading(&self, offset: f64) -> Change {
+        let turns = self.turns();
+        let turns = turns[..turns.len() - 1].iter();
+        let stages: String = turns
+            .map(|turn| format!("ToDisplacement({}), ", ron_float(round_to(turn - offset, 10))))
+            .collect();
+        ("loading".to_owned(), format!("[{stages}ToSeparation]"))
+    }
 }
 
 /// The first error of a scene with other values.

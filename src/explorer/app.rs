@@ -17,9 +17,11 @@ use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::studies::Findings;
 use super::theme::Appearance;
+use super::update::measured;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::{AxisScale, Span};
+use crate::experiment::MeasuredCurve;
 use crate::export::LoopQuantities;
 use crate::scene::{Change, Document, Move, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
@@ -92,6 +94,35 @@ impl Ghost {
     }
 }
 
+/// A measured force curve beside the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Name of its file.
+    pub name: String,
+    pub curve: Arc<MeasuredCurve>,
+    /// Measured displacement at first touch, m.
+    pub offset: f64,
+    /// Force before contact, N.
+    pub zero: f64,
+}
+
+impl Measured {
+    pub fn new(name: String, curve: MeasuredCurve) -> Self {
+        let offset = curve.displacement[curve.free];
+        Measured { name, curve: curve.into(), offset, zero: 0.0 }
+    }
+
+    /// The points on the curve of a scene with an instrument of this stiffness, N/m.
+    pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
+        let point = |(at, force): (&f64, &f64)| {
+            let force = force - self.zero;
+            let indentation = at - self.offset - force / stiffness;
+            CurvePoint { indentation, force, ..CurvePoint::default() }
+        };
+        self.curve.displacement.iter().zip(&self.curve.force).map(point).collect()
+    }
+}
+
 pub fn letter(number: usize) -> &'static str {
     const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
     LETTERS[number % LETTERS.len()]
@@ -153,6 +184,7 @@ pub struct App {
     pub ghosts: Vec<Ghost>,
     /// Scene to open beside the present one once that is computed.
     pub opens_beside: Option<Document>,
+    pub measured: Option<Measured>,
     /// Scene with the value being typed, whose outcome is awaited.
     pub tried: Option<Document>,
     pub prompt: Option<Prompt>,
@@ -178,7 +210,7 @@ impl App {
         appearance: Appearance,
         config: Config,
     ) -> Self {
-        let Opening { document, study_map, beside } = opening.into();
+        let Opening { document, study_map, beside, measured } = opening.into();
         let springs = CloseUpTarget::springs_shown(&document);
         let mut app = App {
             edit: Editor::new(document),
@@ -208,6 +240,7 @@ impl App {
             map: MapState::default(),
             ghosts: Vec::new(),
             opens_beside: beside,
+            measured: None,
             tried: None,
             prompt: None,
             message: None,
@@ -219,6 +252,9 @@ impl App {
         };
         if let Some(study_map) = study_map {
             app.show_study(study_map);
+        }
+        if let Some(measured) = measured {
+            measured::show(&mut app, measured);
         }
         app
     }

@@ -1,5 +1,6 @@
 //! Arguments of the explorer: a scene, or a finished study around one.
 
+use super::app::Measured;
 use crate::scene::{Document, SceneErrors, open, open_argument};
 use crate::study::{Folder, StudyError, StudyMap};
 use std::path::Path;
@@ -12,6 +13,7 @@ pub struct Opening {
     /// The study of the scene, whose maps are shown.
     pub study_map: Option<Arc<StudyMap>>,
     pub beside: Option<Document>,
+    pub measured: Option<Measured>,
 }
 
 #[derive(Debug, Error)]
@@ -31,7 +33,7 @@ pub enum OpeningError {
 
 impl From<Document> for Opening {
     fn from(document: Document) -> Self {
-        Opening { document, study_map: None, beside: None }
+        Opening { document, study_map: None, beside: None, measured: None }
     }
 }
 
@@ -55,7 +57,7 @@ impl Opening {
         if Folder::is_at(folder) {
             let study_map = StudyMap::open(folder).map_err(|error| OpeningError::Study(Box::new(error)))?;
             let document = study_map.document().map_err(|errors| OpeningError::Scene(Box::new(errors)))?;
-            return Ok(Opening { document, study_map: Some(Arc::new(study_map)), beside: None });
+            return Ok(Opening { study_map: Some(Arc::new(study_map)), ..Opening::from(document) });
         }
         open(name).map(Opening::from).map_err(|_| OpeningError::Folder(name.to_owned()))
     }

@@ -29,6 +29,8 @@ pub enum Purpose {
     Force,
     /// Relative error for a choice of springs.
     Tolerance,
+    /// Parameters of a fit to the measured curve.
+    Fit,
     Save {
         then_quit: bool,
     },

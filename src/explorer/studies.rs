@@ -16,10 +16,12 @@ const QUIET: Duration = Duration::from_millis(300);
 
 type Value = Arc<dyn Any + Send + Sync>;
 
+/// Function that returns true once a study is to end.
+type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+
 /// Computation of a value: on a simulation that other studies may have used, until `stop` returns true. Each part is
 /// reported.
-type Run =
-    dyn FnOnce(&mut Simulation, &dyn Fn() -> bool, &mut dyn FnMut(Value)) -> Result<Value, String> + Send;
+type Run = dyn FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(Value)) -> Result<Value, String> + Send;
 
 /// Computation of a value of one type.
 pub struct Study {
@@ -35,9 +37,7 @@ impl Study {
     pub fn new<T: Any + Send + Sync>(
         key: impl ToString,
         is_long: bool,
-        run: impl FnOnce(&mut Simulation, &dyn Fn() -> bool, &mut dyn FnMut(T)) -> Result<T, String>
-        + Send
-        + 'static,
+        run: impl FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(T)) -> Result<T, String> + Send + 'static,
     ) -> Self {
         let run: Box<Run> = Box::new(move |simulation, stop, report| {
             let value = run(simulation, stop, &mut |part| report(Arc::new(part)))?;
@@ -52,12 +52,7 @@ impl Study {
     }
 
     /// Performs the study. Nothing is reported once `stop` has returned true; a panic is a failure.
-    pub fn perform(
-        self,
-        simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
-        report: &mut dyn FnMut(Finding),
-    ) {
+    pub fn perform(self, simulation: &mut Simulation, stop: &Stop<'_>, report: &mut dyn FnMut(Finding)) {
         let Study { kind, key, run, .. } = self;
         let mut report = |value, end| {
             if !stop() {

@@ -105,6 +105,11 @@ impl LoopUnits {
         is_over_indentation.then(|| x * self.indentation.unwrap_or(1.0))
     }
 
+    /// Returns true where the force is over indentation or displacement.
+    pub fn shows_force(&self) -> bool {
+        matches!(self.quantities, LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement)
+    }
+
     /// Symbols of the horizontal and the vertical quantity: `d` and `F`, `d/h` and `F/F_a,max`.
     pub fn symbols(&self) -> (String, String) {
         let [x, y] = self.quantities().map(|one| one.symbol_and_unit().0);

@@ -15,7 +15,7 @@ use super::parameters::Parameter;
 use super::prompt::Purpose;
 use super::request::Focus;
 use super::update::{
-    accuracy, compare, crosshair, dialogue, edit, files, look, map, movement, preloads, stages,
+    accuracy, compare, crosshair, dialogue, edit, files, look, map, measured, movement, preloads, stages,
 };
 use Run::{Character, Do, Edit};
 use tui_input::InputRequest;
@@ -193,6 +193,7 @@ static TABLE: &[Entry] = &[
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
     row("&", EXPLORE, "toggle-side-by-side", Do(compare::toggle_side_by_side), "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
+    row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.measured.is_some()),
 
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or patches", LOOK),
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),

@@ -12,16 +12,20 @@ use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
+use crate::explorer::update::measured;
 use crate::explorer::view::text::filled;
-use crate::export::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
+use crate::export::{ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart, sign};
 use crate::scene::format_rounded;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    figure: |app, _| Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
-    report: outcome,
+    figure: |app, _| match measured::report(app) {
+        Some(report) => report.figure(),
+        None => Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
+    },
+    report: |app| measured::exported(app).or_else(|| outcome(app)),
     place: Place::Own,
     keys: Some(Context::Crosshair),
     help: &[(
@@ -116,6 +120,9 @@ pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
     app.indentations().and(units(app).indentation(x))
 }
 
+/// Name of the measured points.
+const MEASURED: &str = "measured";
+
 /// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
@@ -162,8 +169,20 @@ fn chart(app: &App) -> Option<Chart> {
         stroke: Some(Stroke::Dashed),
         ..ForceLoop::new(&[])
     });
-    let loops: Vec<ForceLoop<'_>> = ghosts.chain(tried).chain([present]).chain(manual).collect();
+    let stiffness = outcome.instrument.map_or(f64::INFINITY, |instrument| instrument.stiffness);
+    let points = app.measured.as_ref().map(|measured| measured.points(stiffness));
+    let data = points.as_ref().filter(|_| units.shows_force()).map(|points| ForceLoop {
+        curves: vec![(Direction::Unloading, points)],
+        name: Some(MEASURED.into()),
+        ink: Some(Ink::Kept),
+        ..ForceLoop::new(&[])
+    });
+    let loops: Vec<ForceLoop<'_>> =
+        data.into_iter().chain(ghosts).chain(tried).chain([present]).chain(manual).collect();
     let mut chart = loop_chart(&loops, units);
+    for layer in chart.layers.iter_mut().filter(|layer| layer.name.to_string() == MEASURED) {
+        layer.shape = Shape::signs(layer.shape.points(), Sign::Dot);
+    }
     // Below the curves, which stay whole.
     if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
         let border = app.legs().iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();

@@ -1,13 +1,13 @@
 //! Studies of the present scene: the error of its outcome, springs for a tolerance, data of the shown pane, and the curve
 //! of a typed value.
 
-use super::{Effect, edit};
+use super::{Effect, edit, measured};
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
 use crate::explorer::app::{App, Message};
 use crate::explorer::editor::scene_of;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
-use crate::explorer::studies::{Finding, Study};
+use crate::explorer::studies::Study;
 use crate::scene::{Document, Scene};
 use std::path::Path;
 use std::sync::Arc;
@@ -43,6 +43,7 @@ pub fn studies(app: &mut App) -> Vec<Study> {
                 let known = estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop);
                 known.ok_or_else(|| "the error cannot be estimated".to_owned())
             }));
+            wanted.extend(measured::study(app));
             wanted.extend(app.view.large.map_or_else(Vec::new, |pane| (pane.row().studies)(app, &computed)));
         }
     }
@@ -90,9 +91,8 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Stores a finding; the outcome of a search has further effects.
-pub fn found(app: &mut App, finding: Finding) {
-    app.studies.take_in(finding);
+/// Takes over the outcome of a search.
+pub fn found(app: &mut App) {
     if let Some(Choosing { found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
         app.studies.forget::<Choosing>();
         app.effects.push(Effect::Study);

@@ -1,6 +1,6 @@
 //! Prompts: what opens, edits, accepts and cancels them.
 
-use super::{Effect, accuracy, edit, files, movement};
+use super::{Effect, accuracy, edit, files, measured, movement};
 use crate::explorer::action::OutputFile;
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
@@ -54,6 +54,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         Purpose::Value => return edit::accept_value(app, typed),
         Purpose::Force => return movement::accept_force(app, typed),
         Purpose::Tolerance => return accuracy::accept_tolerance(app, typed),
+        Purpose::Fit => return measured::accept_fit(app, typed),
         Purpose::Save { then_quit } => return files::save(app, typed_path(typed), *then_quit),
         Purpose::Export => return files::export(app, typed_path(typed)),
         Purpose::Scene(_) => match prompt.scene() {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// Explores a scene or a study opened by its path.
 pub fn open(app: &mut App, opening: Opening) {
-    let Opening { document, study_map, beside } = opening;
+    let Opening { document, study_map, beside, .. } = opening;
     app.opens_beside = beside;
     edit::open(app, document);
     if let Some(study_map) = study_map {

@@ -9,6 +9,7 @@ pub(super) mod edit;
 pub(super) mod files;
 pub(super) mod look;
 pub(super) mod map;
+pub(super) mod measured;
 mod mouse;
 pub(super) mod movement;
 pub(super) mod preloads;
@@ -16,6 +17,7 @@ pub(super) mod stages;
 
 pub use super::action::Effect;
 pub use accuracy::{Answer, Choosing, studies};
+pub use measured::Fitting;
 
 use super::action::Action;
 use super::app::{App, Awaited, Message};
@@ -45,7 +47,11 @@ fn apply(app: &mut App, action: Action) {
         Action::Resize(columns, rows) => app.view.size = (columns, rows),
         Action::Elapse(time) => movement::elapse(app, time),
         Action::Report(report) => reported(app, report),
-        Action::Found(found) => accuracy::found(app, found),
+        Action::Found(found) => {
+            app.studies.take_in(found);
+            accuracy::found(app);
+            measured::found(app);
+        }
         Action::Written(file, result) => files::written(app, file, result),
         Action::Listed(entries) => dialogue::listed(app, entries),
         Action::Completed(paths) => dialogue::completed(app, paths),

@@ -4,6 +4,7 @@ use super::text::{filled, fitted, wrapped_within};
 use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
+use crate::experiment::Fit;
 use crate::explorer::action::{EXPORTS, Traffic};
 use crate::explorer::app::{App, Message};
 use crate::explorer::keys::footer as footer_keys;
@@ -12,7 +13,7 @@ use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::update::Choosing;
+use crate::explorer::update::{Choosing, Fitting, measured};
 use crate::scene::{format_quantity, format_range, format_rounded};
 use crate::study::{MeasuredAdhesion, Statistics};
 use crate::text::grouped;
@@ -77,7 +78,7 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
             line.extend(headline(app, usize::from(width).saturating_sub(line.width())));
             line
         }
-        (None, None) if app.studies.value::<Choosing>().is_some() => choosing(app),
+        (None, None) => searching(app).map_or_else(|| headline(app, width.into()), Line::raw),
         _ => headline(app, width.into()),
     }
 }
@@ -99,6 +100,7 @@ fn label(prompt: &Prompt, width: u16) -> String {
         Purpose::Force => "Go to the force: ".to_owned(),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
+        Purpose::Fit => "Parameters to fit: ".to_owned(),
         Purpose::Save { .. } => "Save as: ".to_owned(),
         Purpose::Export if is_narrow => "Export to: ".to_owned(),
         Purpose::Export => {
@@ -181,6 +183,14 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
         // Without tensile force.
         facts.push(of_loop(format!("F_max {}{error}", force(largest)), Meaning::Title));
     }
+    if let Some(measured) = &app.measured {
+        let times = |fit: &Fit| format!("{} × noise", format_quantity(fit.misfit, "1"));
+        let residual = match measured::failure(app) {
+            Some(why) => why.to_owned(),
+            None => measured::fitted(app).map_or_else(|| "…".to_owned(), times),
+        };
+        facts.push(of_loop(format!("{}: residual {residual}", measured.name), Meaning::Title));
+    }
     if let Some(snapshot) = snapshot {
         let CurvePoint { indentation, force: pressing, contact_length, .. } = snapshot.point;
         let title = if is_wide && app.manual.is_some() { "manual: " } else { "" };
@@ -254,11 +264,14 @@ fn error(app: &App) -> Option<String> {
     }
 }
 
-/// Progress of the search of springs for a tolerance.
-fn choosing(app: &App) -> Line<'static> {
-    let Some(Choosing { tolerance, tried, .. }) = app.studies.value() else { return Line::default() };
-    let tried = tried.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
-    Line::raw(format!("trying for {tolerance:e}{tried}…"))
+/// Progress of a search of springs for a tolerance, or of parameters for the measured curve.
+fn searching(app: &App) -> Option<String> {
+    if let Some(Choosing { tolerance, tried, .. }) = app.studies.value() {
+        let tried = tried.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
+        return Some(format!("trying for {tolerance:e}{tried}…"));
+    }
+    let Fitting { evaluations, .. } = app.studies.value()?;
+    Some(format!("fitting, {} curves computed…", grouped(*evaluations as u64)))
 }
 
 fn contact(point: CurvePoint) -> String {

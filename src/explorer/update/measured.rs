@@ -1,0 +1,146 @@
+//! A measured force curve beside the scene: its first touch, its zero, the residual of the scene, and the fit of parameters.
+
+use super::{Effect, edit};
+use crate::experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
+use crate::explorer::app::{App, Measured};
+use crate::explorer::panes::Exported;
+use crate::explorer::prompt::Purpose;
+use crate::explorer::studies::Study;
+use crate::export::{FitReport, LoopQuantities};
+use crate::scene::{format_quantity, format_range, quoted};
+use std::sync::Arc;
+
+/// Parameters of a fit that only place the curve beside that of the scene.
+const PLACE: [Parameter; 2] = [Parameter::Offset, Parameter::Zero];
+/// Number of computed curves between two reports of a fit.
+const REPORTED: usize = 64;
+
+/// Search of parameters that describe the curve.
+#[derive(Clone, Debug)]
+pub struct Fitting {
+    free: Vec<Free>,
+    /// Number of computed curves.
+    pub evaluations: usize,
+    found: Option<Result<Arc<Fit>, String>>,
+}
+
+/// Shows a measured curve. The scene takes its loading, as an edit that can be undone.
+pub fn show(app: &mut App, measured: Measured) {
+    let loaded = measured.curve.load(&app.edit.document, measured.offset);
+    app.measured = Some(measured);
+    app.view.curve.quantities = LoopQuantities::ForceDisplacement;
+    edit::take_over(app, loaded);
+    if !app.is_refused() {
+        app.set_done("the scene has the loading of the measured curve; u returns to its own");
+    }
+}
+
+/// The study of the measured curve: the fit that was asked for, else the place of the curve and the residual.
+pub fn study(app: &App) -> Option<Study> {
+    let (curve, document) = (Arc::clone(&app.measured.as_ref()?.curve), app.edit.document.clone());
+    let options = |free| FitOptions { free, lines: 1, jobs: 1 };
+    Some(match app.studies.value::<Fitting>() {
+        Some(Fitting { free, .. }) => {
+            let (free, options) = (free.clone(), options(free.clone()));
+            Study::new(app.edit.generation, true, move |_, stop, report| {
+                let mut count = |evaluations: usize| {
+                    if evaluations.is_multiple_of(REPORTED) {
+                        report(Fitting { free: free.clone(), evaluations, found: None });
+                    }
+                };
+                let found = fit(&curve, &document, &options, stop, &mut count);
+                let found = found.map(Arc::new).map_err(|error| error.to_string());
+                Ok(Fitting { free: free.clone(), evaluations: 0, found: Some(found) })
+            })
+        }
+        None => {
+            let options = options(PLACE.map(|parameter| Free { parameter, range: None }).to_vec());
+            Study::new(app.edit.generation, true, move |_, stop, _| {
+                let found = fit(&curve, &document, &options, stop, &mut |_| ());
+                found.map(Arc::new).map_err(|error| error.to_string())
+            })
+        }
+    })
+}
+
+pub fn ask_fit(app: &mut App) {
+    match app.measured {
+        Some(_) => app.ask(Purpose::Fit, "work,offset,zero"),
+        None => app.set_error("there is no measured curve; asperity SCENE --measured CURVE shows one"),
+    }
+}
+
+/// Begins the search of the typed parameters.
+pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
+    let free = typed.split(',').map(|one| one.trim().parse()).collect::<Result<Vec<Free>, String>>()?;
+    if !app.is_current() {
+        return Err("not before the scene is computed".to_owned());
+    }
+    app.studies.set(app.edit.generation, Fitting { free, evaluations: 0, found: None }, false);
+    app.effects.push(Effect::Study);
+    Ok(())
+}
+
+/// Takes over what has been found: the place of the curve, and the scene of a fit.
+pub fn found(app: &mut App) {
+    if let Some(Fitting { found: Some(found), .. }) = app.studies.value::<Fitting>().cloned() {
+        app.studies.forget::<Fitting>();
+        match found {
+            Ok(fit) => {
+                edit::take_over(app, Ok(fit.document.clone()));
+                app.set_done(sentence(&fit));
+                app.studies.set(app.edit.generation, fit, true);
+            }
+            Err(why) => app.set_error(why),
+        }
+    }
+    let values = fitted(app).map(|fit| PLACE.map(|one| value(fit, one)));
+    if let Some((measured, [offset, zero])) = app.measured.as_mut().zip(values) {
+        (measured.offset, measured.zero) = (offset.unwrap_or(measured.offset), zero.unwrap_or(0.0));
+    }
+}
+
+/// The fit of the present scene, of the place of the curve alone or of further parameters.
+pub fn fitted(app: &App) -> Option<&Fit> {
+    app.studies.value::<Arc<Fit>>().map(|fit| &**fit)
+}
+
+/// Reason why the scene cannot be compared with the curve.
+pub fn failure(app: &App) -> Option<&str> {
+    app.studies.failure::<Arc<Fit>>()
+}
+
+fn value(fit: &Fit, parameter: Parameter) -> Option<f64> {
+    fit.parameters.iter().find(|one| one.parameter == parameter).map(|one| one.value)
+}
+
+/// The parameters found, with their intervals; a scene that does not describe the curve is stated first.
+fn sentence(fit: &Fit) -> String {
+    let found = |one: &FittedParameter| {
+        let (_, _, symbol, unit) = one.parameter.row();
+        let interval = format_range(one.interval, 3, unit);
+        format!("{symbol} {} ({interval})", format_quantity(one.value, unit))
+    };
+    let found = fit.parameters.iter().map(found).collect::<Vec<_>>().join(", ");
+    let times = format_quantity(fit.misfit, "1");
+    match fit.describes() {
+        true => format!("fit: {found}; u undoes"),
+        false => {
+            format!("the scene does not describe the curve, residual {times} × noise; {found}; u undoes")
+        }
+    }
+}
+
+/// The fit as a table or JSON, and the command that computes the fit.
+pub fn exported(app: &App) -> Exported<'_> {
+    let report = report(app)?;
+    let names: Vec<_> = report.fit.parameters.iter().map(|one| one.parameter.name()).collect();
+    let command = format!("asperity fit {} --free={}", quoted(report.title), names.join(","));
+    Some((command.into(), Box::new(report)))
+}
+
+/// The curve, its model and the residuals.
+pub fn report(app: &App) -> Option<FitReport<'_>> {
+    let Measured { name, curve, .. } = app.measured.as_ref()?;
+    Some(FitReport { title: name, curve, fit: fitted(app).filter(|_| app.is_current())? })
+}
