@@ -72,7 +72,7 @@ pub mod cli;
 pub mod contact;
 mod contact_cycle;
 mod draw;
-mod experiment;
+pub mod experiment;
 #[cfg(feature = "tui")]
 pub mod explorer;
 #[cfg(feature = "tui")]

@@ -4,6 +4,9 @@ use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
 use crate::scene::Move;
 use strum::IntoStaticStr;
 
+/// Relative difference of equal forces, which are different sums.
+const ROUNDING: f64 = 1e-9;
+
 /// Figures of one history; `None` for a figure that the history does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
@@ -12,7 +15,7 @@ pub struct Figures {
     /// Indentation at the preload, m.
     pub preload_indentation: Option<f64>,
     /// Adhesion force F_a: minus the smallest force of the last unloading stage, N; `None` if that force is above
-    /// zero.
+    /// zero, or if the force still falls where the stage ends.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n; only under a preload.
     pub adhesion_coefficient: Option<f64>,
@@ -86,11 +89,13 @@ pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
 }
 
-/// Finds the pull-off, the smallest force of the last unloading stage with contact, unless that force is above zero:
-/// the number of its stage, and its point.
+/// Finds the pull-off, the smallest force of the last unloading stage with contact: the number of its stage, and its point.
+/// There is none if that force is above zero, or if the stage ends in contact while the force still falls.
 pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-    let last = touching(legs, Direction::Unloading).next_back();
-    last.map(|(stage, leg)| (stage, leg.smallest)).filter(|(_, point)| point.force <= 0.0)
+    let (stage, leg) = touching(legs, Direction::Unloading).next_back()?;
+    let (least, end) = (leg.smallest, leg.curve.last()?);
+    let is_passed = end.springs == 0 || least.force < end.force - ROUNDING * leg.largest.force.abs();
+    Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
 }
 
 /// A remarkable point of a force curve.
@@ -124,8 +129,7 @@ pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     let jump_out = pull_off.and_then(|(stage, least)| {
         let mut pairs = legs[stage].curve.windows(2);
         let pair = pairs.rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
-        // The forces are different sums, so equal forces differ by rounding.
-        Some(pair[0]).filter(|last| last.force > least.force * (1.0 - 1e-9))
+        Some(pair[0]).filter(|last| last.force > least.force * (1.0 - ROUNDING))
     });
     let found = [
         (Mark::JumpIn, jump_in),
@@ -209,6 +213,13 @@ mod tests {
         let none = adhesion(0.0);
         assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
         assert_eq!(adhesion(-1e-300), Some(1e-300));
+        // A force that still falls where the stage ends is no pull-off; one that rises again is.
+        let ends_at = |force| {
+            let mut pulled = pulled(-1.0, 0);
+            pulled.curve = vec![pulled.smallest, point(-0.5, force, 1)];
+            figures(&[pressed(1.0), pulled]).adhesion_force
+        };
+        assert_eq!([ends_at(-1.0), ends_at(-1.0 + 1e-12), ends_at(-0.9)], [None, None, Some(1.0)]);
         // A coefficient that overflows is `None`, and so is that of a target force of zero, where a rounding remains.
         for pressed in [pressed(0.0), pressed(1e-320)] {
             assert_eq!(figures(&[pressed, pulled(-1.0, 0)]).adhesion_coefficient, None);

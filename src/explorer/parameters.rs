@@ -223,7 +223,10 @@ fn stage_rows(loading: &[Move]) -> impl Iterator<Item = Parameter> {
         Parameter {
             leg: Some(index),
             written: number.map_or_else(|| stage_in_ron(stage), |(_, value)| ron_float(value)),
-            shown: loading_text(&[*stage], format_quantity),
+            shown: match number {
+                Some((field, value)) => format_quantity(value, field.unit),
+                None => loading_text(&[*stage], format_quantity),
+            },
             effect: Some(Effect::Unloading),
             ..Parameter::new(number.map_or(&STAGE, |(field, _)| field), &path)
         }
@@ -236,12 +239,12 @@ fn shown(field: &Field, written: &str) -> String {
         return quantities;
     }
     match field.range {
+        _ if written == "None" => "none".to_owned(),
         Range::Choice(_) => {
             // The parts of a choice have rows of their own.
             let name = written.split('(').next().unwrap_or(written).trim();
             match (name, field.path) {
                 ("", "material" | "adhesion") => first_name(written).to_owned(),
-                ("None", _) => "none".to_owned(),
                 (name, _) => name.to_owned(),
             }
         }

@@ -47,10 +47,11 @@ pub enum Purpose {
 }
 
 impl Prompt {
-    /// A prompt with this text, for a scene with these parameters. The first typed character replaces a value.
+    /// A prompt with this text, for a scene with these parameters. The first typed character replaces a value or the name
+    /// of a file.
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
-        let is_value = matches!(purpose, Purpose::Value);
-        let line = if is_value { TextLine::selected(text) } else { TextLine::new(text) };
+        let is_replaced = matches!(purpose, Purpose::Value | Purpose::Save { .. } | Purpose::Export);
+        let line = if is_replaced { TextLine::selected(text) } else { TextLine::new(text) };
         let (found, paths) = (Vec::new(), Vec::new());
         let mut prompt = Prompt { purpose, line, found, selected: 0, paths, refused: None };
         prompt.search(parameters);

@@ -124,8 +124,11 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
 fn regime(outcome: &Outcome) -> String {
     let adhesive = outcome.governing.adhesive_work().is_some();
     let Some(regime) = outcome.regime else {
-        let why =
-            if adhesive { "not known: no stage unloads" } else { "none: no adhesion, and no stage unloads" };
+        let why = if adhesive {
+            "not known: the loading does not pull the bodies off"
+        } else {
+            "none: no adhesion"
+        };
         return why.to_owned();
     };
     if !adhesive {
@@ -229,7 +232,8 @@ fn falling(from: f64) -> String {
 }
 
 fn adhesion_force(outcome: &Outcome) -> String {
-    quantity(outcome.figures.adhesion_force, "N").unwrap_or_else(|| "none: no stage unloads".into())
+    quantity(outcome.figures.adhesion_force, "N")
+        .unwrap_or_else(|| "none: the loading does not pull the bodies off".into())
 }
 
 fn loading(legs: &[Move]) -> String {
@@ -376,7 +380,7 @@ mod tests {
     #[test]
     fn a_regime_is_named_only_where_something_pulls() {
         for (overrides, said) in [
-            (&[("loading", "[ToTouch]")][..], "not known: no stage unloads"),
+            (&[("loading", "[ToTouch]")][..], "not known: the loading does not pull the bodies off"),
             (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
             (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: no adhesion"),
             (&[("adhesion.kappa", "0.1")], "pressure-insensitive from first touch and after zero"),

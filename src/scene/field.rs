@@ -202,10 +202,19 @@ impl Field {
         if matches!(self.range, Range::Text { .. }) && !is_omitted && !is_quoted {
             return Ok(ron_string(typed));
         }
-        if matches!(self.range, Range::Wavelengths(..)) && typed.contains(',') {
-            let ends = typed.trim_matches(['(', ')', ' ', ',']).split(',');
-            let ends = ends.map(|end| parse_quantity(end.trim(), self.unit).map(ron_float));
-            return Ok(format!("({})", ends.collect::<Result<Vec<_>, _>>()?.join(", ")));
+        let whole =
+            |value: f64| (value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value)).then_some(value as u64);
+        let pair = typed.trim_matches(['(', ')', ' ', ',']);
+        let pair = [",", "–", " to "].iter().find_map(|between| pair.split_once(between));
+        if let Some((first, last)) =
+            pair.filter(|_| matches!(self.range, Range::Wavelengths(..) | Range::Band(..)))
+        {
+            let [first, last] = [first, last].map(|end| parse_quantity(end.trim(), self.unit));
+            let written = |end: f64| match self.range {
+                Range::Band(..) => whole(end).map_or_else(|| ron_float(end), |end| end.to_string()),
+                _ => ron_float(end),
+            };
+            return Ok(format!("({}, {})", written(first?), written(last?)));
         }
         if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
             return Ok(typed.to_string());
@@ -221,9 +230,8 @@ impl Field {
             }
             // A seed has more digits than a floating-point number keeps.
             Range::Whole(..) | Range::Band(..) if ron::from_str::<u64>(typed).is_err() => {
-                let value = parse_quantity(typed, self.unit)?;
-                let is_whole = value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value);
-                Ok(if is_whole { format!("{}", value as u64) } else { typed.to_string() })
+                let value = whole(parse_quantity(typed, self.unit)?);
+                Ok(value.map_or_else(|| typed.to_string(), |value| value.to_string()))
             }
             _ => Ok(typed.to_string()),
         }

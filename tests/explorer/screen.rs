@@ -15,6 +15,7 @@ mod look;
 mod looks;
 mod manual;
 mod map;
+mod measured;
 mod mouse;
 mod palette;
 mod panes;

@@ -40,9 +40,14 @@ fn panel(app: &App, size: Size) -> Panel {
         None => Line::styled("no parameter of this scene fits", quiet),
     };
     let help_rows = if size.height >= 9 { 3 } else { u16::from(size.height >= 3) };
+    // The list makes room for the whole reason of a refusal.
+    let is_refused = refusal(app).is_some();
+    let help_rows = if is_refused { help_rows.max(size.height / 2) } else { help_rows };
     let mut explained = wrapped_within(&explained, size.width, help_rows);
     // The list keeps its place whatever the explanation.
-    explained.resize(help_rows.into(), Line::default());
+    if !is_refused {
+        explained.resize(help_rows.into(), Line::default());
+    }
     let mut foot = if size.height >= 12 { derived(app, size.width) } else { Vec::new() };
     foot.extend(explained);
     let width = usize::from(size.width);
@@ -185,14 +190,17 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     values
 }
 
+/// Reason why a value is refused.
+fn refusal(app: &App) -> Option<&String> {
+    match &app.message {
+        Some(Message::Refused(why)) => Some(why),
+        _ => app.prompt.as_ref().filter(|_| app.is_typing_value())?.refused.as_ref(),
+    }
+}
+
 /// Error of a value, or its meaning and allowed range.
 fn explanation(app: &App, index: usize) -> Line<'static> {
-    let typed = app.prompt.as_ref().filter(|_| app.is_typing_value());
-    let refused = match &app.message {
-        Some(Message::Refused(why)) => Some(why),
-        _ => typed.and_then(|prompt| prompt.refused.as_ref()),
-    };
-    if let Some(error) = refused {
+    if let Some(error) = refusal(app) {
         return Line::styled(format!("! {error}"), app.view.appearance.theme.style(Meaning::Error));
     }
     let Some(parameter) = app.edit.parameters.get(index) else { return Line::default() };

@@ -6,9 +6,11 @@ use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate, parse_tol
 use crate::explorer::app::{App, Message};
 use crate::explorer::editor::scene_of;
 use crate::explorer::prompt::Purpose;
+use crate::explorer::reach::out_of_reach;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::Study;
-use crate::scene::{Document, Scene};
+use crate::scene::{Document, Move, Scene};
+use crate::simulation::RunError;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -55,7 +57,11 @@ fn preview(document: &Document) -> Study {
     let (text, scene) = (document.text().to_owned(), scene_of(document));
     Study::new(document.text(), false, move |simulation, stop, _| {
         let outcome = simulation.run(&scene, stop, &mut |_, _, _| Ok(()));
-        Ok(Preview { text, outcome: outcome.map_err(|error| error.to_string())? })
+        let outcome = outcome.map_err(|error| match error {
+            RunError::Contact(error) => out_of_reach(&error, Move::ToTouch),
+            error => error.to_string(),
+        });
+        Ok(Preview { text, outcome: outcome? })
     })
 }
 

@@ -46,10 +46,23 @@ pub fn point_at(app: &mut App, x: f64) {
     app.view.crosshair = Some(share.clamp(low, high));
 }
 
-/// Positions at the left and right end of the selected pane.
+/// Positions at the left and right end of the selected pane: of the profile, or of the curves of another chart.
 fn ends(app: &App) -> (f64, f64) {
     let share = |spring: usize| (spring as f64 / springs(app)).min(1.0);
-    app.section().map_or((0.0, 1.0), |section| (share(section.first), share(section.first + section.springs)))
+    if let Some(section) = app.section() {
+        return (share(section.first), share(section.first + section.springs));
+    }
+    let chart = app.view.pane.figure(app).and_then(|figure| figure.charts.into_iter().next());
+    let shares = chart.iter().flat_map(|chart| {
+        let named = chart.layers.iter().filter(|layer| !layer.name.is_empty());
+        named.flat_map(|layer| layer.shape.points()).map(|point| chart.x.share(point.0).clamp(0.0, 1.0))
+    });
+    shares
+        .fold(None, |ends: Option<(f64, f64)>, at| {
+            Some(ends.map_or((at, at), |(low, high)| (low.min(at), high.max(at))))
+        })
+        .filter(|(low, high)| low < high)
+        .unwrap_or((0.0, 1.0))
 }
 
 fn springs(app: &App) -> f64 {

@@ -157,6 +157,10 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
         return Ok(());
     }
     let document = with_typed(app, typed)?;
+    // A loading that the contact does not follow is known once its preview has been computed.
+    if let Some(why) = app.studies.failure::<Preview>().filter(|_| app.tried.is_some()) {
+        return Err(why.to_owned());
+    }
     take_over(app, Ok(document));
     Ok(())
 }
@@ -363,7 +367,7 @@ pub fn undo(app: &mut App, back: bool) {
 
 /// Drops what belongs to the former scene.
 fn renewed(app: &mut App) {
-    app.message.take_if(|message| matches!(message, Message::Refused(_)));
+    app.message.take_if(|message| !matches!(message, Message::Done(_)));
     app.progress = Some(0);
     app.map.moving = false;
     let map = app.map.key(&scene_of(&app.edit.document)).unwrap_or_default();

@@ -3,9 +3,10 @@
 use super::{Effect, edit};
 use crate::explorer::action::{Content, EXPORTS, OutputFile, WriteFailure};
 use crate::explorer::app::App;
+use crate::explorer::editor::Editor;
 use crate::explorer::prompt::Purpose;
 use crate::export::{Format, check_extension};
-use crate::scene::{Document, command_line};
+use crate::scene::{Document, Preset, command_line, presets};
 use crate::text::is_control;
 use std::path::{Path, PathBuf};
 
@@ -60,7 +61,11 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
     match result {
         Ok(()) => {
             let how = if file.content == Content::Scene { "saved" } else { "exported" };
-            app.set_done(format!("{how} to {path}"));
+            let mut done = format!("{how} to {path}");
+            if file.content == Content::Scene && has_foreign_notice(&app.edit) {
+                done += "; its title and notice are those of the scene that it was made from";
+            }
+            app.set_done(done);
             if file.content == Content::Scene {
                 app.edit.set_saved_as(&file.path);
             }
@@ -76,6 +81,16 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
             app.ask_again(purpose, &file.path.to_string_lossy(), &error);
         }
     }
+}
+
+/// Returns true for a changed built-in scene whose notice is still that of the built-in one.
+fn has_foreign_notice(edit: &Editor) -> bool {
+    let notice = &edit.document.scene().notice;
+    let preset = presets().iter().find(|preset| preset.name == edit.document.name());
+    let is_own = |preset: &Preset| {
+        Document::parse(preset.text, preset.name).is_ok_and(|own| own.scene().notice == *notice)
+    };
+    !notice.is_empty() && edit.is_unsaved() && preset.is_some_and(is_own)
 }
 
 /// Leaves the explorer, or asks about unsaved changes first.

@@ -118,7 +118,7 @@ fn value(fit: &Fit, parameter: Parameter) -> Option<f64> {
 fn sentence(fit: &Fit) -> String {
     let found = |one: &FittedParameter| {
         let (_, _, symbol, unit) = one.parameter.row();
-        let interval = format_range(one.interval, 3, unit);
+        let interval = format_range(one.interval, 4, unit);
         format!("{symbol} {} ({interval})", format_quantity(one.value, unit))
     };
     let found = fit.parameters.iter().map(found).collect::<Vec<_>>().join(", ");

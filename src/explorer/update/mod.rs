@@ -20,7 +20,7 @@ pub use accuracy::{Answer, Choosing, studies};
 pub use measured::Fitting;
 
 use super::action::Action;
-use super::app::{App, Awaited, Message};
+use super::app::{App, Awaited};
 use super::editor::scene_of;
 use super::keys::{self, Command};
 use super::layout::Layout;
@@ -109,9 +109,6 @@ fn reported(app: &mut App, report: Report) {
             app.solved = Some(computed);
             if let Some(snapshot) = snapshot {
                 movement::shown(app, snapshot);
-            }
-            if matches!(app.message, Some(Message::Error(_))) {
-                app.message = None;
             }
             if let Some(document) = app.opens_beside.take() {
                 return compare::open_beside(app, document);

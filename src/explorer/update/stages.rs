@@ -41,12 +41,14 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     }
 }
 
-/// Adds a stage after the selected one: a pull to zero force after a stage that presses, else a press.
+/// Adds a stage after the selected one: after a stage that presses a pull to zero force, at the end to separation; else a
+/// press.
 pub fn add(app: &mut App) {
     let force = pressing_force(app);
     change(app, |stages, at| {
         let presses = matches!(stages[at].1, Move::ToForce(to) | Move::ToIndentation(to) | Move::ToDisplacement(to) if to > 0.0);
-        stages.insert(at + 1, (None, if presses { Move::ToZeroForce } else { Move::ToForce(force) }));
+        let pull = if at + 1 == stages.len() { Move::ToSeparation } else { Move::ToZeroForce };
+        stages.insert(at + 1, (None, if presses { pull } else { Move::ToForce(force) }));
         at + 1
     })
 }

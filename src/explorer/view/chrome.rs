@@ -1,6 +1,6 @@
 //! The lines around the panes: title, status, footer.
 
-use super::text::{filled, fitted, wrapped_within};
+use super::text::{filled, wrapped_within};
 use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
@@ -37,25 +37,21 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     wrapped_within(&Line::from(spans), width, rows)
 }
 
-/// The headline figures, or a question, an error, or the typed text.
-pub fn status(app: &App, width: u16) -> Line<'static> {
+/// The headline figures, or a question, an error, or the typed text, in at most this number of rows.
+pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let theme = app.view.appearance.theme;
     let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
-    match (app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose)), &app.message) {
+    let refusal =
+        |why: &str, rows| wrapped_within(&error(format!("! {}", why.replace('\n', " · "))), width, rows);
+    let line = match (app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose)), &app.message) {
         (Some((prompt, purpose)), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
             let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
-            let why = why.replace('\n', " · ");
-            if matches!(purpose, Purpose::Value) {
-                // The line is in its row.
-                error(format!("! {why}"))
-            } else {
-                let least = LEAST_TYPED.min(Span::raw(prompt.line.text()).width() as u16 + 1);
-                let style = theme.style(Meaning::Error);
-                let mut why =
-                    fitted(Line::styled(format!("! {why}"), style), width.saturating_sub(least + 2));
-                why.push_span(Span::styled(": ", style));
-                prompted(why, &prompt.line, width, theme)
-            }
+            // A value is typed in its row of the parameters.
+            let typed = (rows > 1 && !matches!(purpose, Purpose::Value))
+                .then(|| prompted(Line::raw(label(prompt, width)), &prompt.line, width, theme));
+            let mut lines = refusal(why, rows - u16::from(typed.is_some()));
+            lines.extend(typed);
+            return lines;
         }
         (Some((_, Purpose::Overwrite(file))), _) => {
             error(format!("{} exists. Overwrite it?", file.path.display()))
@@ -70,9 +66,7 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
         (Some((prompt, purpose)), _) if !matches!(purpose, Purpose::Value | Purpose::Help) => {
             prompted(Line::raw(label(prompt, width)), &prompt.line, width, theme)
         }
-        (_, Some(Message::Error(text) | Message::Refused(text))) => {
-            error(format!("! {}", text.replace('\n', " · ")))
-        }
+        (_, Some(Message::Error(why) | Message::Refused(why))) => return refusal(why, rows),
         (_, Some(Message::Done(text))) => {
             let mut line = Line::raw(format!("{text}  "));
             line.extend(headline(app, usize::from(width).saturating_sub(line.width())));
@@ -80,11 +74,9 @@ pub fn status(app: &App, width: u16) -> Line<'static> {
         }
         (None, None) => searching(app).map_or_else(|| headline(app, width.into()), Line::raw),
         _ => headline(app, width.into()),
-    }
+    };
+    vec![line]
 }
-
-/// Least columns of a typed line behind the reason of its refusal.
-const LEAST_TYPED: u16 = 16;
 
 /// A line being typed, behind a label.
 fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> Line<'static> {
@@ -113,8 +105,9 @@ fn label(prompt: &Prompt, width: u16) -> String {
     }
 }
 
-/// Least columns of a status line with the error of F_a and the kind of loading.
+/// Least columns of a status line with the error of F_a and the kind of loading, and of one with whole names of regimes.
 const WITH_ERROR: usize = 48;
+const WITH_NAMES: usize = 100;
 
 /// A fact in the status line: of the whole loop, or of the shown state.
 struct Fact {
@@ -123,7 +116,7 @@ struct Fact {
     meaning: Meaning,
 }
 
-/// As many facts as there is room for, the most important first: those of the loop, then those of the shown state.
+/// As many facts as there is room for, of the loop and of the shown state the most important ones.
 fn headline(app: &App, width: usize) -> Line<'static> {
     if app.solved.is_none() {
         return Line::raw("computing…");
@@ -144,17 +137,30 @@ fn headline(app: &App, width: usize) -> Line<'static> {
         }
         line
     };
-    let facts = facts(app, width >= WITH_ERROR);
-    let lines = (1..=facts.len()).rev().map(|count| line(&facts[..count]));
-    lines.into_iter().find(|line| line.width() <= width).unwrap_or_default()
+    let (mut known, mut is_full) = (Vec::new(), [false; 2]);
+    for fact in facts(app, width) {
+        let group = usize::from(fact.is_of_loop);
+        known.push(fact);
+        is_full[group] |= line(&known).width() > width;
+        if is_full[group] {
+            known.pop();
+        }
+    }
+    line(&known)
 }
 
-/// Facts about loop and state, the most important first.
-fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
+/// Facts about loop and state for a line of a width, the most important first.
+fn facts(app: &App, width: usize) -> Vec<Fact> {
+    let is_wide = width >= WITH_ERROR;
     let Some(outcome) = app.solved.as_ref().map(|solved| &solved.outcome) else { return Vec::new() };
     let (figures, snapshot) = (&outcome.figures, app.present());
     let of_loop = |text: String, meaning| Fact { is_of_loop: true, text, meaning };
     let of_state = |text: String| Fact { is_of_loop: false, text, meaning: Meaning::Text };
+    let mut regime = outcome.regime.map(|regime| {
+        let regimes = regime.by_protocols(outcome.regime_after_zero_force);
+        let regimes = if width < WITH_NAMES { regimes.replace("pressure-", "") } else { regimes };
+        of_loop(regimes, Meaning::Title)
+    });
     let force = |value| format_quantity(value, "N");
     let error = error(app).filter(|_| is_wide).map_or_else(String::new, |error| format!(" {error}"));
     let mut facts = Vec::new();
@@ -179,6 +185,7 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
             let (median, quartiles) = (format_rounded(median, 2, "N"), format_range((lower, upper), 2, "N"));
             of_loop(format!("{count} profiles: median {median} ({quartiles})"), Meaning::Title)
         }));
+        facts.extend(regime.take_if(|_| app.manual.is_none()));
     } else if let Some(largest) = figures.preload.filter(|force| *force != 0.0) {
         // Without tensile force.
         facts.push(of_loop(format!("F_max {}{error}", force(largest)), Meaning::Title));
@@ -191,6 +198,7 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
         };
         facts.push(of_loop(format!("{}: residual {residual}", measured.name), Meaning::Title));
     }
+    let mut share = None;
     if let Some(snapshot) = snapshot {
         let CurvePoint { indentation, force: pressing, contact_length, .. } = snapshot.point;
         let title = if is_wide && app.manual.is_some() { "manual: " } else { "" };
@@ -204,14 +212,12 @@ fn facts(app: &App, is_wide: bool) -> Vec<Fact> {
             facts.push(of_state(format!("{} changed", counted(state.changed, "spring"))));
             facts.push(of_state(format!("released {}", format_rounded(state.released_energy, 2, "J"))));
         } else {
-            let share = 100.0 * contact_length / outcome.line.length;
-            facts.push(of_state(format!("contact {} %", format_rounded(share, 2, "1"))));
+            let percent = 100.0 * contact_length / outcome.line.length;
+            share = Some(of_state(format!("contact {} %", format_rounded(percent, 2, "1"))));
         }
     }
-    if let Some(regime) = outcome.regime {
-        let regimes = regime.by_protocols(outcome.regime_after_zero_force);
-        facts.push(of_loop(regimes, Meaning::Title));
-    }
+    facts.extend(regime);
+    facts.extend(share);
     if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
         let least = SteepWaves::LEAST_RATIO;
         let warning = format!("λ²/AR {ratio:.2} < {least}: JKR pulls {jkr_factor:.2} F_smooth");

@@ -15,6 +15,7 @@ use super::picture::to_ascii;
 use super::prompt::Purpose;
 use super::theme::{Marker, Theme};
 use ratatui::Frame;
+use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
@@ -40,8 +41,11 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
         lists::draw_commands(panes, look, prompt, entries, buffer);
     }
     crate::draw::dry(buffer);
-    panel::draw_lines(&[chrome::status(app, area.width)], layout.status, buffer);
-    if let Some(area) = layout.footer {
+    // A long reason takes the place of the keys as well.
+    let rows = 1 + u16::from(layout.footer.is_some());
+    let status = chrome::status(app, area.width, rows);
+    panel::draw_lines(&status, Rect { height: rows, ..layout.status }.intersection(area), buffer);
+    if let Some(area) = layout.footer.filter(|_| status.len() == 1) {
         panel::draw_lines(&[chrome::footer(app, area.width)], area, buffer);
     }
     if look.theme == Theme::HighContrast {

@@ -69,6 +69,10 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
         };
         for size in [(300, 40), (120, 40), (80, 24), (40, 12), (20, 6)] {
             driver.resize(size);
+            // A long reason takes the place of the keys.
+            if driver.refusal().is_some() {
+                continue;
+            }
             let shown = footer(&driver);
             assert!(!shown.is_empty(), "{mode:?} {size:?}");
             assert!(shown.iter().all(is_valid), "{shown:?} {labels:?}");

@@ -1,5 +1,6 @@
 //! Failures, late reports and panics.
 
+use super::common::driver::Driver;
 use super::{is_up_to_date, pressed};
 use asperity::explorer::action::Action;
 use asperity::explorer::snapshot::Report;
@@ -23,24 +24,31 @@ fn reports_of_another_scene_change_nothing() {
     }
 }
 
+/// Makes the scene one whose contact detaches before it reaches a force, by switching its adhesion off.
+pub fn detach(driver: &mut Driver) {
+    driver.select("loading");
+    driver.enter("20 µN, -10 nN");
+    driver.select("adhesion");
+    driver.press("t");
+}
+
 #[test]
 fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
     let mut driver = pressed("");
-    driver.select("loading");
-    driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+    detach(&mut driver);
     assert!(!driver.app.is_computing());
     let text = driver.text();
-    assert!(text.contains("stage 2: the contact detaches before -1 N"), "{text}");
+    assert!(text.contains("stage 2: the contact detaches before -10 nN"), "{text}");
     // Figures of the former scene are no longer shown.
     assert!(!text.contains("F_a "), "{text}");
     for keys in ["j", "k", ". .", "Tab", "n", "+"] {
         driver.press(keys);
     }
-    assert!(driver.text().contains("stage 2: the contact detaches before -1 N"), "{}", driver.text());
+    assert!(driver.text().contains("stage 2: the contact detaches before -10 nN"), "{}", driver.text());
     driver.press("u");
     assert!(driver.status().starts_with("undo: "), "{}", driver.status());
     driver.press("j");
     let text = driver.text();
-    assert!(text.contains("F_a ") && !text.contains("detaches above"), "{text}");
+    assert!(text.contains("F_max 20 µN") && !text.contains("detaches"), "{text}");
     assert!(is_up_to_date(&driver.app));
 }

@@ -29,9 +29,12 @@ fn messages_are_whole_or_end_in_an_ellipsis() {
             let status = driver.status();
             let start = status.strip_suffix('…').unwrap_or(&status);
             assert!(whole.starts_with(start), "{size:?} {keys}: {status}");
-            let is_whole = status == whole;
+            // In small windows the reason continues in place of the keys.
+            let footer = driver.rows().pop().unwrap_or_default();
+            let rest = footer.trim_end().trim_end_matches('…');
+            let is_whole = status == whole || !rest.is_empty() && whole.contains(rest);
             assert!(is_whole || status.ends_with('…') && status.chars().count() >= 8, "{size:?}: {status}");
-            assert!(!is_whole || whole.chars().count() <= usize::from(size.0), "{size:?}: {status}");
+            assert!(status != whole || whole.chars().count() <= usize::from(size.0), "{size:?}: {status}");
         }
     }
 }

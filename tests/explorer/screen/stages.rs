@@ -155,13 +155,14 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
         assert_eq!(driver.app.prompt.as_ref().unwrap().line.text(), typed);
         driver.press("Esc");
     }
-    // A pull beyond adhesion is known once it is computed; the stated force is within reach.
+    // A pull beyond adhesion is refused once its preview is computed; the stated force is within reach.
     select(&mut driver, 0);
     driver.enter("20 µN, -1 N, separation");
-    let status = driver.status();
-    let (before, least) = status.split_once("smallest force within reach: ").expect("a reachable value");
-    assert!(before.contains("stage 2: the contact detaches before -1 N"), "{status}");
+    let refusal = driver.refusal().expect("a refusal").to_owned();
+    let (before, least) = refusal.split_once("smallest force within reach: ").expect("a reachable value");
+    assert!(before.contains("stage 2: the contact detaches before -1 N"), "{refusal}");
     let least = least.split("N").next().unwrap().to_owned() + "N";
+    driver.press("Esc");
     driver.enter(&format!("20 µN, {least}, separation"));
     assert!(is_up_to_date(&driver.app), "{}", driver.status());
 }
