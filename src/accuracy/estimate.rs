@@ -52,7 +52,7 @@ impl Estimate {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
             Target::AdhesionForce => format!("grid ± {}", per_cent(self.error)),
-            Target::Curve => format!("curve, grid ± {}", per_cent(self.error)),
+            Target::Curve => format!("grid ± {} of the curve", per_cent(self.error)),
         }
     }
 }
@@ -186,7 +186,7 @@ mod tests {
         for (error, text) in errors.into_iter().zip(texts) {
             assert_eq!(words(Target::AdhesionForce, error), format!("grid ± {text}"), "{error}");
         }
-        assert_eq!(words(Target::Curve, 0.9), "curve, grid ± 90 %");
+        assert_eq!(words(Target::Curve, 0.9), "grid ± 90 % of the curve");
     }
 
     #[test]

@@ -30,17 +30,17 @@ pub struct ExploreArguments {
     pub overrides: Overrides,
     #[command(flatten)]
     pub look: LookArguments,
-    /// Show this measured force curve over the displacement, with the residual of the scene
-    #[arg(long, value_name = "CURVE", conflicts_with = "restore")]
-    pub measured: Option<PathBuf>,
-    #[command(flatten, next_help_heading = "Measured curve")]
-    pub reading: CurveOptions,
     /// Open the unsaved changes of a session that was interrupted
     ///
     /// While the explorer runs, unsaved changes are kept in ~/.local/state/asperity/unsaved.
     /// They are removed on saving and on leaving without saving.
     #[arg(long, conflicts_with_all = ["scene", "set"], verbatim_doc_comment)]
     pub restore: bool,
+    /// Show this measured force curve with the residual of the scene
+    #[arg(long, value_name = "CURVE", conflicts_with = "restore", help_heading = "Measured curve")]
+    pub measured: Option<PathBuf>,
+    #[command(flatten, next_help_heading = "Measured curve")]
+    pub reading: CurveOptions,
 }
 
 /// Colours and markers of the explorer, its mouse, and its configuration.

@@ -7,6 +7,7 @@ use super::editor::scene_of;
 use super::keys::Command;
 use super::map::Live;
 pub use super::map::{MapState, OpenStudy};
+pub use super::measured::Measured;
 use super::opening::Opening;
 pub use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
@@ -17,11 +18,9 @@ use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
 use super::studies::Findings;
 use super::theme::Appearance;
-use super::update::measured;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::{AxisScale, Span};
-use crate::experiment::MeasuredCurve;
 use crate::export::LoopQuantities;
 use crate::scene::{Change, Document, Move, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
@@ -91,35 +90,6 @@ impl Ghost {
         let changes = self.document.changes_to(present);
         let parts: Vec<String> = changes.iter().map(words).collect();
         if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
-    }
-}
-
-/// A measured force curve beside the scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
-    /// Name of its file.
-    pub name: String,
-    pub curve: Arc<MeasuredCurve>,
-    /// Measured displacement at first touch, m.
-    pub offset: f64,
-    /// Force before contact, N.
-    pub zero: f64,
-}
-
-impl Measured {
-    pub fn new(name: String, curve: MeasuredCurve) -> Self {
-        let offset = curve.displacement[curve.free];
-        Measured { name, curve: curve.into(), offset, zero: 0.0 }
-    }
-
-    /// The points on the curve of a scene with an instrument of this stiffness, N/m.
-    pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
-        let point = |(at, force): (&f64, &f64)| {
-            let force = force - self.zero;
-            let indentation = at - self.offset - force / stiffness;
-            CurvePoint { indentation, force, ..CurvePoint::default() }
-        };
-        self.curve.displacement.iter().zip(&self.curve.force).map(point).collect()
     }
 }
 
@@ -254,9 +224,22 @@ impl App {
             app.show_study(study_map);
         }
         if let Some(measured) = measured {
-            measured::show(&mut app, measured);
+            app.show_measured(measured);
         }
         app
+    }
+
+    /// Shows a measured curve. The scene takes its loading, as an edit that can be undone.
+    fn show_measured(&mut self, measured: Measured) {
+        match measured.curve.load(&self.edit.document, measured.offset) {
+            Ok(loaded) => {
+                self.edit.adopt(loaded);
+                self.set_done("the scene has the loading of the measured curve; u returns to its own");
+            }
+            Err(errors) => self.set_error(errors.to_string()),
+        }
+        self.view.curve.quantities = LoopQuantities::ForceDisplacement;
+        self.measured = Some(measured);
     }
 
     pub(super) fn set_done(&mut self, text: impl Into<String>) {

@@ -71,9 +71,12 @@ impl Editor {
         around.filter_map(row).next().unwrap_or(self.selected)
     }
 
-    /// Makes a document the explored one; undo returns to the former one.
+    /// Makes a document the explored one; undo returns to the former one, unless they are the same.
     pub fn adopt(&mut self, document: Document) {
-        self.past.push(replace(&mut self.document, document));
+        let before = replace(&mut self.document, document);
+        if before.name() != self.document.name() || before.text() != self.document.text() {
+            self.past.push(before);
+        }
         if self.past.len() > UNDO_DEPTH {
             self.past.remove(0);
         }

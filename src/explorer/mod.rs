@@ -18,6 +18,7 @@ pub mod keys;
 pub mod layout;
 mod manual_body;
 pub mod map;
+mod measured;
 mod opening;
 pub mod pane;
 pub mod panel;

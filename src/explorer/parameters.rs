@@ -1,9 +1,10 @@
 //! The list of parameters: the fields of the present scene that can be changed, in groups, by use.
 
 use crate::scene::{
-    Document, Effect, Field, Move, Range, RoughnessParameter, STAGE, exact_quantity, field, format_quantity,
+    Document, Effect, Field, Move, Range, RoughnessParameter, STAGE, choice_in_words, field, format_quantity,
     loading_text, ron_float, stage_in_ron,
 };
+use crate::text::grouped;
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
 /// number of springs that resolves the roughness. Form and material are chosen once for a scene.
@@ -144,7 +145,7 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         let written = if is_given { Some(written.to_owned()) } else { waves(document, field) };
         let Some(written) = written else { continue };
         let shown = match field.path {
-            "loading" => loading_text(&document.scene().loading, exact_quantity),
+            "loading" => loading_text(&document.scene().loading, format_quantity),
             "roughness.roll_off" if !is_given => "none".to_owned(),
             _ if !is_given => format!("= {}", shown(field, &written)),
             _ => shown(field, &written),
@@ -245,8 +246,11 @@ fn shown(field: &Field, written: &str) -> String {
             let name = written.split('(').next().unwrap_or(written).trim();
             match (name, field.path) {
                 ("", "material" | "adhesion") => first_name(written).to_owned(),
-                (name, _) => name.to_owned(),
+                (name, _) => choice_in_words(name),
             }
+        }
+        Range::Whole(..) if field.path != "roughness.seed" => {
+            written.parse().map_or(written.to_owned(), grouped)
         }
         Range::Text { .. } => text_of(written),
         _ => written.split_whitespace().collect::<Vec<_>>().join(" "),

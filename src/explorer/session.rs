@@ -126,6 +126,10 @@ pub fn open(
     let frame_rate = app.config.frame_rate;
     // Terminal multiplexers keep a screen of their own.
     app.view.lacks_octants = ["TMUX", "STY"].iter().any(|name| std::env::var_os(name).is_some());
+    if app.view.lacks_octants && appearance.marker == Marker::Octant {
+        app.view.appearance.marker = Marker::Braille;
+        app.set_done("terminal multiplexers have no width for octants: braille is used");
+    }
     if let Some(warning) = options.warning {
         app.set_error(warning);
     }

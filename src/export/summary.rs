@@ -367,7 +367,7 @@ mod tests {
         let unknown = text(document.scene(), &outcome, None);
         assert!(row(&unknown).ends_with(&format!("{force}, error unknown")), "{unknown}");
         let of_curve = with(Target::Curve, 2e-3);
-        assert!(row(&of_curve).ends_with(&format!("{force}, curve, grid ± 0.2 %")), "{of_curve}");
+        assert!(row(&of_curve).ends_with(&format!("{force}, grid ± 0.2 % of the curve")), "{of_curve}");
         let brief = brief_summary(document.scene(), &outcome);
         assert!(brief.lines().count() <= 10, "{brief}");
         let whole = with(Target::AdhesionForce, 0.01);

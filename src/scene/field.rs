@@ -216,6 +216,15 @@ impl Field {
             };
             return Ok(format!("({}, {})", written(first?), written(last?)));
         }
+        if let Range::Choice(choices) = self.range
+            && let Some(choice) = choices.iter().find(|choice| choice_in_words(choice) == typed)
+        {
+            return Ok((*choice).to_owned());
+        }
+        let digits: String = typed.split_whitespace().collect();
+        if matches!(self.range, Range::Whole(..)) && digits.parse::<u64>().is_ok() {
+            return Ok(digits);
+        }
         if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
             return Ok(typed.to_string());
         }
@@ -236,6 +245,18 @@ impl Field {
             _ => Ok(typed.to_string()),
         }
     }
+}
+
+/// A choice without fields in words, as users read and type it: `sub-cell` of `SubCell`.
+pub(crate) fn choice_in_words(name: &str) -> String {
+    let mut words = String::new();
+    for character in name.chars() {
+        if character.is_uppercase() && !words.is_empty() {
+            words.push('-');
+        }
+        words.extend(character.to_lowercase());
+    }
+    words
 }
 
 /// Returns true for a name with an ending or a folder, unlike any choice of a field.

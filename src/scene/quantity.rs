@@ -129,23 +129,27 @@ fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// Returns true for a unit that takes SI prefixes: any but the powers of a metre of a power law.
+/// Returns true for a unit that takes SI prefixes: any but powers of a metre, whose prefix has the power too.
 fn has_prefixes(unit: &str) -> bool {
-    !unit.contains(['−', '('])
+    !unit.contains(['−', '(', '³'])
 }
 
 /// A value with its unit for readers, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
 ///
 /// Numbers without unit have no prefix; those much smaller or larger than one have an exponent.
 pub fn format_quantity(value: f64, unit: &str) -> String {
-    // The number next to zero is a state just after a jump at zero.
-    let value = if value.is_subnormal() { 0.0 } else { value };
-    // Rounded first, so that 999.99 becomes 1000 before the choice of its prefix.
-    with_unit(value, &format!("{value:.*e}", DIGITS - 1), unit)
+    format_rounded(value, DIGITS, unit)
 }
+
+/// Magnitude below which a quantity with a unit is a zero with rounding: far below the smallest prefix.
+const ROUNDING: f64 = 1e-36;
 
 /// Formats with fewer significant digits.
 pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
+    // The number next to zero is a state just after a jump at zero.
+    let least = if unit == "1" || unit.is_empty() { f64::MIN_POSITIVE } else { ROUNDING };
+    let value = if value.abs() < least { 0.0 } else { value };
+    // Rounded first, so that 999.99 becomes 1000 before the choice of its prefix.
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 

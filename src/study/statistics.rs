@@ -311,10 +311,7 @@ mod tests {
         assert_eq!((all.count, all.range), (3, (1e-200, 5e-200)));
         assert!(near(standard_error, 2e-200 / 3.0_f64.sqrt()));
         assert!(near(confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
-        assert_eq!(
-            all.words("N"),
-            "median 3e-200 N (quartiles 2e-200 to 4e-200 N, range 1e-200 to 5e-200 N)"
-        );
+        assert_eq!(all.words("1"), "median 3e-200 (quartiles 2e-200 to 4e-200, range 1e-200 to 5e-200)");
         let one = of(&[0.3], (0.0, 1.0)).unwrap();
         assert_eq!((one.count, one.mean, one.range, one.spread), (1, 0.3, (0.3, 0.3), None));
         assert_eq!(of(&[], (0.0, 1.0)), None);

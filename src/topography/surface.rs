@@ -144,7 +144,8 @@ impl Topography {
         let (columns, rows) = (self.columns, self.rows());
         if rows > 1 {
             let fault = format!("a map of {rows} rows of {columns} points");
-            return Err(refused(Place::File, fault, "a profile"));
+            let allowed = "a profile; in a scene with as_line: false the equivalent line of a map";
+            return Err(refused(Place::File, fault, allowed));
         }
         let positions = match self.grid {
             Grid::Positions(positions) => positions,
@@ -298,6 +299,9 @@ mod tests {
         let steep = surface(&[0.0, 1e5, 0.0, 0.0], 2, Grid::Even([1e-5; 2]));
         assert!(steep.unwrap_err().to_string().starts_with("point 2: a slope of 1e10"));
         let error = map().into_profile().unwrap_err().to_string();
-        assert_eq!(error, "a map of 2 rows of 3 points; allowed: a profile");
+        assert_eq!(
+            error,
+            "a map of 2 rows of 3 points; allowed: a profile; in a scene with as_line: false the equivalent line of a map"
+        );
     }
 }

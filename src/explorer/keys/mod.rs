@@ -155,7 +155,7 @@ static TABLE: &[Entry] = &[
     row("r", EXPLORE, "restart", Do(movement::restart), "restart", "play from the beginning", ANIMATION),
     row(">", EXPLORE, "next-stage", Do(|app| movement::go_to_leg(app, 1)), "", "jump to the start of the next loading stage", ANIMATION),
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
-    row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the unloading stages", ANIMATION),
+    row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the last unloading stage", ANIMATION),
 
     row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL),
     row("]", EXPLORE, "press", Do(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),
@@ -259,6 +259,8 @@ static TABLE: &[Entry] = &[
 
     row("↓ j space", HELP, "next-row", Do(|app| dialogue::select(app, 1)), "scroll", "scroll down", TEXT),
     row("↑ k", HELP, "previous-row", Do(|app| dialogue::select(app, -1)), "", "scroll up", TEXT),
+    row("Home g", HELP, "first-row", Do(|app| dialogue::select(app, i32::MIN)), "", "scroll to the beginning", TEXT),
+    row("End G", HELP, "last-row", Do(|app| dialogue::select(app, i32::MAX)), "", "scroll to the end", TEXT),
     row("Esc ? q F1 Ctrl+c", HELP, "close-help", Do(dialogue::cancel), "back", "close the help", TEXT).rank(0),
     row("↓ Ctrl+n", SEARCHED, "next-row", Do(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
     row("↑ Ctrl+p", SEARCHED, "previous-row", Do(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),

@@ -55,13 +55,25 @@ const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉
     AÀÁÂÃÄÅ CÇ EÈÉÊË IÌÍÎÏ NÑ OÒÓÔÕÖØ UÙÚÛÜ YÝ aàáâãäå cç eèéêë iìíîï nñ oòóôõöø uùúûü yýÿ";
 
 /// Replaces all symbols by printable ASCII, each in its place. Curves of dots become the characters with the nearest
-/// shapes. `±` before a blank becomes `+-`; a symbol without a substitute becomes `?`.
+/// shapes. `±` before a blank becomes `+-`, `10⁵` becomes `1e5`; a symbol without a substitute becomes `?`.
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {
         let blanks = (1..row.len()).filter(|&at| row[at - 1].symbol() == "±" && row[at].symbol() == " ");
         for at in blanks.collect::<Vec<_>>() {
             row[at].set_char('-');
+        }
+        // A power of ten keeps its exponent: `1e5` for `10⁵`.
+        let is = |at: usize, signs: &str| row.get(at).is_some_and(|cell| signs.contains(cell.symbol()));
+        let powers = (0..row.len()).filter(|&at| {
+            is(at, "0")
+                && is(at + 1, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+                && at > 0
+                && is(at - 1, "1")
+                && (at == 1 || is(at - 2, " │┤"))
+        });
+        for at in powers.collect::<Vec<_>>() {
+            row[at].set_char('e');
         }
     }
     let replaced: Vec<_> =

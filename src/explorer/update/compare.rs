@@ -49,12 +49,14 @@ pub fn pin(app: &mut App) {
     if app.ghosts.iter().any(|kept| kept.document.scene() == ghost.document.scene()) {
         return app.set_done("this loop is kept already");
     }
-    if app.ghosts.len() == MOST_GHOSTS {
+    let is_full = app.ghosts.len() == MOST_GHOSTS;
+    if is_full {
         app.ghosts.remove(0);
     }
     app.ghosts.push(ghost);
     let name = app.newest_letter();
-    app.set_done(format!("kept as ghost {name}; x swaps it with the scene"));
+    let rest = if is_full { "the oldest ghost has been removed" } else { "x swaps it with the scene" };
+    app.set_done(format!("kept as ghost {name}; {rest}"));
 }
 
 pub fn swap(app: &mut App) {

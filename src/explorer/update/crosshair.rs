@@ -12,8 +12,10 @@ pub fn toggle(app: &mut App) {
     if app.view.crosshair.take().is_some() {
         return;
     }
-    if app.view.pane.row().keys != Some(Context::Crosshair) {
-        app.view.pane = Pane::Force;
+    match app.view.pane.row().keys {
+        Some(Context::Crosshair) => {}
+        Some(Context::Parameters) => app.view.pane = Pane::Force,
+        _ => return app.set_done("the selected pane has no curves for the crosshair to read"),
     }
     let (low, high) = ends(app);
     app.view.crosshair = Some(0.5 * (low + high));

@@ -35,7 +35,6 @@ pub fn select(app: &mut App, rows: i32) {
     let end = is_help.then(|| usize::from(help_end(app)));
     let Some(prompt) = &mut app.prompt else { return };
     let last = end.unwrap_or(prompt.found.len().saturating_sub(1));
-    let rows = if is_help { rows.signum() } else { rows };
     prompt.selected = prompt.selected.min(last).saturating_add_signed(rows as isize).min(last);
 }
 

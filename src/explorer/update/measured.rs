@@ -6,7 +6,7 @@ use crate::explorer::app::{App, Measured};
 use crate::explorer::panes::Exported;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
-use crate::export::{FitReport, LoopQuantities};
+use crate::export::FitReport;
 use crate::scene::{format_quantity, format_range, quoted};
 use std::sync::Arc;
 
@@ -22,17 +22,6 @@ pub struct Fitting {
     /// Number of computed curves.
     pub evaluations: usize,
     found: Option<Result<Arc<Fit>, String>>,
-}
-
-/// Shows a measured curve. The scene takes its loading, as an edit that can be undone.
-pub fn show(app: &mut App, measured: Measured) {
-    let loaded = measured.curve.load(&app.edit.document, measured.offset);
-    app.measured = Some(measured);
-    app.view.curve.quantities = LoopQuantities::ForceDisplacement;
-    edit::take_over(app, loaded);
-    if !app.is_refused() {
-        app.set_done("the scene has the loading of the measured curve; u returns to its own");
-    }
 }
 
 /// The study of the measured curve: the fit that was asked for, else the place of the curve and the residual.

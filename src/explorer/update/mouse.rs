@@ -2,7 +2,7 @@
 
 use super::{crosshair, dialogue, edit, look, map, movement};
 use crate::explorer::action::{Gesture, Mouse};
-use crate::explorer::app::{App, Message, Pane};
+use crate::explorer::app::{App, Pane};
 use crate::explorer::keys::{Command, footer_row};
 use crate::explorer::layout::Layout;
 use crate::explorer::panel::Under;
@@ -15,8 +15,8 @@ pub fn act(app: &mut App, mouse: Mouse) {
         && Layout::of(app).footer.is_some_and(|footer| footer.y == mouse.row)
         && app.view.demo.is_none()
     {
-        // A long reason hides the keys.
-        if !matches!(app.message, Some(Message::Error(_) | Message::Refused(_))) {
+        // A long text hides the keys.
+        if app.message.is_none() {
             app.chosen = footer_row(app, mouse.column).map(|row| Command { row, character: None });
         }
         return;

@@ -12,6 +12,8 @@ use std::time::Duration;
 /// Time of the animation for one loading stage, at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
 const STEPS: f64 = 120.0;
+/// Share of a stage that counts as its start.
+const NEAR_START: f64 = 0.05;
 /// Small and large steps of manual loading in the whole range of indentations.
 const HAND_STEPS: (f64, f64) = (400.0, 40.0);
 /// Most kept points of the path of manual loading.
@@ -61,7 +63,8 @@ pub fn restart(app: &mut App) {
 /// Goes to the start of the leg `legs` after this one; back from inside a leg, to its own start first.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
-    let back = legs < 0 && app.play.done > 0.0;
+    // A playing animation is past the start at once.
+    let back = legs < 0 && app.play.done > NEAR_START;
     let leg = app.play.leg.saturating_add_signed(if back { 0 } else { legs as isize });
     app.play.leg = leg.min(app.legs().len().saturating_sub(1));
     app.play.done = 0.0;

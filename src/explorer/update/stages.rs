@@ -164,7 +164,8 @@ pub fn keep_path(app: &mut App) {
             let count = document.scene().loading.len();
             edit::adopt(app, document);
             app.play = Player { leg: count - 1, done: 1.0, playing: false };
-            app.set_done(format!("the path is the loading of the scene, {count} stages; u undoes"));
+            let stages = if count == 1 { "1 stage".to_owned() } else { format!("{count} stages") };
+            app.set_done(format!("the path is the loading of the scene, {stages}; u undoes"));
         }
     }
 }

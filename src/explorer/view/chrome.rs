@@ -67,6 +67,9 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
             prompted(Line::raw(label(prompt, width)), &prompt.line, width, theme)
         }
         (_, Some(Message::Error(why) | Message::Refused(why))) => return refusal(why, rows),
+        (_, Some(Message::Done(text))) if Span::raw(text.as_str()).width() > width.into() => {
+            return wrapped_within(&Line::raw(text.clone()), width, rows);
+        }
         (_, Some(Message::Done(text))) => {
             let mut line = Line::raw(format!("{text}  "));
             line.extend(headline(app, usize::from(width).saturating_sub(line.width())));

@@ -39,7 +39,8 @@ pub fn draw_commands(
     buffer: &mut Buffer,
 ) {
     let width = area.width.min(WIDEST);
-    let height = area.height.min(prompt.found.len().max(1) as u16 + 2);
+    // Enough rows for a frame with the title.
+    let height = area.height.min(prompt.found.len().max(4) as u16 + 2);
     let area = Rect { x: area.x + (area.width - width) / 2, width, height, ..area };
     let list = list(prompt, ("Commands", entries.len(), "no command fits"), |index, is_selected| {
         Some(command(entries.get(index)?, is_selected, width.saturating_sub(2), look.theme))

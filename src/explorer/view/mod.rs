@@ -41,7 +41,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
         lists::draw_commands(panes, look, prompt, entries, buffer);
     }
     crate::draw::dry(buffer);
-    // A long reason takes the place of the keys as well.
+    // A long text takes the place of the keys as well.
     let rows = 1 + u16::from(layout.footer.is_some());
     let status = chrome::status(app, area.width, rows);
     panel::draw_lines(&status, Rect { height: rows, ..layout.status }.intersection(area), buffer);

@@ -132,7 +132,7 @@ fn the_headline_has_its_error() {
     // Without a pulling force: the largest force, and the error of its curve.
     let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
     let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
-    assert!(driver.status().starts_with("F_max 20 µN curve, grid ± 2 %"), "{}", driver.status());
+    assert!(driver.status().starts_with("F_max 20 µN grid ± 2 % of the curve"), "{}", driver.status());
 }
 
 /// Types a tolerance.

@@ -69,8 +69,8 @@ fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
         };
         for size in [(300, 40), (120, 40), (80, 24), (40, 12), (20, 6)] {
             driver.resize(size);
-            // A long reason takes the place of the keys.
-            if driver.refusal().is_some() {
+            // A long text takes the place of the keys.
+            if driver.refusal().is_some() || driver.app.message.is_some() {
                 continue;
             }
             let shown = footer(&driver);
