@@ -186,6 +186,8 @@ pub enum Sign {
     Diamond,
     Ring,
     Down,
+    Left,
+    Right,
     Cross,
     HollowDiamond,
 }

@@ -2,16 +2,18 @@
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span};
+use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span};
 use crate::io::{Table, object};
 use crate::scene::{Adhesion, Scene, format_quantity, format_rounded};
-use crate::study::{Influence, OTHER_SEEDS, STEP, Sensitivity};
+use crate::study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
 use crate::text::grouped;
 
 /// Changes from here on are stated as a factor.
 const LARGE: f64 = 2.0;
 /// Smallest end of the axis of a chart, percent.
 const LEAST: f64 = 1.0;
+/// Least distance of bars in a picture, px.
+const ROW: f64 = 14.0;
 /// Half the height of a bar, in distances of bars.
 const HALF: f64 = 0.35;
 
@@ -34,83 +36,114 @@ fn change_text(change: f64) -> String {
     }
 }
 
-/// Changes towards both sides in words: `-8.1 to +12 %`.
-fn changes_text(sides: [Option<f64>; 2]) -> String {
-    let [low, high] = sides.map(|side| side.map_or_else(|| "-".to_owned(), change_text));
-    let short = if high.ends_with(" %") { low.trim_end_matches(" %") } else { &low };
-    if low == high { low } else { format!("{short} to {high}") }
-}
-
-/// Name of the row of random phases.
+/// Stands for the changes by a number that is not allowed.
+pub const NOT_ALLOWED: &str = "not allowed";
 const OTHERS: &str = "other seeds";
 
-/// The results of the scene and their changes in words, the largest influence on the adhesion force first: a heading,
-/// then names, values in the scene, and one column for each result.
-pub fn sensitivity_table(sensitivity: &Sensitivity) -> Vec<[String; 5]> {
-    let results = Sensitivity::RESULTS;
-    let [adhesion, zero_load, loss] = results.map(|result| result.symbol().to_owned());
-    let present = |result: usize| {
-        let value = sensitivity.present[result];
-        value.map_or_else(|| "-".to_owned(), |value| format_quantity(value, results[result].unit()))
-    };
-    let row = |name: String, value, text: &dyn Fn(usize) -> String| [name, value, text(0), text(1), text(2)];
-    let head = ["number".to_owned(), "value".to_owned(), adhesion, zero_load, loss];
-    let scene = row("this scene".to_owned(), String::new(), &present);
-    let influences = sensitivity.ordered(0).into_iter().map(|influence| {
-        let value = format_quantity(influence.value, influence.axis.unit);
-        // Whole numbers change by whole steps.
-        let step = influence.sides.iter().flatten().map(|side| (side.0 - influence.value).abs()).next();
-        let is_usual = |step: &f64| (step / influence.value.abs() - STEP).abs() < 1e-9;
-        let step = step.filter(|step| !is_usual(step)).map_or_else(String::new, |step| format!(" ± {step}"));
-        let value = value + &step;
-        row(influence.axis.symbol_or_name().to_owned(), value, &|result| {
-            changes_text(sensitivity.changes(influence, result))
-        })
-    });
-    let seeds = sensitivity.seeds.map(|_| {
-        row(OTHERS.to_owned(), String::new(), &|result| changes_text(sensitivity.changes_of_seeds(result)))
-    });
-    [head, scene].into_iter().chain(influences).chain(seeds).collect()
+/// One change of a number, or one end of the range over the seeds.
+struct Side<'a> {
+    /// The changed number; `None` for the seeds.
+    influence: Option<&'a Influence>,
+    /// 0 for the smaller number and the least result, else 1.
+    side: usize,
+    /// Changes of the results; `None` for a number that is not allowed.
+    changes: Option<[Option<f64>; 3]>,
 }
 
-/// Bars of the changes of a result in percent, at most `most` of them, the largest at the top.
-pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
-    let seeds = sensitivity.seeds.map(|_| sensitivity.changes_of_seeds(result));
-    let numbers = most.saturating_sub(seeds.iter().len()).max(1);
-    let shown = sensitivity.ordered(result).into_iter().take(numbers);
-    let shown: Vec<_> = shown.map(|influence| (influence, sensitivity.changes(influence, result))).collect();
-    let sizes = shown.iter().flat_map(|(_, sides)| sides).flatten().map(|change| 100.0 * change.abs());
-    let end = 1.05 * sizes.fold(LEAST, f64::max);
-    // The lowest bar is at 0.
-    let count = shown.len() + seeds.iter().len();
-    let bar = |row: usize, change: f64| {
-        let (row, change) = ((count - 1 - row) as f64, 100.0 * change);
-        ((change.min(0.0), change.max(0.0)), (row - HALF, row + HALF))
-    };
-    let side = |side: usize, sign: &str, ink| {
-        let bars = shown.iter().enumerate().filter_map(|(row, (_, sides))| Some(bar(row, sides[side]?)));
-        let name = Label::plain(&format!("{sign}{} %", 100.0 * STEP));
-        Layer::new(name, ink, Shape::Boxes(bars.collect()))
-    };
-    let mut layers = vec![side(0, "-", Ink::Surface), side(1, "+", Ink::Contact)];
-    let name = |influence: &Influence| Label::symbol_or_name(influence.axis.symbol, &influence.axis.name);
-    let mut names: Vec<Label> =
-        shown.iter().map(|(one, sides)| name(one).then(&format!(" {}", changes_text(*sides)))).collect();
-    if let Some(ends) = seeds {
-        let bars = ends.into_iter().flatten().map(|change| bar(count - 1, change));
-        layers.push(Layer::new(OTHERS.into(), Ink::Kept, Shape::Boxes(bars.collect())));
-        names.push(Label::plain(&format!("{OTHERS} {}", changes_text(ends))));
+impl Side<'_> {
+    fn name(&self) -> Label {
+        self.influence.map_or(OTHERS.into(), |one| Label::symbol_or_name(one.axis.symbol, &one.axis.name))
     }
-    names.reverse();
-    layers.push(Layer::unnamed(Ink::Quiet, Shape::Upright(0.0)));
-    let (span, symbol) = (Span { low: -end, high: end }, Sensitivity::RESULTS[result].symbol());
-    let x = Axis::new(AxisScale::Linear, span, "change of", symbol, "%");
+
+    /// The change of the number: in percent, for a whole number by how much.
+    fn step(&self) -> String {
+        match self.influence {
+            None => ["least", "most"][self.side].to_owned(),
+            Some(one) if one.axis.is_whole() => format!("{:+}", one.sides[self.side].0 - one.value),
+            Some(_) => format!("{:+} %", [-100.0, 100.0][self.side] * STEP),
+        }
+    }
+
+    fn text(&self, result: usize) -> String {
+        let Some(changes) = self.changes else { return NOT_ALLOWED.to_owned() };
+        changes[result].map_or_else(|| "-".to_owned(), change_text)
+    }
+}
+
+/// Both changes of at most `most` numbers, of which the first has the largest influence on a result, and the seeds.
+fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
+    let changes = |values: &Values| sensitivity.changes(values);
+    let numbers = sensitivity.ordered(result).into_iter().take(most).flat_map(|influence| {
+        let changes = influence.sides.each_ref().map(|(_, values)| values.as_ref().map(changes));
+        [0, 1].map(|side| Side { influence: Some(influence), side, changes: changes[side] })
+    });
+    let seeds = sensitivity.seeds.iter().flat_map(|ends| {
+        [0, 1].map(|side| Side { influence: None, side, changes: Some(changes(&ends[side])) })
+    });
+    numbers.chain(seeds).collect()
+}
+
+/// The changes of the results in words, the largest influence on the adhesion force first: a heading, the results of the
+/// scene, then for each change of at most `most` numbers their name and value, the change, and one column for each result.
+pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 6]> {
+    let row = |texts: [&str; 3], result: &dyn Fn(usize) -> String| {
+        let [name, value, change] = texts.map(str::to_owned);
+        [name, value, change, result(0), result(1), result(2)]
+    };
+    let results = Sensitivity::RESULTS;
+    let head = row(["number", "value", "change"], &|result| results[result].symbol().to_owned());
+    let scene = row(["this scene", "", ""], &|result| {
+        let value = sensitivity.present[result];
+        value.map_or_else(|| "-".to_owned(), |value| format_quantity(value, results[result].unit()))
+    });
+    let changes = sides(sensitivity, 0, most).into_iter().map(|side| {
+        let value = side.influence.map(|one| format_quantity(one.value, one.axis.unit)).unwrap_or_default();
+        let (name, step) = (side.name().to_string(), side.step());
+        let named = if side.side == 0 { [name.as_str(), &value] } else { [""; 2] };
+        // A number that is not allowed says so once.
+        row([named[0], named[1], &step], &|result| match side.changes {
+            None if result > 0 => String::new(),
+            _ => side.text(result),
+        })
+    });
+    [head, scene].into_iter().chain(changes).collect()
+}
+
+/// A bar for each change of a result in percent by at most `most` numbers, the largest at the top.
+pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
+    let shown = sides(sensitivity, result, most);
+    let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
+    let numbers = shown.iter().filter(|side| side.influence.is_some());
+    let end = 1.05 * numbers.filter_map(percent).map(f64::abs).fold(LEAST, f64::max);
+    // Nothing falls by more than all of itself.
+    let span = Span { low: -end.min(105.0), high: end };
+    let (mut bars, mut names, mut beyond) =
+        ([const { Vec::new() }; 3], Vec::new(), [const { Vec::new() }; 2]);
+    // The lowest bar is at 0.
+    for (row, side) in (0..).map(f64::from).zip(shown.iter().rev()) {
+        names.push(side.name().then(&format!(", {}: {}", side.step(), side.text(result))));
+        let Some(change) = percent(side) else { continue };
+        let bar = ((change.min(0.0), change.max(0.0)), (row - HALF, row + HALF));
+        bars[side.influence.map_or(2, |_| side.side)].push(bar);
+        if change < span.low || change > span.high {
+            beyond[usize::from(change > 0.0)].push((change.clamp(span.low, span.high), row));
+        }
+    }
+    let bars = [Ink::Surface, Ink::Contact, Ink::Kept].into_iter().zip(bars.map(Shape::Boxes));
+    let ends = beyond.into_iter().zip([Sign::Left, Sign::Right]);
+    let ends = ends.map(|(points, sign)| (Ink::Text, Shape::signs(points, sign)));
+    let layers = std::iter::once((Ink::Quiet, Shape::Upright(0.0))).chain(bars).chain(ends);
+    let layers = layers.map(|(ink, shape)| Layer::unnamed(ink, shape)).collect();
+    let x = Axis::new(AxisScale::Linear, span, "change of", Sensitivity::RESULTS[result].symbol(), "%");
     Chart::new(x, Axis::of_names(names), layers)
 }
 
 impl SensitivityReport<'_> {
     /// Sentence on the quantities that stay while a number changes, and on the number of seeds.
     fn note(&self) -> String {
+        if let Some(missing) = self.sensitivity.missing() {
+            return missing.to_owned();
+        }
         let follows = match self.scene.adhesion {
             Some(Adhesion { work: None, .. }) => ", and the work of adhesion follows from them",
             _ => "",
@@ -125,22 +158,21 @@ impl Report for SensitivityReport<'_> {
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
-        sheet.heading(&format!(
-            "Changes by {} % less and more of one number at a time, {} springs",
-            100.0 * STEP,
-            grouped(self.scene.numerics.points)
-        ));
-        sheet.table(&sensitivity_table(self.sensitivity));
+        if self.sensitivity.missing().is_none() {
+            let springs = grouped(self.scene.numerics.points);
+            sheet.heading(&format!("Changes of the results by those of one number, {springs} springs"));
+            sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
+        }
         sheet.heading(&self.note());
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let values = |values: [Option<f64>; 3]| {
+        let values = |values: Values| {
             object! { "adhesion_force": values[0], "zero_load_adhesion_force": values[1], "dissipated_energy": values[2] }
         };
-        let side = move |side: &Option<(f64, [Option<f64>; 3])>| {
-            side.map(|(value, results)| object! { "value": value, "results": values(results) })
+        let side = move |(value, results): &(f64, Option<Values>)| {
+            results.map(|results| object! { "value": *value, "results": values(results) })
         };
         let influence = |influence: &Influence| {
             let [smaller, larger] = influence.sides.each_ref().map(side);
@@ -166,7 +198,9 @@ impl Report for SensitivityReport<'_> {
         let rows = || {
             let all = self.sensitivity.influences.iter();
             let sides = all.flat_map(|one| {
-                one.sides.iter().flatten().map(|side| (one.axis.path.as_str(), Some(side.0), side.1))
+                let row =
+                    |side: &(f64, Option<Values>)| Some((one.axis.path.as_str(), Some(side.0), side.1?));
+                one.sides.iter().filter_map(row).collect::<Vec<_>>()
             });
             std::iter::once(("", None, self.sensitivity.present)).chain(sides)
         };
@@ -180,15 +214,13 @@ impl Report for SensitivityReport<'_> {
     }
 
     fn figure(&self) -> Option<Figure> {
-        let charts = [0, 1, 2].map(|result| sensitivity_chart(self.sensitivity, result, usize::MAX));
-        let notes = vec![Label::plain(&self.note())];
-        Some(Figure {
-            title: self.title.to_owned(),
-            notes,
-            charts: charts.into(),
-            size: Figure::SMALL,
-            ..Figure::default()
-        })
+        let results = if self.sensitivity.missing().is_some() { 0 } else { 3 };
+        let chart = |result| sensitivity_chart(self.sensitivity, result, usize::MAX);
+        let charts: Vec<Chart> = (0..results).map(chart).collect();
+        let (title, notes) = (self.title.to_owned(), vec![Label::plain(&self.note())]);
+        let rows = charts.first().map_or(0, |chart| chart.y.names.len());
+        let size = (Figure::SMALL.0, Figure::SMALL.1.max(ROW * rows as f64));
+        Some(Figure { title, notes, charts, size, ..Figure::default() })
     }
 }
 
@@ -198,13 +230,57 @@ mod tests {
 
     #[test]
     fn changes_are_short() {
-        for (sides, text) in [
-            ([Some(-0.081), Some(0.123)], "-8.1 to +12 %"),
-            ([Some(0.0), Some(1e-5)], "0 %"),
-            ([Some(-0.5), Some(3.2)], "-50 % to ×4.2"),
-            ([Some(-0.019), None], "-1.9 % to -"),
-        ] {
-            assert_eq!(changes_text(sides), text);
+        for (change, text) in
+            [(-0.081, "-8.1 %"), (0.123, "+12 %"), (1e-5, "0 %"), (3.2, "×4.2"), (-0.5, "-50 %")]
+        {
+            assert_eq!(change_text(change), text);
         }
+    }
+
+    /// A whole number changes by a whole step, what is not allowed is said, and a bar beyond the frame has an arrow.
+    #[test]
+    fn each_change_has_a_row_and_a_bar_of_its_own() {
+        let scene = crate::scene::open("jkr-sphere").unwrap().scene().clone();
+        let influence = |path: &str, value: f64, sides| {
+            let axis =
+                crate::study::Axis::new(path, crate::study::Spacing::List, Vec::new(), &scene).unwrap();
+            Influence { axis, value, sides }
+        };
+        let force = |force: f64| Some([Some(force), None, Some(1.0)]);
+        let sensitivity = Sensitivity {
+            present: [Some(2e-6), None, Some(1.0)],
+            influences: vec![
+                influence("material.poisson_ratio", 0.5, [(0.45, force(1.8e-6)), (0.55, None)]),
+                influence("roughness.modes.0", 4.0, [(3.0, force(3e-6)), (5.0, force(2.5e-6))]),
+            ],
+            seeds: Some([[Some(1e-6), None, Some(1.0)], [Some(8e-6), None, Some(1.0)]]),
+        };
+        let rows = sensitivity_table(&sensitivity, 9).into_iter().map(|row| row.join("|"));
+        let expected = [
+            "number|value|change|F_a|F_a(0)|ΔW",
+            "this scene|||2 µN|-|1 J",
+            "k_min|4|-1|+50 %|-|0 %",
+            "||+1|+25 %|-|0 %",
+            "ν|0.5|-10 %|-10 %|-|0 %",
+            "||+10 %|not allowed||",
+            "other seeds||least|-50 %|-|0 %",
+            "||most|×4|-|0 %",
+        ];
+        assert_eq!(rows.collect::<Vec<_>>(), expected);
+        let chart = sensitivity_chart(&sensitivity, 0, 1);
+        let names: Vec<String> = chart.y.names.iter().map(Label::to_string).collect();
+        assert_eq!(
+            names,
+            ["other seeds, most: ×4", "other seeds, least: -50 %", "k_min, +1: +25 %", "k_min, -1: +50 %"]
+        );
+        let arrows = |sign| {
+            let is_arrow =
+                |layer: &&Layer| matches!(&layer.shape, Shape::Curve { sign: Some(one), .. } if *one == sign);
+            chart.layers.iter().find(is_arrow).map(|layer| layer.shape.points().len())
+        };
+        assert_eq!((arrows(Sign::Right), arrows(Sign::Left)), (Some(1), Some(0)));
+        let none = Sensitivity { present: [Some(0.0), None, None], ..sensitivity };
+        let report = SensitivityReport { title: "None", scene: &scene, sensitivity: &none };
+        assert!(report.text().unwrap().contains("no pull-off") && report.figure().unwrap().charts.is_empty());
     }
 }

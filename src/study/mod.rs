@@ -78,7 +78,7 @@ pub use quantity::Quantity;
 pub use results::{Merged, Results};
 pub use run::{Options, Progress, run};
 pub use select::{Selected, Selection};
-pub use sensitivity::{Influence, OTHER_SEEDS, STEP, Sensitivity};
+pub use sensitivity::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
 pub use shard::Shard;
 pub use statistics::{Column, RegimeCounts, Spread, Statistics};
 pub use status::{Attempt, ShardStatus, Status};

@@ -24,7 +24,7 @@ pub struct Influence {
     /// The number in the scene.
     pub value: f64,
     /// The smaller and the larger number, with the results; `None` for a number that the scene does not allow.
-    pub sides: [Option<(f64, Values)>; 2],
+    pub sides: [(f64, Option<Values>); 2],
 }
 
 /// Results of a scene and of its neighbours.
@@ -69,12 +69,11 @@ impl Sensitivity {
         });
         let mut all = Sensitivity { present: lines[0], influences: Vec::new(), seeds };
         for (axis, value) in numbers(scene) {
-            let mut sides = [None, None];
-            for (side, sign) in sides.iter_mut().zip([-1.0, 1.0]) {
-                let changed = changed(&axis, value, sign);
-                let neighbour = scene_with(scene, std::iter::once((&axis, changed)));
+            let mut sides = [-1.0, 1.0].map(|sign| (changed(&axis, value, sign), None));
+            for (changed, results) in &mut sides {
+                let neighbour = scene_with(scene, std::iter::once((&axis, *changed)));
                 if let Some(neighbour) = neighbour.ok().filter(|scene| check(scene).is_empty()) {
-                    *side = Some((changed, solve(&neighbour, 1)?[0]));
+                    *results = Some(solve(&neighbour, 1)?[0]);
                 }
             }
             all.influences.push(Influence { axis, value, sides });
@@ -83,31 +82,26 @@ impl Sensitivity {
         Ok(all)
     }
 
-    /// Relative changes of a result towards both sides of an influence; `None` where the result or its value in the scene
-    /// is missing or zero.
-    pub fn changes(&self, influence: &Influence, result: usize) -> [Option<f64>; 2] {
-        let values = |side: &Option<(f64, Values)>| side.and_then(|(_, values)| values[result]);
-        influence.sides.each_ref().map(|side| self.change(values(side), result))
+    /// Relative changes from the results of the scene to other ones; `None` where either is missing or that of the scene is
+    /// zero.
+    pub fn changes(&self, values: &Values) -> Values {
+        [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// Relative changes from the result of the scene to the smallest and the largest one of the random profiles.
-    pub fn changes_of_seeds(&self, result: usize) -> [Option<f64>; 2] {
-        self.seeds.map_or([None; 2], |ends| ends.map(|values| self.change(values[result], result)))
-    }
-
-    fn change(&self, value: Option<f64>, result: usize) -> Option<f64> {
-        let present = self.present[result].filter(|present| *present != 0.0)?;
-        Some(value? / present - 1.0)
+    /// The reason why no change of the adhesion force is known, if there is none to begin with.
+    pub fn missing(&self) -> Option<&'static str> {
+        let is_known = self.present[0].is_some_and(|force| force != 0.0);
+        (!is_known)
+            .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
     /// The influences, that with the largest change of a result first.
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {
-            self.changes(influence, result)
-                .into_iter()
-                .flatten()
-                .fold(0.0, |most: f64, one| most.max(one.abs()))
+            let sides =
+                influence.sides.iter().filter_map(|(_, values)| self.changes(values.as_ref()?)[result]);
+            sides.fold(0.0, |most: f64, one| most.max(one.abs()))
         };
         ordered.sort_by(|one, other| size(other).total_cmp(&size(one)));
         ordered
@@ -145,8 +139,8 @@ mod tests {
         assert_eq!(found.seeds, None);
         for influence in &found.influences {
             let expected = if matches!(influence.axis.symbol, "R" | "γ") { STEP } else { 0.0 };
-            for (change, sign) in found.changes(influence, 0).into_iter().zip([-1.0, 1.0]) {
-                let Some(change) = change else {
+            for ((_, values), sign) in influence.sides.iter().zip([-1.0, 1.0]) {
+                let Some(change) = values.and_then(|values| found.changes(&values)[0]) else {
                     assert_eq!((influence.axis.symbol, sign), ("ν", 1.0), "only ν cannot grow");
                     continue;
                 };

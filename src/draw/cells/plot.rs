@@ -45,7 +45,7 @@ impl CellPlot {
             left = labels.iter().map(|(_, text)| text.chars().count() as u16).max().unwrap_or(0) + 2;
         }
         // The bars beside names have the same content as the names.
-        let most = if chart.y.names.is_empty() { area.width / 2 } else { 2 * (area.width / 3) };
+        let most = if chart.y.names.is_empty() { area.width / 2 } else { 3 * area.width / 4 };
         let left = if left > most { 0 } else { left };
         let plot = Rect { x: area.x + left, width: area.width - left, height, ..area };
         CellPlot { plot, left, line, below, label }
@@ -208,7 +208,6 @@ impl CellPlot {
     }
 }
 
-/// Dots of a marker in a cell: columns and rows.
 fn dots_of(marker: Marker) -> (u16, u16) {
     match marker {
         Marker::Braille | Marker::Octant => (2, 4),

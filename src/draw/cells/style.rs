@@ -41,6 +41,8 @@ pub fn glyph(sign: Sign) -> &'static str {
         Sign::Diamond => "◆",
         Sign::Ring => "○",
         Sign::Down => "▼",
+        Sign::Left => "◀",
+        Sign::Right => "▶",
         Sign::Cross => "×",
         Sign::HollowDiamond => "◇",
     }

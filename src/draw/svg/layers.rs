@@ -7,7 +7,6 @@ use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
 use crate::draw::colour::{Ink, Rgb, ink_on};
 use crate::draw::contour::contour;
 
-/// Opacity of an area.
 pub(super) const AREA_OPACITY: f64 = 0.25;
 /// Least distance of two signs on a map, px.
 const SIGN_DISTANCE: f64 = 13.0;
@@ -51,7 +50,6 @@ pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
     }
 }
 
-/// Pen of guide lines.
 pub(super) fn guide(ink: Ink) -> Pen {
     let colour = if ink == Ink::Quiet { QUIET } else { ink.on_paper() };
     Pen { colour, width: 1.0, stroke: Stroke::Dashed }
@@ -115,9 +113,11 @@ pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, (x, y): Place, r: f64, colour
         Sign::Dot => svg.circle((x, y), r, colour, None),
         Sign::Ring => svg.circle((x, y), r, PAPER, Some(Pen::solid(colour, 0.45 * r))),
         Sign::Square => svg.rectangle((x - 0.9 * r, y - 0.9 * r), (x + 0.9 * r, y + 0.9 * r), colour),
-        Sign::Up | Sign::Down => {
-            let up = if sign == Sign::Up { r } else { -r };
-            let corners = [(x, y - 1.2 * up), (x + 1.1 * r, y + 0.9 * up), (x - 1.1 * r, y + 0.9 * up)];
+        Sign::Up | Sign::Down | Sign::Left | Sign::Right => {
+            let up = if matches!(sign, Sign::Up | Sign::Left) { r } else { -r };
+            let corners = [(0.0, -1.2 * up), (1.1 * r, 0.9 * up), (-1.1 * r, 0.9 * up)];
+            let turns = matches!(sign, Sign::Left | Sign::Right);
+            let corners = corners.map(|(dx, dy)| if turns { (x + dy, y + dx) } else { (x + dx, y + dy) });
             svg.area(&corners, colour, 1.0);
         }
         Sign::Diamond | Sign::HollowDiamond => {

@@ -1,19 +1,19 @@
-//! Sensitivity of the results to the numbers of the scene: bars of the changes of the adhesion force, and all changes.
+//! Sensitivity of the results to the numbers of the scene: bars of the changes of the adhesion force, beside all changes.
 
 use super::{Exported, PaneRow};
+use crate::draw::Label;
 use crate::explorer::app::App;
-use crate::explorer::panel::{Panel, names};
+use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
-use crate::explorer::view::text::{filled, fitted};
-use crate::export::sheet::Sheet;
-use crate::export::{SensitivityReport, sensitivity_chart, sensitivity_table};
+use crate::explorer::view::text::filled;
+use crate::export::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
 use crate::study::Sensitivity;
 use ratatui::layout::Size;
-use ratatui::text::Line;
+use ratatui::text::{Line, Span};
 use std::sync::Arc;
 
-/// Rows of a chart beside its bars: horizontal axis, its numbers and label, legend.
-const BESIDE: u16 = 4;
+/// Rows beside those of the bars: results of the scene, heading, horizontal axis with its numbers and label.
+const BESIDE: u16 = 5;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
@@ -27,8 +27,9 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Sensitivity",
-        "Y: change of the adhesion force where one number of the scene is 10 % smaller or larger, the largest change at the \
-         top, and the range over other random profiles",
+        "Y: bars of the change of the adhesion force where one number of the scene is 10 % smaller or larger, a whole number \
+         by 1 at least, the largest change at the top, and the range over other random profiles; beside them, where there \
+         is room, the changes of F_a, F_a(0) and the dissipated energy ΔW",
     )],
     ..PaneRow::EMPTY
 };
@@ -40,23 +41,51 @@ fn report(app: &App) -> Exported<'_> {
 }
 
 fn panel(app: &App, size: Size) -> Panel {
-    let title = "Sensitivity to ±10 % of each number".to_owned();
+    let title = "Sensitivity to ±10 %, or to whole steps".to_owned();
     let Some(found) = app.studies.value::<Sensitivity>() else {
         return Panel::of_text(title, app.studies.failure::<Sensitivity>().unwrap_or("computing …"));
     };
-    // The bars have the changes of the adhesion force.
-    let others = sensitivity_table(found)
-        .into_iter()
-        .map(|[name, value, _, zero_load, loss]| [name, value, zero_load, loss]);
-    let table = Sheet::of_table(&others.collect::<Vec<_>>());
-    let bars = size.height.saturating_sub(BESIDE);
-    // The table of all results where it leaves as many rows for the bars.
-    let foot: Vec<Line<'static>> = if bars > 2 * table.lines().count() as u16 {
-        table.lines().map(|line| fitted(Line::raw(line.to_owned()), size.width)).collect()
-    } else {
-        Vec::new()
+    if let Some(missing) = found.missing() {
+        return Panel::of_text(title, missing);
+    }
+    let bars = usize::from(size.height.saturating_sub(BESIDE));
+    let most = (bars / 2).saturating_sub(found.seeds.iter().len()).max(1);
+    let mut rows = sensitivity_table(found, most);
+    let present = rows.remove(1);
+    let fits = |labels: &Vec<String>| labels[0].chars().count() + 2 <= usize::from(3 * size.width / 4);
+    let labels = (1..=3).rev().map(|results| labels(&rows, results)).find(fits);
+    let mut chart = sensitivity_chart(found, 0, most);
+    let present = (3..6).map(|result| vec![Span::raw(format!("{} {}", rows[0][result], present[result]))]);
+    let mut head = filled(present.collect(), "  ", size.width.into());
+    if let Some(labels) = labels {
+        head.push(Line::raw(labels[0].clone()));
+        chart.y.names = labels[1..].iter().rev().map(|label| Label::plain(label)).collect();
+    }
+    // A row of the screen for each bar.
+    chart.y.span.low -= bars.saturating_sub(chart.y.names.len()) as f64;
+    let hidden = found.influences.len().saturating_sub(most);
+    let edge = (hidden > 0).then(|| vec![Span::raw(format!("and {hidden} numbers of less influence"))]);
+    Panel { head, edge: edge.into_iter().collect(), ..Panel::of_chart(title, chart) }
+}
+
+/// Lines of names and changes of the numbers with the changes of the first results, all of one width.
+fn labels(rows: &[[String; 6]], results: usize) -> Vec<String> {
+    let length = |text: &String| text.chars().count();
+    // Short names leave more room.
+    let short =
+        |name: &str| name.replace("force of ", "").replace("indentation of ", "").replace("other ", "");
+    let mut rows = rows.to_vec();
+    rows.iter_mut().for_each(|row| row[0] = short(&row[0]));
+    let line = |row: &[String; 6]| {
+        let columns = [0, 2, 3, 4, 5].into_iter().take(2 + results);
+        let cell = |at: usize| {
+            // What is not allowed has no other results beside it.
+            let cells = rows.iter().map(|row| &row[at]).filter(|cell| *cell != NOT_ALLOWED);
+            format!("{:width$}  ", row[at], width = cells.map(length).max().unwrap_or(0))
+        };
+        columns.map(cell).collect::<String>().trim_end().to_owned()
     };
-    let chart = sensitivity_chart(found, 0, (usize::from(bars) - foot.len()).max(1));
-    let head = filled(names(&chart, app.view.appearance), "  ", size.width.into());
-    Panel { head, foot, ..Panel::of_chart(title, chart) }
+    let lines: Vec<String> = rows.iter().map(line).collect();
+    let widest = lines.iter().map(length).max().unwrap_or(0);
+    lines.iter().map(|line| format!("{line:widest$}")).collect()
 }
