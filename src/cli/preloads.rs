@@ -1,10 +1,11 @@
 //! Preloads on the command line: `1uN..20uN`, their number, and `log` for equal ratios.
 
+use super::error::CliError;
 use crate::draw::AxisScale;
-use crate::scene::parse_quantity;
+use crate::scene::{Document, Scene, parse_quantity};
+use crate::simulation::{Simulation, reach};
 use crate::study::Axis;
 
-/// Number of preloads by default.
 const USUAL: usize = 64;
 const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
@@ -28,6 +29,21 @@ pub(super) fn parse_range(text: &str) -> Result<(f64, f64), String> {
     let (from, to) = text.split_once("..").ok_or(ALLOWED)?;
     let force = |text: &str| parse_quantity(text, "N").map_err(|error| format!("{error}; {ALLOWED}"));
     Ok((force(from)?, force(to)?))
+}
+
+/// Refuses preloads far beyond full contact of a scene.
+pub(super) fn check_reach(
+    document: &Document,
+    scene: &Scene,
+    largest: f64,
+    simulation: &mut Simulation,
+) -> Result<(), CliError> {
+    let full_contact =
+        simulation.full_contact_force(scene).map_err(|error| CliError::named(document.name(), error))?;
+    match reach::beyond_full_contact(largest, full_contact, 0.0).filter(|_| full_contact > 0.0) {
+        Some(why) => Err(CliError::named(document.name(), format!("--preloads: {why}"))),
+        None => Ok(()),
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES};
-use super::preloads::parse_range;
+use super::preloads::{check_reach, parse_range};
 use super::scene::{SceneArguments, simulation_of};
 use crate::draw::AxisScale;
 use crate::export::{Format, ReversalReport, SMOOTHING};
@@ -77,6 +77,9 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let scene = document.scene();
     let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(&document);
+    if let Some((_, largest)) = options.preloads {
+        check_reach(&document, scene, largest, &mut simulation)?;
+    }
     let (count, never) = (usize::from(options.count), || false);
     let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
     let (mut loops, mut preloads, mut staircase) = (None, None, None);

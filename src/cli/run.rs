@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, WITHOUT_PICTURE};
-use super::preloads::parse_preloads;
+use super::preloads::{check_reach, parse_preloads};
 use super::scene::{MOST_LINES, SceneArguments, compute, simulation_of, threads};
 use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{Leg, LegRecord};
@@ -87,7 +87,6 @@ pub struct RunArguments {
 const WIDTH: usize = 80;
 
 impl RunArguments {
-    /// Returns true for a result that is only drawn.
     fn is_drawn(&self) -> bool {
         !self.more.is_empty() || self.profile || self.fragments
     }
@@ -104,7 +103,6 @@ impl RunArguments {
         self.output.format(formats, usual)
     }
 
-    /// Quantities of a scene on its profiles, and for its preloads.
     fn solved(&self, document: &Document, scene: &Scene, record: &[Quantity]) -> Result<Results, CliError> {
         let (lines, jobs) = (self.lines.map_or(1, u64::from), threads(self.jobs));
         Results::of_scene(scene, &document.resolve(""), record, lines, self.preloads.as_ref(), jobs)
@@ -120,6 +118,7 @@ impl RunArguments {
         is_drawn: bool,
     ) -> Result<(Results, Option<Staircase>), CliError> {
         let mut simulation = simulation_of(document);
+        check_reach(document, scene, preloads.values[preloads.values.len() - 1], &mut simulation)?;
         let staircase = (is_drawn || self.curves || preloads.values[0] < 0.0)
             .then(|| Staircase::find(scene, preloads, &mut simulation, &|| false, &mut |_| ()))
             .transpose()
@@ -140,7 +139,6 @@ impl RunArguments {
     }
 }
 
-/// Computes a scene and writes its results.
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.format()?;
     let document = arguments.scene.open()?;
@@ -174,7 +172,6 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     write(&RunReport { title, scene: &scene, outcome: &outcome, choice, estimate: estimate.as_ref() })
 }
 
-/// Computes the scenes and draws the requested figure of all of them.
 fn figure(
     arguments: &RunArguments,
     document: Document,
@@ -190,7 +187,7 @@ fn figure(
             let (results, staircase) = arguments.adhesion(document, &scene, preloads, true)?;
             let (results, staircase) = (&results, staircase.as_ref());
             let report = PreloadReport { title, choice: None, results, staircase, curves: false };
-            figures.extend(report.figure());
+            figures.extend(report.drawn(false));
         } else if arguments.profile || arguments.fragments {
             figures.push(contact_figure(arguments, document, &scene)?);
         } else {
@@ -208,7 +205,6 @@ fn figure(
     Ok((figure, scenes))
 }
 
-/// Computes a scene and draws its profile or its contact patches.
 fn contact_figure(arguments: &RunArguments, document: &Document, scene: &Scene) -> Result<Figure, CliError> {
     let failed = |error| CliError::named(document.name(), error);
     let mut simulation = simulation_of(document);

@@ -35,7 +35,7 @@ pub enum ContactError {
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
     /// The contact detaches above this force.
-    #[error("the contact detaches above that force; allowed in this stage: at least {smallest:e} N")]
+    #[error("the contact detaches before that force; smallest force within reach: {smallest:e} N")]
     DetachesBefore {
         /// Smallest force the contact bears, N.
         smallest: f64,

@@ -27,7 +27,6 @@ pub mod parameters;
 pub mod picture;
 mod player;
 pub mod prompt;
-mod reach;
 mod recording;
 pub mod request;
 pub mod runtime;
@@ -45,6 +44,7 @@ pub mod update;
 pub mod view;
 mod writing;
 
+use crate::simulation::reach;
 pub use opening::{Opening, OpeningError};
 pub use recording::Recording;
 pub use session::{Draw, Options, SessionEnd, open};

@@ -4,7 +4,6 @@
 use super::close_up::close_up;
 use super::manual_body::ManualBody;
 use super::player::{Player, indentations};
-use super::reach::out_of_reach;
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, lengths, profile_part, strip};
 use crate::contact::{ContactError, CurvePoint, Direction, Leg};
@@ -80,9 +79,6 @@ impl Solver {
                 Ok(()) => {}
                 // Unless the scene is awaited again.
                 Err(error) if error.is_interruption() => return self.newest.generation = 0,
-                Err(RunError::Contact(error)) => {
-                    report(Report::Failed { generation, error: out_of_reach(&error, Move::ToTouch) });
-                }
                 Err(error) => report(Report::Failed { generation, error: error.to_string() }),
             }
         }

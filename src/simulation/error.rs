@@ -1,6 +1,8 @@
 //! Reasons why a scene could not be computed.
 
+use super::reach::{out_of_reach, rounded_up};
 use crate::contact::ContactError;
+use crate::scene::{Move, format_quantity};
 use crate::surface::SurfaceError;
 use thiserror::Error;
 
@@ -28,7 +30,11 @@ pub enum RunError {
     )]
     NeverPressed,
     /// A preload that no loading reaches, since the first touch already pulls less.
-    #[error("preload {preload:e} N: the force at first touch is {touch:e} N; allowed: at least this force")]
+    #[error(
+        "preload {}: allowed: at least the force at first touch, {}",
+        format_quantity(*preload, "N"),
+        format_quantity(rounded_up(*touch), "N")
+    )]
     BelowTouch {
         /// The preload, N.
         preload: f64,
@@ -36,7 +42,7 @@ pub enum RunError {
         touch: f64,
     },
     /// The contact could not be computed.
-    #[error(transparent)]
+    #[error("{}", out_of_reach(.0, Move::ToTouch))]
     Contact(#[from] ContactError),
 }
 

@@ -4,6 +4,7 @@ mod error;
 mod loading;
 mod outcome;
 mod plan;
+pub(crate) mod reach;
 mod reversals;
 mod roughness;
 mod stages;

@@ -42,6 +42,15 @@ impl Simulation {
         Ok(Body::new(&contact, scene.numerics.samples as usize).reversals(ends, points, &mut see)?)
     }
 
+    /// Force at which the last spring of a checked scene touches, N.
+    ///
+    /// # Errors
+    /// Those of the profile of [`Simulation::run`].
+    pub fn full_contact_force(&mut self, scene: &Scene) -> Result<f64, RunError> {
+        let plan = Plan::of(&Scene { loading: vec![Move::ToTouch], ..scene.clone() });
+        Ok(self.prepare(&plan, scene, &|| false)?.contact.full_contact_force())
+    }
+
     /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations
     /// with the same spacing down to separation. The turning points lie between the indentations of two preloads, N, or
     /// between first touch and the preload of the scene's own loading.

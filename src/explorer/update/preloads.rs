@@ -4,6 +4,7 @@ use super::Effect;
 use crate::draw::{AxisScale, Span};
 use crate::explorer::app::{App, PreloadAxis};
 use crate::explorer::panes::PreloadCurve;
+use crate::explorer::reach::{beyond_full_contact, largest_force};
 use crate::scene::{LEG_FORCE, format_quantity};
 
 /// Least width of the axis, as a share of its largest coordinate.
@@ -32,9 +33,11 @@ pub fn change(app: &mut App, factor: f64, share: f64) {
     let fixed = app.view.crosshair.or(present.filter(|share| (0.0..=1.0).contains(share))).unwrap_or(0.5);
     let low = shown.low + (fixed * (1.0 - factor) + share) * shown.width();
     let mut span = Span { low, high: low + factor * shown.width() };
-    let most = scale.coordinate(LEG_FORCE.range.ends().map_or(f64::MAX, |(_, most)| most));
+    let full_contact = app.current().map_or(0.0, |computed| computed.full_contact);
+    let largest = LEG_FORCE.range.ends().map_or(f64::MAX, |(_, most)| most);
+    let most = scale.coordinate(largest_force(full_contact).min(largest)).max(shown.high);
     let touch = curve.staircase.touch.0;
-    let least = if scale == AxisScale::Linear { touch } else { -most };
+    let least = if scale == AxisScale::Linear { touch } else { -scale.coordinate(largest) };
     if span.low < least {
         span = Span { low: least, high: least + span.width() };
         if share < 0.0 && scale == AxisScale::Linear {
@@ -42,8 +45,12 @@ pub fn change(app: &mut App, factor: f64, share: f64) {
             app.set_done(format!("no preload is below the force at first touch, {touch}"));
         }
     }
-    let is_wide = span.width() > NARROWEST * span.low.abs().max(span.high.abs());
-    if is_wide && span.high <= most {
+    if span.high > most {
+        let why = beyond_full_contact(scale.number(span.high), full_contact, 0.0);
+        why.filter(|_| full_contact > 0.0).into_iter().for_each(|why| app.set_done(why));
+        span = Span { low: span.low.min(shown.low), high: most };
+    }
+    if span.width() > NARROWEST * span.low.abs().max(span.high.abs()) {
         show(app, scale, Some(span));
     }
 }
