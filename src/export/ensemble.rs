@@ -1,5 +1,6 @@
 //! Results of many random profiles as text, JSON and CSV.
 
+use super::preloads::MEAN_INTERVAL;
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::summary::tabor_number;
@@ -33,7 +34,6 @@ impl LinesReport<'_> {
         Quantity::TaborNumber,
     ];
 
-    /// Numbers of the profiles.
     fn lines(&self) -> std::ops::Range<u64> {
         0..self.results.plan().lines
     }
@@ -62,8 +62,9 @@ impl Report for LinesReport<'_> {
         sheet.paragraph(&plan.scene.title);
         let (count, springs) = (grouped(plan.lines), grouped(plan.scene.numerics.points));
         let last = plan.seed_of(plan.lines - 1);
-        sheet.heading(&format!("{count} random lines of {springs} springs, seeds {} to {last}", plan.seed));
-        let header = ["", "median", "quartiles", "range", "mean", "95 % of the mean", "profiles"];
+        sheet
+            .heading(&format!("{count} random profiles of {springs} springs, seeds {} to {last}", plan.seed));
+        let header = ["", "median", "quartiles", "range", "mean", MEAN_INTERVAL, "profiles"];
         let (mut rows, mut warnings) = (vec![header.map(String::from)], Vec::new());
         for (name, quantity) in [
             ("adhesion force F_a", Quantity::AdhesionForce),
@@ -86,7 +87,9 @@ impl Report for LinesReport<'_> {
         let value = |line, quantity| self.results.value(0, line, quantity);
         let dissipating = self.lines().filter(|line| value(*line, Quantity::DissipatedEnergy).is_some());
         let number = dissipating.into_iter().find_map(|line| value(line, Quantity::TaborNumber));
-        sheet.row_of("Tabor number μ", number.map(tabor_number));
+        number
+            .iter()
+            .for_each(|number| sheet.heading(&format!("Tabor number μ = {}", tabor_number(*number))));
         let headings = ["Regimes from first touch", "Regimes after zero net force"];
         for (heading, regimes) in headings.into_iter().zip(self.results.regimes(0)) {
             sheet.heading(heading);
@@ -94,7 +97,7 @@ impl Report for LinesReport<'_> {
                 sheet.row(name, grouped(count as u64));
             }
         }
-        sheet.heading("Heights of single lines; both would be 0 if they averaged themselves");
+        sheet.heading("Heights of single profiles; both would be 0 if they averaged themselves");
         sheet.quantity("rms skewness", self.rms(Quantity::Skewness), "1");
         sheet.quantity("rms excess kurtosis", self.rms(Quantity::ExcessKurtosis), "1");
         if let Some(choice) = self.choice {

@@ -10,8 +10,9 @@ use crate::study::{Results, Staircase, Statistics};
 use crate::text::grouped;
 use std::ops::Range;
 
-/// Most rows of the table.
 const MOST_ROWS: usize = 32;
+/// Heading of a column of confidence intervals.
+pub(super) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 
 /// Adhesion against preload on one or more profiles.
 #[derive(Clone, Copy, Debug)]
@@ -29,11 +30,20 @@ pub struct PreloadReport<'a> {
 }
 
 impl PreloadReport<'_> {
+    /// The adhesion force over the preload: of the first profile, and its spread over all of them, with the distribution
+    /// at the largest preload; as [`preload_chart`].
+    pub fn drawn(&self, has_values: bool) -> Option<Figure> {
+        let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
+        let chart = preload_chart(staircase, &spread, has_values);
+        let largest = spread.last().map(|(preload, _)| *preload);
+        let beside = largest.and_then(|preload| distribution(self.results, preload, &chart.y));
+        Some(preload_figure(self.title, chart, beside))
+    }
+
     fn is_mean(&self) -> bool {
         self.results.plan().lines > 1
     }
 
-    /// Seeds of the profiles, if they have any.
     fn seed(&self, line: u64) -> Option<u64> {
         let plan = self.results.plan();
         plan.scene.seed().map(|_| plan.seed_of(line))
@@ -52,7 +62,7 @@ impl Report for PreloadReport<'_> {
         let springs = grouped(plan.scene.numerics.points);
         sheet.heading(&format!("Adhesion against preload, {profiles} of {springs} springs"));
         if self.is_mean() {
-            let header = ["preload F_n", "median F_a", "quartiles", "range", "mean", "95 % of the mean"];
+            let header = ["preload F_n", "median F_a", "quartiles", "range", "mean", MEAN_INTERVAL];
             let range = |ends| format_range(ends, 2, "N");
             let spread = self.results.spread_of_adhesion();
             let rows = thinned(spread.iter(), MOST_ROWS).map(|(preload, all)| {
@@ -111,14 +121,8 @@ impl Report for PreloadReport<'_> {
         })
     }
 
-    /// The adhesion force over the preload: of the first profile, and its spread over all of them, with the distribution
-    /// at the largest preload.
     fn figure(&self) -> Option<Figure> {
-        let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
-        let chart = preload_chart(staircase, &spread);
-        let largest = spread.last().map(|(preload, _)| *preload);
-        let beside = largest.and_then(|preload| distribution(self.results, preload, &chart.y));
-        Some(preload_figure(self.title, chart, beside))
+        self.drawn(true)
     }
 }
 
@@ -191,20 +195,24 @@ pub(super) fn unloadings(
 
 /// Smallest ratio of adhesion forces on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 30.0;
-/// Most decades of adhesion forces.
 const MOST_DECADES: f64 = 6.0;
 
 /// A chart of the adhesion force, N, over the preload, N: the staircase of one profile, the spread over several, and the
-/// adhesion after both protocols of zero load. Under a logarithmic preload forces of several decades are logarithmic too.
-pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Chart {
+/// adhesion after both protocols of zero load, named with their forces or without. Under a logarithmic preload forces of
+/// several decades are logarithmic too.
+pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
+    let (touch, at_touch) = staircase.touch;
+    // A turn at first touch is no preload. From each preload on level up to the next one, as the staircases are.
+    let pressed = &spread[spread.partition_point(|(preload, _)| *preload <= touch)..];
+    let corner = |pair: &[(f64, Statistics)]| [(pair[1].0, pair[0].1), pair[1]];
+    let steps = || pressed.first().copied().into_iter().chain(pressed.windows(2).flat_map(corner));
     if let Some((_, Statistics { count, .. })) = spread.first() {
         let band = |ends: fn(&Statistics) -> (f64, f64)| {
-            let point = |(preload, all): &(f64, Statistics)| (*preload, ends(all).0, ends(all).1);
-            Shape::Band(spread.iter().map(point).collect())
+            Shape::Band(steps().map(|(preload, all)| (preload, ends(&all).0, ends(&all).1)).collect())
         };
         let curve = |of: fn(&Statistics) -> f64, stroke| {
-            Shape::line(spread.iter().map(|(preload, all)| (*preload, of(all))).collect(), stroke)
+            Shape::line(steps().map(|(preload, all)| (preload, of(&all))).collect(), stroke)
         };
         let range = format!("range of {count} profiles");
         for (name, ink, shape) in [
@@ -225,12 +233,13 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Cha
     let x = Span::around(ends.into_iter().map(|end| scale.coordinate(end)), 0.03);
     // A force below the axis, as below zero on a logarithmic one, is marked at its left end.
     let inside = |force: f64| if scale.coordinate(force) >= x.low { force } else { scale.number(x.low) };
-    let (touch, at_touch) = staircase.touch;
     for (symbol, protocol, force, adhesion, sign, ink) in [
         ("F_a(0)", "from first touch", touch, at_touch, Sign::HollowDiamond, Ink::Loading),
         ("F_a(F=0)", "after zero force", 0.0, staircase.zero_force, Sign::Ring, Ink::Manual),
     ] {
-        let name = Label::symbol(symbol).then(&format!(" {}, {protocol}", format_rounded(adhesion, 3, "N")));
+        let value =
+            if has_values { format!(" {},", format_rounded(adhesion, 3, "N")) } else { String::new() };
+        let name = Label::symbol(symbol).then(&format!("{value} {protocol}"));
         layers.push(Layer::new(name, ink, Shape::signs(vec![(inside(force), adhesion)], sign)));
     }
 

@@ -10,7 +10,6 @@ use crate::scene::{Scene, format_quantity};
 use crate::study::{Results, Staircase};
 use crate::text::grouped;
 
-/// Most rows of the table.
 const MOST_ROWS: usize = 16;
 /// Most cells of a map on either axis of a figure.
 const MOST_CELLS: usize = 128;
@@ -36,7 +35,6 @@ pub struct ReversalReport<'a> {
     pub map_table: bool,
 }
 
-/// Share of incongruent minor loops in words.
 fn congruency(loops: MinorLoops) -> String {
     let MinorLoops { with_loss, incongruent } = loops;
     match loops.incongruent_share() {
@@ -116,7 +114,7 @@ impl Report for ReversalReport<'_> {
         notes.extend(loops.map(|loops| Label::plain(&format!("incongruent: {}", congruency(loops)))));
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),
-            ..preload_chart(staircase, &[])
+            ..preload_chart(staircase, &[], true)
         });
         let maps = [everett_chart(map), density_chart(map, smoothing)];
         Some(Figure {
@@ -129,7 +127,6 @@ impl Report for ReversalReport<'_> {
     }
 }
 
-/// One row for each turning point.
 fn turning_points(map: &ReversalMap) -> Table<'_> {
     Table::of(|| map.reversals.iter())
         .real("turning_indentation", |one| one.turn.indentation)

@@ -81,7 +81,7 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// The curves with the present preload, and the distribution over the profiles at the crosshair or the present preload.
 fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
-    let mut chart = preload_chart(&curve.staircase, &curve.results.spread_of_adhesion());
+    let mut chart = preload_chart(&curve.staircase, &curve.results.spread_of_adhesion(), true);
     let figures = app.current().map(|one| one.outcome.figures);
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
