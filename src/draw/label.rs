@@ -8,7 +8,6 @@ use std::fmt;
 const LEAST_POWER: i32 = -15;
 const LARGEST_POWER: i32 = 9;
 
-/// Typeface of a run of characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Face {
     Upright,
@@ -97,7 +96,7 @@ impl Label {
         &self.runs
     }
 
-    /// Width in units of the font size, for digits 0.58 wide as in the usual sans-serif fonts.
+    /// Width in units of the font size, in the widest of the usual sans-serif fonts.
     pub fn width(&self) -> f64 {
         self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
     }
@@ -110,7 +109,8 @@ impl Label {
             line.push((face, character));
             width += width_of(face, character);
             if width > most && line.len() > 1 {
-                let blank = line.iter().rposition(|(_, character)| *character == ' ');
+                let last = |blank| line.iter().rposition(|(_, character)| *character == blank);
+                let blank = last(' ').or_else(|| last(FIXED));
                 let rest = line.split_off(blank.map_or(line.len() - 1, |blank| blank + 1));
                 lines.push(std::mem::replace(&mut line, rest));
                 width = line.iter().map(|(face, character)| width_of(*face, *character)).sum();
@@ -119,7 +119,10 @@ impl Label {
         lines.push(line);
         let label = |line: Vec<(Face, char)>| {
             let mut label = Label::default();
-            let end = line.iter().rposition(|(_, character)| *character != ' ').map_or(0, |last| last + 1);
+            let end = line
+                .iter()
+                .rposition(|(_, character)| ![' ', FIXED].contains(character))
+                .map_or(0, |last| last + 1);
             line[..end].iter().for_each(|(face, c)| label.push(*face, c.encode_utf8(&mut [0; 4])));
             label
         };
@@ -161,10 +164,12 @@ fn width_of(face: Face, character: char) -> f64 {
     let share = if matches!(face, Face::Index | Face::Exponent) { SMALL } else { 1.0 };
     share
         * match character {
-            'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | 't' | 'f' | '(' | ')' | '/' | '|' => 0.33,
-            'm' | 'w' | 'M' | 'W' => 0.9,
-            c if c.is_uppercase() => 0.7,
-            _ => 0.58,
+            'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | '/' | '|' => 0.33,
+            't' | 'f' | 'r' | '(' | ')' => 0.4,
+            'm' | 'w' | 'M' | 'W' => 0.95,
+            '=' | '+' | '±' | '×' => 0.84,
+            c if c.is_uppercase() => 0.72,
+            _ => 0.636,
         }
 }
 
@@ -247,9 +252,9 @@ mod tests {
     #[test]
     fn lines_break_between_words() {
         let label = Label::plain("one two ").join(&Label::symbol("F_n")).then(" three");
-        let lines: Vec<String> = label.wrapped(5.5).iter().map(Label::to_string).collect();
+        let lines: Vec<String> = label.wrapped(6.0).iter().map(Label::to_string).collect();
         assert_eq!(lines, ["one two F_n", "three"]);
-        assert!(label.wrapped(5.5).iter().all(|line| line.width() <= 5.5));
+        assert!(label.wrapped(6.0).iter().all(|line| line.width() <= 6.0));
         let word = Label::plain("folder/file").wrapped(2.0);
         assert!(word.len() > 2 && word.iter().all(|line| line.width() <= 2.0), "{word:?}");
         assert_eq!(value_label("", "F_n", "N", 2e-5).wrapped(3.0).len(), 2, "one word, too long for a line");

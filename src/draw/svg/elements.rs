@@ -55,7 +55,6 @@ pub(crate) struct Svg {
 }
 
 impl Svg {
-    /// Begins a document of a width and a height in px.
     pub(crate) fn new(width: f64, height: f64, title: &str) -> Svg {
         let (width, height, title) = (px(width), px(height), escaped(title));
         let mut svg = Svg { text: String::new() };
@@ -66,14 +65,12 @@ impl Svg {
         svg
     }
 
-    /// Adds elements and a line break.
     pub(crate) fn push(&mut self, elements: Arguments<'_>) {
         // Writing to a string cannot fail.
         let _ = self.text.write_fmt(elements);
         self.text.push('\n');
     }
 
-    /// Adds the elements of a part.
     pub(super) fn append(&mut self, part: Svg) {
         self.text += &part.text;
     }
@@ -90,7 +87,6 @@ impl Svg {
         self.push(format_args!("</g>"));
     }
 
-    /// Draws a rectangle with these attributes.
     fn rect(&mut self, from: Place, to: Place, looks: &str) {
         // The ends are rounded, so that adjacent rectangles meet.
         let length = |from: f64, to: f64| px((100.0 * to).round() / 100.0 - (100.0 * from).round() / 100.0);
@@ -141,7 +137,6 @@ impl Svg {
         self.push(format_args!("<path d=\"{path}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>"));
     }
 
-    /// Fills a circle, and draws its border with a pen.
     pub(super) fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
         let (x, y, radius, fill) = (px(at.0), px(at.1), px(radius), hex(fill));
         let pen = pen.map_or_else(String::new, |pen| format!(" {}", pen.attributes()));
@@ -156,7 +151,6 @@ impl Svg {
         })
     }
 
-    /// Writes a label in letters of a size.
     pub(super) fn label(&mut self, label: &Label, at: Place, size: f64, anchor: Anchor) {
         let (x, y, fill) = (px(at.0), px(at.1), hex(TEXT));
         let (side, turned) = match anchor {

@@ -44,13 +44,11 @@ impl Frame<'_> {
         (self.from.0 + x * self.width(), self.to.1 - y * self.height())
     }
 
-    /// Place for coordinates of the axes.
     pub(super) fn place_of_coordinates(&self, (x, y): (f64, f64)) -> Place {
         let share = |axis: &Axis, at: f64| (at - axis.span.low) / axis.span.width();
         self.at((share(self.axes.x, x), share(self.axes.y, y)))
     }
 
-    /// Draws an axis with its label.
     pub(super) fn axis(&self, svg: &mut Svg, side: Side) {
         let axis = if side == Side::Below { self.axes.x } else { self.axes.y };
         let ticks = axis.ticks(self.ticks(side));
@@ -85,7 +83,6 @@ impl Frame<'_> {
         }
     }
 
-    /// Number of labelled ticks that fit a side.
     fn ticks(&self, side: Side) -> usize {
         // Wide charts have more ticks, low ones fewer.
         let room = if side == Side::Below { self.width() / 55.0 } else { self.height() / 40.0 };
@@ -99,9 +96,8 @@ impl Frame<'_> {
     }
 }
 
-/// Distance from an axis to the middle of its label, beyond the widest number, px. Some fonts are a tenth wider
-/// than the usual ones.
+/// Distance from an axis to the middle of its label, beyond the widest number, px.
 fn beside(ticks: &[Tick]) -> f64 {
     let widest = ticks.iter().filter_map(|tick| tick.label.as_ref()).map(Label::width).fold(0.0, f64::max);
-    (1.1 * widest + 1.9) * NUMBER
+    (widest + 1.9) * NUMBER
 }

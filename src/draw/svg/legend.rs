@@ -53,7 +53,6 @@ fn room(entry: &Entry) -> f64 {
     }
 }
 
-/// Draws the samples of an entry from this place; several share the room.
 fn sample(svg: &mut Svg, entry: &Entry, (x, y): Place) {
     let part = 22.0 / entry.samples.len().max(1) as f64;
     for (index, (ink, sample)) in entry.samples.iter().enumerate() {

@@ -135,7 +135,6 @@ fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
     Frame { from: (left, chart.from.1), to: (left + BAR, chart.to.1), axes }
 }
 
-/// Room on the left and on the right of a chart.
 fn rooms(chart: &Chart, size: (f64, f64)) -> (f64, f64) {
     let frame = frame_of(chart, (0.0, 0.0), size);
     let scale = chart
