@@ -51,16 +51,12 @@ pub struct FitArguments {
     pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Overwrite the scene if it exists
-    #[arg(long, requires = "scene")]
-    pub force_scene: bool,
 }
 
-/// Reads the curve, finds the parameters, and writes them.
 pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
-        check_file(file, "ron", arguments.force_scene)?;
+        check_file(file, "ron", arguments.output.force)?;
     }
     let document = arguments.overrides.apply(open_argument(&arguments.model)?)?;
     let title = path_name(&arguments.curve);
@@ -74,7 +70,7 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         let folder = file.parent().unwrap_or(Path::new(""));
         let document =
             found.document.moved_to(|measured| named_from(measured, &document.resolve(""), folder))?;
-        write_new(file, arguments.force_scene, |out| out.write_all(document.text().as_bytes()))?;
+        write_new(file, arguments.output.force, |out| out.write_all(document.text().as_bytes()))?;
     }
     let report = FitReport { title: &title, curve: &curve, fit: &found };
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, found.document.scene()))

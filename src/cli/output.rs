@@ -13,11 +13,8 @@ use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-/// Formats of pictures.
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
-/// Formats of tables.
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
-/// Formats of results without a picture.
 pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy];
 /// Formats of results without a table and without a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
@@ -33,8 +30,8 @@ pub struct OutputArguments {
     /// Write to FILE, whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Overwrite FILE if it exists
-    #[arg(long, requires = "output")]
+    /// Overwrite files that exist
+    #[arg(long)]
     pub force: bool,
     /// text, json, csv, npy, svg, png or pdf; default: by the extension
     #[arg(long, value_enum, hide_possible_values = true)]
@@ -53,7 +50,6 @@ pub(super) fn without_look(option: Arg) -> Arg {
     option.hide(is_look)
 }
 
-/// Parses the width of a figure, m.
 fn width(text: &str) -> Result<f64, String> {
     let width = parse_quantity(text, "m").map_err(|error| error.to_string())?;
     if WIDTHS.contains(&width) { Ok(width) } else { Err("allowed: from 50mm to 500mm".to_owned()) }
@@ -154,7 +150,6 @@ impl OutputArguments {
         self.write(stdout, figure, format, Origin::Scenes(scenes))
     }
 
-    /// Writes results to their destination.
     pub(super) fn fill(
         &self,
         stdout: &mut dyn Write,
@@ -182,7 +177,6 @@ pub struct AnswerFormat {
 }
 
 impl AnswerFormat {
-    /// Writes an answer as text or as JSON.
     pub(super) fn write(
         self,
         stdout: &mut dyn Write,

@@ -12,7 +12,7 @@ use crate::simulation::equivalent_springs;
 use crate::spectrum::analyse;
 use crate::study::MeasuredAdhesion;
 use crate::surface::{EquivalentLine, MeasuredOptions};
-use crate::text::path_name;
+use crate::text::{path_name, round_to};
 use crate::topography::{Unit, read};
 use clap::Args;
 use std::io::Write;
@@ -86,9 +86,6 @@ pub struct SurfaceArguments {
     /// Output file.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Overwrite the scene if it exists
-    #[arg(long, requires = "scene")]
-    pub force_scene: bool,
 }
 
 /// Length as typed.
@@ -159,6 +156,8 @@ impl SurfaceArguments {
     ) -> Scene {
         let name = self.files.first().and_then(|file| file.file_name()).unwrap_or_default();
         let length = faces.iter().map(|face| face.analysis.length).fold(f64::INFINITY, f64::min);
+        // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
+        let length = round_to(length, 12);
         Scene {
             version: *SCENE_VERSIONS.end(),
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
@@ -180,7 +179,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     arguments.check_outputs()?;
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
-        check_file(file, "ron", arguments.force_scene)?;
+        check_file(file, "ron", arguments.output.force)?;
     }
     let measured = arguments.surfaces()?;
     let mut options = measured.options(false);
@@ -193,7 +192,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     let modulus = arguments.modulus;
     let scene = modulus.map(|modulus| arguments.scene_of(measured, modulus, &faces, &line));
     if let (Some(file), Some(scene)) = (&arguments.scene, &scene) {
-        write_scene(file, scene.clone(), arguments.force_scene)?;
+        write_scene(file, scene.clone(), arguments.output.force)?;
     }
     // Adhesion is computed for text and JSON, if it is asked for or takes seconds.
     let is_asked = arguments.work.is_some() && matches!(format, Format::Text | Format::Json);
@@ -211,7 +210,6 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     arguments.output.write(stdout, &report, format, Origin::Files(&files))
 }
 
-/// Reads and analyses the files of a face.
 fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {
     let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
     for file in files {
@@ -238,7 +236,6 @@ fn write_scene(file: &Path, mut scene: Scene, overwrite: bool) -> Result<(), Cli
     Ok(write_new(file, overwrite, |out| out.write_all(document.text().as_bytes()))?)
 }
 
-/// Parses a length above 0.
 fn length(text: &str) -> Result<Length, String> {
     let value = positive(text, "m")?;
     Ok(Length { value, has_unit: text.trim().parse::<f64>().is_err() })

@@ -5,7 +5,7 @@ use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
 use crate::draw::Figure;
 use crate::io::{Kind, Pairs, Table, object};
-use crate::scene::{Move, Scene, format_quantity, format_rounded};
+use crate::scene::{Move, Scene, format_quantity, format_range};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
@@ -65,7 +65,7 @@ pub struct MeasuredFace {
 /// Median, quartiles and range of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
-    let fit = computed.fit_deviation().map(|fit| format!(", fit ± {}", format_rounded(fit, 2, "N")));
+    let fit = computed.fit_interval().map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));
     Some(format!("{} profiles: {}{}", forces.count, forces.words("N"), fit.unwrap_or_default()))
 }
 
@@ -303,7 +303,8 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
     if analysis.maps == 0 && analysis.profiles < MANY_PROFILES {
         let [low, high] = BOUNDARY_FACTORS;
         warnings.push(format!(
-            "adhesion near its boundary cannot be had from few profiles (a factor from {low} to {high} either way)"
+            "from few profiles adhesion near its boundary is uncertain by a factor from {low} to {high}, up or down; \
+             {MANY_PROFILES} profiles or a map are better"
         ));
     }
     if analysis.end == End::Ends && !analysis.ends_inside {

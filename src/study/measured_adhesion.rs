@@ -104,9 +104,18 @@ impl MeasuredAdhesion {
     /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the
     /// changes of the profiles. `None` for fewer than two.
     pub fn fit_deviation(&self) -> Option<f64> {
-        let changes: Vec<f64> = self.profiles.iter().filter_map(|profile| profile.fit_change).collect();
-        let square = changes.iter().map(|change| change.powi(2)).sum::<f64>();
-        (changes.len() >= 2).then(|| (square / changes.len() as f64).sqrt())
+        rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
+    }
+
+    /// The median adhesion force, N, smaller and larger by the error of the fit: by the root mean square of its relative
+    /// changes on a logarithmic scale, as no force is below 0. `None` for fewer than two profiles.
+    pub fn fit_interval(&self) -> Option<(f64, f64)> {
+        let relative = |profile: &ProfileAdhesion| {
+            Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
+        };
+        let factor = rms(self.profiles.iter().filter_map(relative))?.exp();
+        let median = self.adhesion_force()?.quartiles[1];
+        Some((median / factor, median * factor))
     }
 
     /// Numbers of profiles in each regime, from first touch and after zero net force.
@@ -114,6 +123,12 @@ impl MeasuredAdhesion {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))
     }
+}
+
+/// Root mean square of two numbers at least.
+fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
+    let squares: Vec<f64> = numbers.map(|number| number.powi(2)).collect();
+    (squares.len() >= 2).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
 }
 
 #[cfg(test)]
@@ -190,5 +205,7 @@ mod tests {
         assert_eq!((found.adhesion_force().unwrap().spread, found.fit_deviation()), (None, None));
         let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(-2.0)); 2] };
         assert_eq!(found.fit_deviation(), Some(2.0));
+        // Twice the force itself: a factor, and nothing below 0.
+        assert_eq!(found.fit_interval(), Some(((-2.0_f64).exp(), 2.0_f64.exp())));
     }
 }

@@ -22,7 +22,6 @@ pub(super) enum Order {
 
 macro_rules! numbers {
     ($($name:ident: $type:ty),*) => {
-        /// Type of a number.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Number {
             $($name),*

@@ -45,7 +45,6 @@ impl Entries {
     }
 }
 
-/// Error of a key missing from a header.
 pub(super) fn missing(key: &str, required: &str) -> TopographyError {
     refused(Place::File, format!("no {key} in the header"), required)
 }

@@ -61,7 +61,6 @@ fn no_field() -> TopographyError {
     refused(Place::Byte(10), "an array without fields", "numbers")
 }
 
-/// Content of the header.
 struct Header {
     /// Names and types of the fields of a point; one without a name for an array of numbers.
     fields: Vec<(String, Number)>,
@@ -85,7 +84,6 @@ impl Header {
         Ok((header, data))
     }
 
-    /// Number of the values.
     fn points(&self) -> usize {
         self.shape.iter().fold(1, |points: usize, axis| points.saturating_mul(*axis))
     }

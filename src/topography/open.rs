@@ -16,7 +16,6 @@ pub const MOST_BYTES: usize = 1 << 30;
 /// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// A reader of a whole binary file.
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
 /// First bytes of the binary formats. All others but archives are text.
@@ -135,7 +134,6 @@ pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
     Ok(content.into())
 }
 
-/// Decompresses gzip.
 fn expanded(bytes: &[u8]) -> Result<Vec<u8>, TopographyError> {
     let most = most_expanded(bytes.len());
     read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES)).map_err(|error| match error {

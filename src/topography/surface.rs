@@ -94,7 +94,6 @@ impl Topography {
         &self.heights
     }
 
-    /// Index of the first point with an interpolated height.
     pub(crate) fn first_interpolated(&self) -> Option<usize> {
         self.interpolated.first().copied()
     }

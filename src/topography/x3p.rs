@@ -68,7 +68,6 @@ fn check_index(index: &str) -> Result<(), TopographyError> {
     Ok(())
 }
 
-/// Error of the index.
 fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
@@ -135,7 +134,6 @@ fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
     find(node, name).map_or("", trimmed)
 }
 
-/// Returns the number of an axis, if the axis has it.
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, TopographyError> {
     let Some(text) = find(axis, name).map(trimmed) else { return Ok(None) };
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());

@@ -10,9 +10,9 @@ const LONGEST: usize = 4096;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Header {
     /// Units in the order of the columns, from the last line with units.
-    columns: Vec<Unit>,
-    lateral: Option<Unit>,
-    height: Option<Unit>,
+    pub columns: Vec<Unit>,
+    pub lateral: Option<Unit>,
+    pub height: Option<Unit>,
     /// Width and height of a map, m.
     pub sizes: [Option<f64>; 2],
 }

@@ -36,7 +36,6 @@ fn has_decimal_commas(line: &str) -> bool {
     line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
 }
 
-/// Content of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cell {
     Number(f64),

@@ -21,9 +21,11 @@ use lines::{decoded, line_text};
 /// First characters of a comment.
 pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
 
-/// Reads a text line by line.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let (mut header, mut rows) = (Header::default(), None::<Rows>);
+    // Tables of results are in SI units.
+    let metre = bytes.starts_with(PROVENANCE.as_bytes()).then_some(Unit::METRE);
+    let mut header = Header { lateral: metre, height: metre, ..Header::default() };
+    let mut rows = None::<Rows>;
     let take = |place: Place, line: &str| rows.get_or_insert_with(|| Rows::new(line)).take(place, line);
     each_line(bytes, is_header, |line| header.take(line), take)?;
     let none = || refused(Place::File, "no line of numbers", "a line of numbers for each point or row");
