@@ -31,7 +31,6 @@ pub struct CheckArguments {
 }
 
 impl CheckArguments {
-    /// The selected cases; an error for a word that is in no name.
     fn chosen(&self) -> Result<Vec<Check>, CliError> {
         let has = |case: &Case, word: &String| case.name.contains(word.as_str());
         for word in &self.words {
@@ -68,7 +67,6 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     conclude(&verdicts)
 }
 
-/// Returns an error if a case fails.
 fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     match failed {

@@ -18,7 +18,6 @@ Examples:
   asperity compare before.ron after.ron -o loops.png
                                             Draw both force curves in one picture";
 
-/// Formats of a comparison.
 const FORMATS: &[Format] = &[Format::Text, Format::Svg, Format::Png, Format::Pdf];
 
 #[derive(Args, Debug)]

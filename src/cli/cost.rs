@@ -40,7 +40,6 @@ pub struct CostArguments {
     pub output: OutputArguments,
 }
 
-/// Parses a time with its unit.
 fn budget(text: &str) -> Result<Duration, String> {
     let allowed = || "allowed: a time from 1ms to 24h, such as 500ms, 30s or 2min".to_owned();
     let minutes = [("min", 60.0), ("h", 3600.0)].into_iter().find_map(|(unit, seconds)| {

@@ -136,7 +136,6 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     Ok(())
 }
 
-/// Records the demo as the output to a terminal.
 fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) -> io::Result<()> {
     let mut recording = Recording::new(out, size, &format!("Asperity: {name}"))?;
     while let Some(seconds) = demo.advance() {

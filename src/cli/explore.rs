@@ -119,7 +119,6 @@ pub(super) fn explore(
     open(opening, options, out)
 }
 
-/// Error of the explorer itself.
 pub(super) fn failed(error: impl Display) -> CliError {
     CliError::message(format!("the explorer failed: {error}"))
 }

@@ -41,7 +41,6 @@ use std::process::ExitCode;
 /// Bytes gathered before a write to standard output.
 const BUFFER: usize = 1 << 18;
 
-/// Exit code of wrong usage.
 const WRONG_USAGE: u8 = 2;
 
 /// Runs the program with these arguments, starting with the program name.
@@ -103,7 +102,6 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     command.error(ErrorKind::InvalidSubcommand, message)
 }
 
-/// Names of the commands.
 fn names(program: &clap::Command) -> Vec<String> {
     program.get_subcommands().map(|command| command.get_name().to_owned()).collect()
 }

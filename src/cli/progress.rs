@@ -2,7 +2,6 @@
 
 use std::io::{self, IsTerminal, Write};
 
-/// A line on standard error.
 #[derive(Default)]
 pub(super) struct ProgressLine {
     is_drawn: bool,

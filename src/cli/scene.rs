@@ -48,7 +48,6 @@ impl SceneArguments {
 }
 
 impl Overrides {
-    /// The document with these overrides.
     pub(super) fn apply(&self, document: Document) -> Result<Document, CliError> {
         if self.set.is_empty() { Ok(document) } else { Ok(document.set_all(&self.set)?) }
     }
@@ -59,7 +58,6 @@ pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
 }
 
-/// Computes the scene of a document.
 pub(super) fn compute(document: &Document, scene: &Scene) -> Result<Outcome, CliError> {
     simulation_of(document)
         .run(scene, &|| false, &mut |_, _, _| Ok(()))

@@ -39,7 +39,6 @@ pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: 
     pieces
 }
 
-/// Point of an edge at the level.
 fn cut(from: (f64, f64, f64), to: (f64, f64, f64)) -> Option<Point> {
     ((from.2 < 0.0) != (to.2 < 0.0)).then(|| {
         // Always from the lower corner, so that two squares compute the same point to the last bit.

@@ -134,7 +134,6 @@ impl Page {
     }
 }
 
-/// Name of the graphics state of an opacity, %.
 fn state(percent: u8) -> String {
     format!("o{percent}")
 }

@@ -8,7 +8,6 @@ use crate::study::{Boundaries, Boundary, Crossing, DEFINITIONS, protocol_name};
 use serde_json::{Map, Value, json};
 use std::cmp::Ordering;
 
-/// Columns of a boundary in a parameter, each with its factor.
 fn columns(over: RoughnessParameter) -> Vec<(&'static str, f64)> {
     match over {
         RoughnessParameter::Kappa => DEFINITIONS.to_vec(),

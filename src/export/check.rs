@@ -6,8 +6,54 @@ use crate::check::{Check, Verdict, catalogue};
 use crate::io::object;
 
 impl Report for [Verdict] {
+    /// One row for each check, then the claims of the cases, then the failures.
     fn text(&self) -> Option<String> {
-        Some(text(self))
+        let mut sheet = Sheet::default();
+        let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);
+        let mut rows = vec![head];
+        rows.extend(self.iter().map(|verdict| {
+            let Check { case, edges, bound } = verdict.check;
+            [
+                case.name.to_owned(),
+                edges.name().to_owned(),
+                verdict.error.as_ref().map_or_else(|_| "–".to_owned(), |&error| figure(error)),
+                figure(bound),
+                if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
+                format!("{:.2} s", verdict.seconds),
+            ]
+        }));
+        sheet.table(&rows);
+        sheet.heading("Claims");
+        let mut sentences = Vec::new();
+        for case in catalogue() {
+            if self.iter().any(|verdict| verdict.check.case.name == case.name) {
+                let evidence =
+                    format!("{} Evidence: {}; error of {}.", case.holds, case.evidence, case.error_of);
+                sentences.push([case.name.to_owned(), evidence]);
+            }
+        }
+        sheet.table(&sentences);
+        let failed: Vec<&Verdict> = self.iter().filter(|verdict| !verdict.passes()).collect();
+        if !failed.is_empty() {
+            sheet.heading("Failures");
+            let why = |verdict: &&Verdict| {
+                let Check { case, edges, bound } = verdict.check;
+                let name = format!("{} {}", case.name, edges.name());
+                let why = match &verdict.error {
+                    Ok(error) => format!("error {} above the bound {}", figure(*error), figure(bound)),
+                    Err(fault) => fault.clone(),
+                };
+                [name, why]
+            };
+            sheet.table(&failed.iter().map(why).collect::<Vec<_>>());
+        }
+        sheet.heading(&format!(
+            "{} of {} checks pass, in {:.1} s.",
+            self.len() - failed.len(),
+            self.len(),
+            self.iter().map(|verdict| verdict.seconds).sum::<f64>()
+        ));
+        Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
@@ -30,55 +76,6 @@ impl Report for [Verdict] {
         let passes = self.iter().all(Verdict::passes);
         Some(Box::new(object! { "passes": passes, "checks": self.iter().map(row).collect::<Vec<_>>() }))
     }
-}
-
-/// One row for each check, then the claims of the cases, then the failures.
-fn text(verdicts: &[Verdict]) -> String {
-    let mut sheet = Sheet::default();
-    let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);
-    let mut rows = vec![head];
-    rows.extend(verdicts.iter().map(|verdict| {
-        let Check { case, edges, bound } = verdict.check;
-        [
-            case.name.to_owned(),
-            edges.name().to_owned(),
-            verdict.error.as_ref().map_or_else(|_| "–".to_owned(), |&error| figure(error)),
-            figure(bound),
-            if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
-            format!("{:.2} s", verdict.seconds),
-        ]
-    }));
-    sheet.table(&rows);
-    sheet.heading("Claims");
-    let mut sentences = Vec::new();
-    for case in catalogue() {
-        if verdicts.iter().any(|verdict| verdict.check.case.name == case.name) {
-            let evidence = format!("{} Evidence: {}; error of {}.", case.holds, case.evidence, case.error_of);
-            sentences.push([case.name.to_owned(), evidence]);
-        }
-    }
-    sheet.table(&sentences);
-    let failed: Vec<&Verdict> = verdicts.iter().filter(|verdict| !verdict.passes()).collect();
-    if !failed.is_empty() {
-        sheet.heading("Failures");
-        let why = |verdict: &&Verdict| {
-            let Check { case, edges, bound } = verdict.check;
-            let name = format!("{} {}", case.name, edges.name());
-            let why = match &verdict.error {
-                Ok(error) => format!("error {} above the bound {}", figure(*error), figure(bound)),
-                Err(fault) => fault.clone(),
-            };
-            [name, why]
-        };
-        sheet.table(&failed.iter().map(why).collect::<Vec<_>>());
-    }
-    sheet.heading(&format!(
-        "{} of {} checks pass, in {:.1} s.",
-        verdicts.len() - failed.len(),
-        verdicts.len(),
-        verdicts.iter().map(|verdict| verdict.seconds).sum::<f64>()
-    ));
-    sheet.into_text()
 }
 
 /// A bound or an error: two digits suffice for a comparison, zero is exact.

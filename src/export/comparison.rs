@@ -27,7 +27,6 @@ impl Comparison<'_> {
         )
     }
 
-    /// Both force curves.
     fn drawn(&self) -> Figure {
         let named =
             |(letter, (scene, _)): (&str, (&Document, &Outcome))| format!("{letter}: {}", scene.title());

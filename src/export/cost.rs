@@ -31,8 +31,43 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
+    /// The answer first, omitted settings last.
     fn text(&self) -> Option<String> {
-        Some(text(self.table))
+        let table = self.table;
+        let mut sheet = Sheet::default();
+        table.answer().iter().for_each(|sentence| sheet.paragraph(sentence));
+        sheet.heading("Relative errors, with the observed order of convergence since the row before");
+        sheet.paragraph(&counted_from(table));
+        for knob in Knob::ALL {
+            let rows: Vec<_> = table.rows_of(knob).collect();
+            if rows.is_empty() {
+                continue;
+            }
+            let mut setting = "springs";
+            let mut heading = format!("With {}", knob.name());
+            if knob == Knob::Step {
+                setting = "step";
+                let springs = grouped(rows.first().map_or(0, |row| row.springs));
+                heading +=
+                    &format!(", compared with the exact solver on the same {springs} springs, edges Grid");
+            }
+            sheet.heading(&heading);
+            let [force, curve, energy, contact] = ERRORS;
+            let mut lines = vec![[setting, "time", force, curve, energy, contact].map(String::from)];
+            lines.extend(rows.iter().map(|row| cells(row)));
+            sheet.table(&lines);
+        }
+        let (spent, budget) = (format_rounded(table.spent, 3, "s"), format_rounded(table.budget, 3, "s"));
+        sheet.heading(&format!(
+            "A time is the shortest of several whole runs from the scene to the curve; an FFT of 2^20 real numbers takes \
+             {} here. All measurements together took {spent} of {budget}.",
+            format_rounded(table.transform_seconds, 3, "s")
+        ));
+        if !table.left_out.is_empty() {
+            sheet.heading(&format!("Left out, as {budget} was too short for them:"));
+            table.left_out.iter().for_each(|what| sheet.paragraph(&format!("- {what}")));
+        }
+        Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
@@ -63,43 +98,6 @@ impl Report for CostReport<'_> {
     fn figure(&self) -> Option<Figure> {
         Some(work_precision(self.title, self.table))
     }
-}
-
-/// The answer first, omitted settings last.
-fn text(table: &CostTable) -> String {
-    let mut sheet = Sheet::default();
-    table.answer().iter().for_each(|sentence| sheet.paragraph(sentence));
-    sheet.heading("Relative errors, with the observed order of convergence since the row before");
-    sheet.paragraph(&counted_from(table));
-    for knob in Knob::ALL {
-        let rows: Vec<_> = table.rows_of(knob).collect();
-        if rows.is_empty() {
-            continue;
-        }
-        let mut setting = "springs";
-        let mut heading = format!("With {}", knob.name());
-        if knob == Knob::Step {
-            setting = "step";
-            let springs = grouped(rows.first().map_or(0, |row| row.springs));
-            heading += &format!(", compared with the exact solver on the same {springs} springs, edges Grid");
-        }
-        sheet.heading(&heading);
-        let [force, curve, energy, contact] = ERRORS;
-        let mut lines = vec![[setting, "time", force, curve, energy, contact].map(String::from)];
-        lines.extend(rows.iter().map(|row| cells(row)));
-        sheet.table(&lines);
-    }
-    let (spent, budget) = (format_rounded(table.spent, 3, "s"), format_rounded(table.budget, 3, "s"));
-    sheet.heading(&format!(
-        "A time is the shortest of several whole runs from the scene to the curve; an FFT of 2^20 real numbers takes \
-         {} here. All measurements together took {spent} of {budget}.",
-        format_rounded(table.transform_seconds, 3, "s")
-    ));
-    if !table.left_out.is_empty() {
-        sheet.heading(&format!("Left out, as {budget} were too short for them:"));
-        table.left_out.iter().for_each(|what| sheet.paragraph(&format!("- {what}")));
-    }
-    sheet.into_text()
 }
 
 fn counted_from(table: &CostTable) -> String {

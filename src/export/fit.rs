@@ -147,11 +147,9 @@ impl Report for FitReport<'_> {
     }
 }
 
-/// Error of the model of rough bodies.
 const ROUGH: &str = "These errors leave out that of the model: the adhesion force of rough bodies differs from that in three \
     dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
 
-/// Sentence on parameters that the curve does not separate, and on the measurement that does.
 fn separation(one: Parameter, other: Parameter) -> String {
     let remedy = Parameter::remedy(one, other);
     let (one, other) = (one.row().2, other.row().2);

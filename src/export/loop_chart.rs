@@ -116,7 +116,6 @@ impl LoopUnits {
         (x, y)
     }
 
-    /// Quantities across and up.
     fn quantities(&self) -> [Quantity; 2] {
         let one = |name, symbol, unit, over, of| Quantity { name, symbol, unit, over, of };
         let over = |value: Option<f64>, symbol| value.map(|value| (value, symbol));
@@ -135,7 +134,6 @@ impl LoopUnits {
         }
     }
 
-    /// Horizontal and vertical axis over these places.
     fn axes(&self, places: &[(f64, f64)]) -> [Axis; 2] {
         let x = Span::around(places.iter().map(|place| place.0), 0.06);
         let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
@@ -296,7 +294,6 @@ pub fn sign(mark: Mark) -> Sign {
     }
 }
 
-/// Name of a mark with its force.
 fn mark_name(mark: Mark, force: f64) -> Label {
     let (symbol, value) = match mark {
         Mark::Preload => ("F_n", force),

@@ -33,7 +33,6 @@ pub trait Report {
 
 /// A value that is written as JSON without an intermediate copy.
 pub trait Json {
-    /// Writes the value.
     fn write_json(&self, out: &mut dyn Write) -> io::Result<()>;
 }
 

@@ -52,7 +52,6 @@ impl SceneSpectra {
     }
 }
 
-/// Analyses of the measured surfaces.
 fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     let options = scene.measured_options();
     let faces = read_faces(&scene.measured_paths(Path::new("")));

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 const PER_DECADE: f64 = 20.0;
 
 /// Most decades of the vertical axis: powers far below the others are rounding errors.
-const MOST_DECADES: f64 = 18.0;
+const MOST_DECADES: f64 = 12.0;
 
 /// Stroke of the self-affine fit, which does not decide on the axes.
 const SELF_AFFINE: Stroke = Stroke::Dotted;
@@ -28,7 +28,6 @@ pub struct Spectra {
     pub heights: Vec<SpectrumPoint>,
 }
 
-/// Name of a spectrum of a face: the first one, or the opposite one.
 pub(super) fn spectrum_name(face: usize, direction: Direction) -> &'static str {
     match (face, direction) {
         (0, Direction::X) => "1D PSD along x",
@@ -46,7 +45,6 @@ pub(super) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Itera
     (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
 }
 
-/// Signs of the measured spectra of faces.
 fn measured(faces: &[&Analysis]) -> Vec<Layer> {
     let spectra = faces.iter().enumerate().flat_map(|(face, analysis)| {
         analysis.spectra.iter().map(move |(direction, bins)| (spectrum_name(face, *direction), bins))

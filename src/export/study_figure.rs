@@ -110,7 +110,6 @@ fn means(estimates: &[Option<Statistics>]) -> Vec<Option<f64>> {
     estimates.iter().map(|estimate| Some((*estimate)?.mean)).collect()
 }
 
-/// Coordinates of the values of an axis on its scale.
 fn coordinates(axis: &study::Axis) -> Vec<f64> {
     axis.values.iter().map(|value| axis.scale().coordinate(*value)).collect()
 }
@@ -119,7 +118,6 @@ fn axis_over(axis: &study::Axis, span: Span) -> Axis {
     Axis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
 }
 
-/// Name of a quantity in words.
 fn name(quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime {}", quantity.protocol());
@@ -134,7 +132,6 @@ fn heading(quantity: Quantity) -> Label {
     Label::quantity(&name(quantity), quantity.symbol())
 }
 
-/// Axis of a quantity: its symbol, or its name if it has none.
 fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> Axis {
     let name = if quantity.symbol().is_empty() { name(quantity) } else { String::new() };
     Axis::new(scale, span, &name, quantity.symbol(), quantity.unit())
@@ -153,7 +150,6 @@ fn vanishing_label() -> Label {
     Label::symbol(&format!("F_a(0) = {VANISHING_SHARE} F_a,max"))
 }
 
-/// Range of the vertical axis of curves.
 fn range(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>], scale: AxisScale) -> Span {
     let known = || estimates.iter().flatten();
     let from = Span::of_values(scale, known().map(|estimate| estimate.mean), MOST_DECADES);

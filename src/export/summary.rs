@@ -153,7 +153,6 @@ fn regime(outcome: &Outcome) -> String {
     format!("{} from first touch{both}: {meaning}", regime.name())
 }
 
-/// The regime and, one row each, the deciding shares.
 fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("regime", regime(outcome));
     if outcome.regime.is_none() {
@@ -203,7 +202,6 @@ fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row_of("Tabor number μ", number.map(tabor_number));
 }
 
-/// Tabor number with its warning.
 pub(super) fn tabor_number(number: f64) -> String {
     let value = format_quantity(number, "1");
     if number >= LEAST_TABOR_NUMBER {
@@ -212,7 +210,6 @@ pub(super) fn tabor_number(number: f64) -> String {
     format!("{value}, below {LEAST_TABOR_NUMBER}: attraction of finite range dissipates less than this")
 }
 
-/// Warning of waves that are too steep.
 fn steep_waves(waves: SteepWaves) -> String {
     let SteepWaves { ratio, jkr_factor } = waves;
     format!(
@@ -272,7 +269,6 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
 }
 
-/// All counts of work with their labels.
 fn counts(work: &Work) -> [(&'static str, u64); 15] {
     [
         ("springs", work.springs),

@@ -13,7 +13,6 @@ pub(crate) fn hexadecimal(hasher: Sha256) -> String {
     hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Hash of a regular file.
 pub(crate) fn sha256_of(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let (mut hasher, mut buffer) = (Sha256::new(), vec![0; BUFFER]);

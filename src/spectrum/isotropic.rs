@@ -85,7 +85,6 @@ impl Moment {
         Moment { value, error: statistical.hypot(method), statistical, method, missing_short_waves }
     }
 
-    /// The value times a factor.
     pub(crate) fn scaled(self, factor: f64) -> Self {
         let relative = |error: f64| error / self.value;
         let [statistical, method, missing] =
@@ -93,7 +92,6 @@ impl Moment {
         Moment::new(factor * self.value, statistical, method, missing)
     }
 
-    /// The square root of the value.
     pub(crate) fn root(self) -> Self {
         let relative = |error: f64| 0.5 * error / self.value;
         let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;

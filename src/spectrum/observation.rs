@@ -77,7 +77,6 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
     if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 }
 }
 
-/// Bands of the powers of a map.
 pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
     let MapPower { windowed, steps, sampling, ref waves, .. } = *power;
     let correlated = if windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };

@@ -191,7 +191,6 @@ impl Axis {
         places
     }
 
-    /// The axis with its values in ascending order.
     pub(super) fn ascending(&self) -> Axis {
         let mut axis = self.clone();
         axis.values.sort_by(f64::total_cmp);
@@ -328,12 +327,10 @@ impl Target {
     }
 }
 
-/// Checks the beginning of a logarithmic axis.
 pub(super) fn check_logarithm(from: f64) -> Result<(), String> {
     if from > 0.0 { Ok(()) } else { Err(format!("from {from:?}: a logarithmic axis begins above 0")) }
 }
 
-/// Checks the ends and the number of values of an axis.
 pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), String> {
     if !(2..=most).contains(&count) {
         return Err(format!("count = {count}: allowed: from 2 to {most}"));

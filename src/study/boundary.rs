@@ -7,15 +7,13 @@
 //! e_el/γ: on profiles of one spectrum either determines the other.
 
 use super::StudyError;
-use super::axis::Axis;
-use super::axis::Target;
+use super::axis::{Axis, Target};
 use super::place::governing;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
 use crate::scene::RoughnessParameter;
-use rand::RngExt;
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::path::Path;

@@ -21,7 +21,6 @@ pub(super) struct CaseOutcome<'o> {
     pub loading: LoadingOutcome,
 }
 
-/// Outcome of one loading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LoadingOutcome {
     pub figures: Figures,

@@ -4,8 +4,7 @@
 //! to end: runs on one random profile with the same roughness, so that the profile and its tree are made once.
 //! Within a unit the numbers that shape the profile vary slowest.
 
-use super::axis::Axis;
-use super::axis::Shapes;
+use super::axis::{Axis, Shapes};
 use super::plan::Plan;
 use std::ops::Range;
 

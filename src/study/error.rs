@@ -53,7 +53,6 @@ impl StudyError {
         StudyError::Run { place, error }
     }
 
-    /// Error of a folder or file that cannot be used, with the reason.
     pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {
         StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() }
     }

@@ -7,7 +7,6 @@ use crate::analysis::Regime;
 use crate::draw::AxisScale;
 use crate::scene::RoughnessParameter;
 
-/// Smallest ratio of the values on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 /// A cell of a grid.
@@ -47,11 +46,11 @@ impl Layer {
     }
 }
 
-/// Logarithmic scale where all means are above zero and half of them below a fiftieth of the largest.
+/// Logarithmic scale where all means are above zero and a third of them below a fiftieth of the largest.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
-    let wide = means.iter().all(|mean| *mean > 0.0) && 2 * small >= means.len().max(1);
+    let wide = means.iter().all(|mean| *mean > 0.0) && 3 * small >= means.len().max(1);
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 

@@ -36,7 +36,6 @@ pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredR
     Ok(read.map(|(profile, _)| Arc::new(profile)))
 }
 
-/// Error of a measured file whose content differs from that expected by a plan.
 pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> StudyError {
     StudyError::folder(
         file,

@@ -17,7 +17,6 @@ pub const MOST_CELLS: u64 = 10_000_000;
 pub const MOST_LINES: u64 = 1_000_000;
 /// Most records of a plan: cells times profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
-/// Most axes of a plan.
 pub(super) const MOST_AXES: usize = 16;
 /// Most scenes of which each is checked; of more, those at the ends of all axes.
 pub(super) const MOST_CHECKED: u64 = 4096;
@@ -115,7 +114,6 @@ impl Plan {
         self.cells() * self.lines
     }
 
-    /// Places of a cell on the axes.
     pub(super) fn places(&self, cell: u64) -> Vec<usize> {
         self.places_on(0..self.axes.len(), cell)
     }
@@ -131,12 +129,10 @@ impl Plan {
         places
     }
 
-    /// Number of the cell at places on the axes.
     pub(super) fn cell_at(&self, places: &[usize]) -> u64 {
         places.iter().zip(&self.axes).fold(0, |cell, (place, axis)| cell * axis.count() + *place as u64)
     }
 
-    /// Value of an axis, by its number, in a cell.
     pub(super) fn value(&self, cell: u64, axis: usize) -> f64 {
         let faster: u64 = self.axes[axis + 1..].iter().map(Axis::count).product();
         self.axes[axis].values[(cell / faster % self.axes[axis].count()) as usize]

@@ -12,13 +12,11 @@ struct Row {
     symbol: &'static str,
     /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
     unit: &'static str,
-    /// Meaning in one line.
     meaning: &'static str,
     /// Smallest and largest possible value.
     bounds: (f64, f64),
     /// Computation required by the quantity.
     needs: Needs,
-    /// Value of a case, if any.
     of: fn(&CaseOutcome<'_>) -> Option<f64>,
 }
 

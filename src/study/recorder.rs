@@ -115,7 +115,6 @@ impl<'p> Recorder<'p> {
         self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
     }
 
-    /// Recorded properties of the profile.
     fn profile_record(&mut self, scene: &Scene) -> Result<ProfileRecord, RunError> {
         let (heights, stiffness) = (self.plan.records(Needs::Heights), self.plan.records(Needs::Stiffness));
         if !heights && !stiffness {

@@ -18,7 +18,6 @@ use crate::text::path_name;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Most missing cells that are named.
 const MOST_NAMED: usize = 8;
 
 /// The records of a study.
@@ -160,7 +159,6 @@ impl Results {
         done
     }
 
-    /// Sets the records of all cells on a profile.
     fn set_profile(&mut self, line: u64, records: &Records) {
         for (cell, values) in (0..).zip(records) {
             self.set(cell * self.plan.lines + line, values);

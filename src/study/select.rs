@@ -7,10 +7,10 @@ use super::quantity::Quantity;
 use super::results::Results;
 use crate::draw::AxisScale;
 use crate::scene::parse_quantity;
+use crate::text::round_to;
 
 /// Most values of a second axis that makes curves of a section rather than rows of a map.
 const MOST_CURVES: usize = 5;
-/// Most values named in a message.
 const MOST_NAMED: usize = 12;
 
 /// Selection by the user; an option of `asperity sweep plot` for each field.
@@ -38,7 +38,6 @@ pub struct Selection {
     pub scale: Option<AxisScale>,
 }
 
-/// Parses an axis and its value.
 #[cfg(feature = "tui")]
 fn axis_and_value(text: &str) -> Result<(String, String), String> {
     let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
@@ -135,14 +134,16 @@ impl Selection {
             let index = name(path, "--at")?;
             let axis = &axes[index];
             let wanted = parse_quantity(value, axis.unit).ok();
-            // Values are written with 12 digits, and 0.3 is typed for them.
-            let same =
-                |there: &f64| wanted.is_some_and(|wanted| (there - wanted).abs() <= 1e-9 * there.abs());
+            // Messages have values of 4 digits: those may be typed, and mean the nearest value.
+            let off = |there: &f64| wanted.map_or(f64::NAN, |wanted| (there - wanted).abs());
+            let same = |there: &f64| off(there) <= 5e-4 * there.abs();
             let none = || {
                 let allowed = values_of(axis);
                 format!("--at {path}={value}: the study has no such value; allowed: {allowed}")
             };
-            fixed[index] = Some(axis.values.iter().position(same).ok_or_else(none)?);
+            let close = (0..axis.values.len()).filter(|place| same(&axis.values[*place]));
+            let nearest = close.min_by(|a, b| off(&axis.values[*a]).total_cmp(&off(&axis.values[*b])));
+            fixed[index] = Some(nearest.ok_or_else(none)?);
         }
         Ok(([across, up], fixed))
     }
@@ -210,10 +211,11 @@ fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, String
 }
 
 fn values_of(axis: &Axis) -> String {
-    let shown = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+    let value = |value: &f64| round_to(*value, 4).to_string();
+    let shown = |values: &[f64]| values.iter().map(value).collect::<Vec<_>>().join(", ");
     match &axis.values[..] {
         [first @ .., last] if first.len() >= MOST_NAMED => {
-            format!("{}, … {last}", shown(&first[..MOST_NAMED - 1]))
+            format!("{}, … {}", shown(&first[..MOST_NAMED - 1]), value(last))
         }
         values => shown(values),
     }

@@ -26,7 +26,6 @@ pub const STORE_VERSION: u32 = 1;
 const LONGEST_LINE: u64 = 1 << 16;
 
 const SHARDS: &str = "shards";
-/// Ending of a shard file.
 const ENDING: &str = "shard";
 
 /// Characters of the checksum and the comma behind it.
@@ -133,12 +132,10 @@ impl Folder {
         &self.plan
     }
 
-    /// Checksum of the plan.
     fn checksum(&self) -> String {
         format!("{:08x}", crc32fast::hash(self.plan.to_ron().as_bytes()))
     }
 
-    /// Makes a new shard file for this process, with its header.
     pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, File), StudyError> {
         let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let started = begun.as_secs();

@@ -32,7 +32,6 @@ pub struct PlotArguments {
     pub output: OutputArguments,
 }
 
-/// Formats of a figure.
 const FORMATS: &[Format] = &[Format::Svg, Format::Png, Format::Pdf, Format::Text];
 
 pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<(), CliError> {

@@ -65,7 +65,6 @@ pub(super) fn size(text: &str) -> Result<u64, String> {
     if (1.0..=1e18).contains(&bytes) { Ok(bytes as u64) } else { Err(allowed()) }
 }
 
-/// Computes the missing records of a plan, and merges once the plan is complete.
 pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     // The parser requires a plan if there is no command.
@@ -132,7 +131,6 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     write_merged(&folder, &merge(&folder, false)?, stdout)
 }
 
-/// Progress as a line of text.
 fn text_of(progress: &Progress) -> String {
     let Progress { done, before, total, elapsed: _ } = *progress;
     let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };

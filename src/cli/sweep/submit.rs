@@ -63,7 +63,6 @@ pub struct SubmitArguments {
     pub options: Vec<OsString>,
 }
 
-/// Submits a study, or prints the script of the submission.
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     let plan = Plan::open(&arguments.plan, &changes)?;

@@ -6,7 +6,6 @@ use crate::draw::label::Label;
 use ratatui::symbols::Marker;
 use ratatui::text::Span as Text;
 
-/// Sample of a stroke, in the characters of lines.
 fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
     match (stroke, marker) {
         (Stroke::Solid, Marker::Braille) => ["⠒", "⠒", "⠒"],
@@ -20,7 +19,6 @@ fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
     }
 }
 
-/// Sample of a layer, in the characters of lines.
 fn text_of(sample: Sample, marker: Marker) -> String {
     match sample {
         Sample::Line(stroke, sign) => {

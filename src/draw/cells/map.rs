@@ -32,7 +32,6 @@ fn run(values: &[usize], cell: usize) -> Range<usize> {
     first(values[cell])..first(values[cell] + 1)
 }
 
-/// Draws a heat map over the whole area.
 pub(super) fn draw(buffer: &mut Buffer, area: Rect, chart: &Chart, map: &HeatMap, style: &CellStyle<'_>) {
     let columns = values_behind(&chart.x, &map.columns, area.width);
     let rows = values_behind(&chart.y, &map.rows, area.height);
@@ -74,13 +73,11 @@ pub(super) fn draw(buffer: &mut Buffer, area: Rect, chart: &Chart, map: &HeatMap
     }
 }
 
-/// Step of the characters for a share of the scale.
 fn step(share: f64) -> usize {
     // NaN is the lowest step.
     ((share * SHADES.len() as f64) as usize).min(SHADES.len() - 1)
 }
 
-/// Returns true if the contour passes between two cells.
 fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
     let Some(contour) = &map.contour else { return false };
     let below = |cell: usize| Some(contour.field.get(cell).copied().flatten()? < contour.level);

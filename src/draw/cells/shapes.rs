@@ -31,7 +31,6 @@ pub fn dry(buffer: &mut Buffer) {
     }
 }
 
-/// A layer of a chart.
 pub(super) struct LayerShape<'a> {
     pub chart: &'a Chart,
     pub shape: &'a Shape,

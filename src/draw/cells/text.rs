@@ -51,7 +51,6 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
     text
 }
 
-/// Label of the vertical axis with its unit, or of the values of a map.
 fn heading(chart: &Chart) -> Label {
     chart.map().map_or_else(|| chart.y.label_with_unit(), |map| map.key.label_with_unit())
 }
@@ -133,7 +132,6 @@ fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
     text.push('\n');
 }
 
-/// Escape sequence of the colours of a style.
 fn code(style: &Style) -> String {
     let parameters = |kind: u8, colour: Option<Color>| match colour {
         Some(Color::Rgb(red, green, blue)) => Some(format!("{kind};2;{red};{green};{blue}")),
@@ -144,7 +142,6 @@ fn code(style: &Style) -> String {
     if both.is_empty() { String::new() } else { format!("\x1b[{}m", both.join(";")) }
 }
 
-/// Adds words, broken into lines.
 fn push_words(text: &mut String, words: &str, columns: usize) {
     for line in wrap(words, columns).iter().filter(|line| !line.is_empty()) {
         text.push_str(line);

@@ -205,7 +205,6 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     lines
 }
 
-/// A place with the symbols of the axes.
 fn on_axes(grid: &Grid, (across, up): Place) -> String {
     let on_axis =
         |axis: &Axis, value| format!("{} {}", axis.symbol_or_name(), format_rounded(value, 3, axis.unit));
@@ -264,7 +263,6 @@ fn below(app: &App, width: u16) -> Vec<Line<'static>> {
     lines
 }
 
-/// Quantities that decide a regime.
 fn deciding(regime: Quantity) -> [Quantity; 2] {
     let after_zero_force = usize::from(regime == Quantity::RegimeAfterZeroForce);
     [Quantity::ADHESION_SHARES[after_zero_force], Quantity::AdhesionCoefficient]

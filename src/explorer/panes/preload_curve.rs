@@ -21,7 +21,6 @@ pub const PROFILES: usize = 16;
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    /// The axis that was asked for.
     asked: PreloadAxis,
     /// The preloads.
     pub axis: Axis,
