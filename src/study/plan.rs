@@ -245,9 +245,9 @@ impl Plan {
         let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
         let mut wrong: Vec<String> =
             check(&texts).iter().filter(is_text).map(SceneError::to_string).collect();
-        if self.measured_sha256.is_some() && self.scene.measured().is_none() {
+        if self.measured_sha256.is_some() && self.scene.measured_files().is_empty() {
             wrong.push(
-                "measured_sha256: allowed with roughness: Measured; this scene has no such file".into(),
+                "measured_sha256: allowed with roughness: Measured and form: Table; this scene has no such file".into(),
             );
         }
         wrong
