@@ -9,7 +9,6 @@ use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::theme::{Appearance, Meaning};
-use crate::explorer::update::{Answer, Choosing};
 use crate::explorer::view::stages;
 use crate::explorer::view::text::{filled, wrapped};
 use crate::export::{CostReport, work_precision};
@@ -182,14 +181,8 @@ fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>>
             }
         }
     }
-    if let Some(Choosing { tolerance, tried, .. }) = app.studies.value() {
-        let tried = tried.map_or_else(String::new, |points| format!(", {} springs", grouped(points)));
-        say(Line::styled(format!("trying for {tolerance:e}{tried}…"), theme.style(Meaning::Key)));
-    } else if let Some(Costs { trying: Some(trying), .. }) = app.studies.value() {
+    if let Some(Costs { trying: Some(trying), .. }) = app.studies.value() {
         say(Line::styled(format!("trying {trying}…"), theme.style(Meaning::Key)));
-    }
-    if let Some(Answer(answer)) = app.studies.value() {
-        say(Line::raw(answer.clone()));
     }
     let rows = if area.height >= 12 { 2 } else { 1 };
     lines.extend(stages::strip(app, area.width, rows));

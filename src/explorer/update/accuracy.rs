@@ -3,7 +3,7 @@
 
 use super::{Effect, edit, measured};
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
-use crate::explorer::app::{App, Message};
+use crate::explorer::app::App;
 use crate::explorer::editor::scene_of;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::reach::out_of_reach;
@@ -26,10 +26,6 @@ pub struct Choosing {
     pub tried: Option<u64>,
     pub found: Option<Result<Choice, ChoiceError>>,
 }
-
-/// Answer to the last tolerance, until the next edit.
-#[derive(Debug)]
-pub struct Answer(pub String);
 
 /// The studies that the present state needs and that have not ended, in the order of their performance.
 pub fn studies(app: &mut App) -> Vec<Study> {
@@ -92,7 +88,6 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
         return Err(NOT_COMPUTED.to_owned());
     }
     app.studies.set(app.edit.generation, Choosing { tolerance, tried: None, found: None }, false);
-    app.studies.forget::<Answer>();
     app.effects.push(Effect::Study);
     Ok(())
 }
@@ -104,10 +99,7 @@ pub fn found(app: &mut App) {
         app.effects.push(Effect::Study);
         match found {
             Ok(choice) => take_over(app, &choice),
-            Err(error) => {
-                app.set_error(error.to_string());
-                app.studies.set(app.edit.generation, Answer(error.to_string()), true);
-            }
+            Err(error) => app.set_error(error.to_string()),
         }
     }
 }
@@ -120,14 +112,11 @@ fn take_over(app: &mut App, choice: &Choice) {
         let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
         edit::take_over(app, app.edit.document.set_all(&fields));
-        if let Some(Message::Refused(why)) = &app.message {
-            app.studies.set(app.edit.generation, Answer(why.clone()), true);
+        if app.is_refused() {
             return;
         }
     }
     // From finer solutions than those of an estimate.
     app.studies.set(app.edit.generation, choice.estimate(), true);
-    let sentence = choice.sentence();
-    app.set_done(format!("{}{sentence}", if is_so { "as it is: " } else { "" }));
-    app.studies.set(app.edit.generation, Answer(sentence), true);
+    app.set_done(format!("{}{}", if is_so { "as it is: " } else { "" }, choice.sentence()));
 }

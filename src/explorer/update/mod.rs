@@ -16,7 +16,7 @@ pub(super) mod preloads;
 pub(super) mod stages;
 
 pub use super::action::Effect;
-pub use accuracy::{Answer, Choosing, studies};
+pub use accuracy::{Choosing, studies};
 pub use measured::Fitting;
 
 use super::action::Action;
