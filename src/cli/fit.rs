@@ -47,7 +47,7 @@ pub struct FitArguments {
     #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
     /// Write the scene with the values found to FILE
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", group = "written")]
     pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub output: OutputArguments,

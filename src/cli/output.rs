@@ -8,7 +8,7 @@ use crate::export::{
 use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Scene, parse_quantity, quoted};
 use crate::text::path_name;
-use clap::{Arg, Args};
+use clap::{Arg, ArgGroup, Args};
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -26,12 +26,13 @@ const PX: f64 = 96.0 / 0.0254;
 
 /// Format of results, a file for them in place of standard output, and the look of figures.
 #[derive(Args, Clone, Debug, Default)]
+#[command(group(ArgGroup::new("written").multiple(true)))]
 pub struct OutputArguments {
     /// Write to FILE, whole or not at all; `-` is standard output
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", group = "written")]
     pub output: Option<PathBuf>,
     /// Overwrite files that exist
-    #[arg(long)]
+    #[arg(long, requires = "written")]
     pub force: bool,
     /// text, json, csv, npy, svg, png or pdf; default: by the extension
     #[arg(long, value_enum, hide_possible_values = true)]

@@ -69,7 +69,7 @@ pub struct SurfaceArguments {
     /// Write a scene with the equivalent line to FILE; needs --modulus
     ///
     /// The scene names the files and contains all options of their reading and analysis.
-    #[arg(long, value_name = "FILE", requires = "modulus", verbatim_doc_comment)]
+    #[arg(long, value_name = "FILE", requires = "modulus", group = "written", verbatim_doc_comment)]
     pub scene: Option<PathBuf>,
     /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]

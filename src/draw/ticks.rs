@@ -17,19 +17,15 @@ pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, mo
     if high <= low || !(high - low).is_finite() {
         return Vec::new();
     }
-    match scale {
-        AxisScale::Linear => linear(low / divisor, high / divisor, most)
-            .into_iter()
-            .map(|tick| Tick { at: tick.at * divisor, ..tick })
-            .collect(),
+    let (factor, shift, mut ticks) = match scale {
+        AxisScale::Linear => (divisor, 0.0, linear(low / divisor, high / divisor, most)),
         AxisScale::Logarithmic => {
             let shift = divisor.log10();
-            logarithmic(low - shift, high - shift, most)
-                .into_iter()
-                .map(|tick| Tick { at: tick.at + shift, ..tick })
-                .collect()
+            (1.0, shift, logarithmic(low - shift, high - shift, most))
         }
-    }
+    };
+    ticks.iter_mut().for_each(|tick| tick.at = tick.at * factor + shift);
+    ticks
 }
 
 /// Step of 1, 2 or 5 times a power of ten for about `most` ticks at most, and its number of minor steps.

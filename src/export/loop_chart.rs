@@ -148,7 +148,7 @@ impl LoopUnits {
 }
 
 /// A loop of a chart. Without a name, an ink or a stroke of the loop, loading and unloading have their own.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
     /// Curves with their directions.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
@@ -158,8 +158,8 @@ pub struct ForceLoop<'a> {
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name in the legend.
     pub name: Option<Label>,
-    /// False for marks without their forces in the legend, where several charts share it.
-    pub forces: bool,
+    /// True for marks without their forces in the legend, where several charts share it.
+    pub without_forces: bool,
     pub ink: Option<Ink>,
     pub stroke: Option<Stroke>,
 }
@@ -171,15 +171,7 @@ impl<'a> ForceLoop<'a> {
     /// The loop of a loading history with its marks.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
-        ForceLoop {
-            curves,
-            stiffness: None,
-            marks: marks(legs),
-            name: None,
-            forces: true,
-            ink: None,
-            stroke: None,
-        }
+        ForceLoop { curves, marks: marks(legs), ..ForceLoop::default() }
     }
 
     /// The loop of an outcome with its marks.
@@ -236,7 +228,7 @@ impl<'a> ForceLoop<'a> {
         }
         for (mark, point) in self.marks.iter().filter(|(mark, _)| units.shows(*mark)) {
             let name = match self.name {
-                None if self.forces => mark_name(*mark, point.force),
+                None if !self.without_forces => mark_name(*mark, point.force),
                 None => Label::plain(mark.name()),
                 Some(_) => Label::default(),
             };
@@ -276,7 +268,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
 /// Force curves of computed scenes with their titles, each over axes of its own, with the adhesion force in the heading.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let figure = |(title, outcome): &(&str, &Outcome)| {
-        let one = ForceLoop { forces: false, ..ForceLoop::new(&outcome.history.legs) };
+        let one = ForceLoop { without_forces: true, ..ForceLoop::new(&outcome.history.legs) };
         let force = outcome.figures.adhesion_force.map(|force| value_label("", "F_a", "N", force));
         let chart = loop_chart(&[one], LoopUnits::default());
         let notes = force.into_iter().collect();

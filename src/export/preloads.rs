@@ -205,7 +205,10 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     let (touch, at_touch) = staircase.touch;
     // A turn at first touch is no preload. From each preload on level up to the next one, as the staircases are.
     let pressed = &spread[spread.partition_point(|(preload, _)| *preload <= touch)..];
-    let corner = |pair: &[(f64, Statistics)]| [(pair[1].0, pair[0].1), pair[1]];
+    let corner = |pair: &[(f64, Statistics)]| {
+        let level = (pair[0].1 != pair[1].1).then_some((pair[1].0, pair[0].1));
+        level.into_iter().chain([pair[1]])
+    };
     let steps = || pressed.first().copied().into_iter().chain(pressed.windows(2).flat_map(corner));
     if let Some((_, Statistics { count, .. })) = spread.first() {
         let band = |ends: fn(&Statistics) -> (f64, f64)| {

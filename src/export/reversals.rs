@@ -117,13 +117,8 @@ impl Report for ReversalReport<'_> {
             ..preload_chart(staircase, &[], true)
         });
         let maps = [everett_chart(map), density_chart(map, smoothing)];
-        Some(Figure {
-            title: self.title.to_owned(),
-            notes,
-            charts: adhesion.into_iter().chain(maps).collect(),
-            size: Figure::SMALL,
-            ..Figure::default()
-        })
+        let (title, charts) = (self.title.to_owned(), adhesion.into_iter().chain(maps).collect());
+        Some(Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() })
     }
 }
 

@@ -160,7 +160,7 @@ impl Report for SensitivityReport<'_> {
         sheet.paragraph(self.title);
         if self.sensitivity.missing().is_none() {
             let springs = grouped(self.scene.numerics.points);
-            sheet.heading(&format!("Changes of the results by those of one number, {springs} springs"));
+            sheet.heading(&format!("Changes of the results where one number changes, {springs} springs"));
             sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());

@@ -20,7 +20,6 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
-    /// A table alone as text.
     pub(crate) fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
         let mut sheet = Sheet::default();
         sheet.table(rows);

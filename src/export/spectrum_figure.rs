@@ -20,7 +20,6 @@ pub type SpectrumPoint = (f64, f64);
 /// Spectra of measured surfaces, and of a line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
-    /// Measured spectra, fits and limits.
     measured: Vec<Layer>,
     /// Intended spectrum of the equivalent line.
     pub line: Vec<SpectrumPoint>,

@@ -30,13 +30,8 @@ const REGIMES: [(Regime, Sign, char, Ink); 3] = [
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
-    Figure {
-        title: title.into(),
-        notes: fixed.into_iter().collect(),
-        charts,
-        size: Figure::SMALL,
-        ..Figure::default()
-    }
+    let (title, notes) = (title.into(), fixed.into_iter().collect());
+    Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
 /// A map of a quantity over the two axes of a grid, with the regimes and the line on which adhesion without a load
@@ -127,7 +122,6 @@ fn name(quantity: Quantity) -> String {
     hyphenated.iter().fold(name, |name, (words, word)| name.replace(words, word))
 }
 
-/// Name and symbol of a quantity.
 fn heading(quantity: Quantity) -> Label {
     Label::quantity(&name(quantity), quantity.symbol())
 }

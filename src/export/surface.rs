@@ -15,7 +15,6 @@ use serde::Serialize;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::{Path, PathBuf};
 
-/// Points per decade of the spectrum of the equivalent line in a table.
 const LINE_PER_DECADE: f64 = 10.0;
 
 /// Share of the squared height in long waves above which it depends on the length of the scan.
@@ -204,7 +203,6 @@ fn preload(scene: &Scene) -> Option<f64> {
     }
 }
 
-/// Adhesion of the equivalent line.
 fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
     sheet.heading("Adhesion of the equivalent line");
     let loading = preload(scene).map_or_else(

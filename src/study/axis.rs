@@ -20,7 +20,6 @@ const APART: f64 = 1e-6;
 /// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// An axis in the form of a plan.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Axis")]
 pub(super) enum AxisText {

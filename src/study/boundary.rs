@@ -150,7 +150,6 @@ fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve
     curve
 }
 
-/// Conversion of a parameter into another on the profiles of a cell.
 fn conversion(
     plan: &Plan,
     cell: u64,
@@ -181,7 +180,6 @@ impl Boundaries {
     }
 }
 
-/// The boundary of a curve with its confidence interval by resampling of the profiles.
 fn crossing(curve: &Curve, level: f64) -> Crossing {
     let count = curve.first().map_or(0, |(_, shares)| shares.len());
     let every: Vec<usize> = (0..count).collect();

@@ -21,7 +21,6 @@ pub(super) struct Cells<'p> {
     order: Vec<usize>,
     /// Runs on one profile of the same roughness.
     steps: u64,
-    /// Cells of one run.
     preloads: u64,
     /// Runs of one unit, and units of one profile.
     chunk: u64,

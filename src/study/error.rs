@@ -57,12 +57,10 @@ impl StudyError {
         StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() }
     }
 
-    /// Errors of reading a folder or file.
     pub(super) fn unreadable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
         move |error| StudyError::folder(path, format!("cannot be read: {error}"))
     }
 
-    /// Errors of writing a folder or file.
     pub(super) fn unwritable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
         move |reason| WriteError::Failed { path: path.to_path_buf(), reason }.into()
     }

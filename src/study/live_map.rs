@@ -52,7 +52,6 @@ impl Level {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
-    /// Reasons for cells that could not be computed.
     failed: BTreeMap<u64, String>,
 }
 
@@ -89,13 +88,11 @@ impl LiveMap {
         self.results.set(cell * self.plan().lines + line, values);
     }
 
-    /// Levels of the map, the coarsest first.
     fn levels(&self) -> impl Iterator<Item = Level> + use<> {
         let finest = Level::finest(self.plan().scene.numerics.points);
         Level::ALL.into_iter().filter(move |level| *level <= finest)
     }
 
-    /// Returns true if all cells of a level are known.
     fn has(&self, level: &Level) -> bool {
         self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
     }

@@ -97,7 +97,6 @@ pub(super) fn strip(scene: &mut Scene) {
     scene.numerics.samples = FEW_SAMPLES;
 }
 
-/// Governing parameters of a scene with a self-affine profile.
 pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     let unit = scene.spectrum()?.unit_amplitude(scene.length);
     Some(Governing::of(scene, Some(unit), None))

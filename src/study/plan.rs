@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 /// File name of the plan in the folder of a study.
 pub(super) const PLAN_FILE: &str = "plan.ron";
-/// Path of the axis of preloads.
 pub(super) const PRELOAD: &str = "preload";
 
 /// Most cells of a plan.
@@ -22,7 +21,6 @@ pub(super) const MOST_AXES: usize = 16;
 pub(super) const MOST_CHECKED: u64 = 4096;
 /// Most cells with invalid scenes that are named; the rest is counted.
 const MOST_NAMED: usize = 8;
-/// Most forces of a [`StiffnessRange`].
 const MOST_FORCES: u64 = 1000;
 
 /// Axes that set the same quantity, of which a plan may have one.
@@ -176,7 +174,6 @@ impl Plan {
 /// Checks: those of the plan itself are quick; scenes of cells are checked when a plan is opened for a study, not when the
 /// folder of a study is opened again.
 impl Plan {
-    /// Errors of the plan itself.
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();
         let paths: Vec<&str> = self.axes.iter().map(|axis| axis.path.as_str()).collect();

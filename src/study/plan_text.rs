@@ -41,7 +41,6 @@ pub struct Changes {
     pub lines: Option<u64>,
 }
 
-/// A plan in the form of its file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "Plan")]
 struct PlanText {
@@ -189,7 +188,6 @@ impl Plan {
     }
 }
 
-/// An axis in the form of a plan.
 fn in_ron(axis: &Axis) -> String {
     let path = ron_string(&axis.path);
     let kind = match axis.spacing {

@@ -4,7 +4,6 @@ use super::case_outcome::CaseOutcome;
 use crate::analysis::Regime;
 use serde::{Deserialize, Serialize};
 
-/// All properties of a quantity.
 struct Row {
     /// Name in plans and of columns.
     name: &'static str,
@@ -13,14 +12,11 @@ struct Row {
     /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
     unit: &'static str,
     meaning: &'static str,
-    /// Smallest and largest possible value.
     bounds: (f64, f64),
-    /// Computation required by the quantity.
     needs: Needs,
     of: fn(&CaseOutcome<'_>) -> Option<f64>,
 }
 
-/// Computation required by a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
     /// The profile and its governing parameters.

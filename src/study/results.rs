@@ -26,7 +26,6 @@ pub struct Results {
     pub(super) plan: Plan,
     /// Values of each record, by cell, then by profile; NaN where there are none.
     values: Vec<f64>,
-    /// True for each existing record.
     done: Vec<bool>,
 }
 
@@ -222,7 +221,6 @@ impl Results {
         ))
     }
 
-    /// Number of existing records.
     fn count(&self) -> u64 {
         self.done.iter().filter(|done| **done).count() as u64
     }
@@ -267,7 +265,6 @@ impl Results {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
 
-    /// Returns true for the existing record of a cell on a profile.
     pub(super) fn has(&self, cell: u64, line: u64) -> bool {
         self.done[(cell * self.plan.lines + line) as usize]
     }

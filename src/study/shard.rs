@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Largest number of parts.
 const MOST: u32 = 1_000_000;
 
 /// The `number`-th of `count` parts, counted from 1.

@@ -305,7 +305,6 @@ pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<O
     })
 }
 
-/// Text of the plan in a folder.
 fn text_of(file: &Path) -> Result<String, StudyError> {
     read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
 }
@@ -326,7 +325,6 @@ fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     StudyError::folder(path, format!("{other}\n{difference}"))
 }
 
-/// The first lines in which two plans differ.
 fn difference(there: &str, asked: &str) -> String {
     let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
     let asked = asked.lines().map(Some).chain(std::iter::repeat(None));

@@ -86,7 +86,6 @@ impl StudyMap {
         self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
     }
 
-    /// Axes of the maps.
     fn over(&self) -> impl Iterator<Item = &Axis> {
         [Some(self.across), self.up].into_iter().flatten().map(|axis| &self.plan().axes[axis])
     }

@@ -111,7 +111,6 @@ fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u6
 }
 
 impl Results {
-    /// The records, one row for each.
     pub(super) fn table(&self) -> Table<'_> {
         let rows = || {
             let of_cell = |cell| self.records_of(cell).map(move |(line, values)| (cell, line, values));

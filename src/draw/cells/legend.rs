@@ -7,15 +7,12 @@ use ratatui::symbols::Marker;
 use ratatui::text::Span as Text;
 
 fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
-    match (stroke, marker) {
-        (Stroke::Solid, Marker::Braille) => ["⠒", "⠒", "⠒"],
-        (Stroke::Dashed, Marker::Braille) => ["⠒", "⠂", "⠒"],
-        (Stroke::Dotted, Marker::Braille) => ["⠒", " ", "⠒"],
-        (Stroke::Sparse, Marker::Braille) => ["⠂", " ", "⠂"],
-        (Stroke::Solid, _) => ["▄", "▄", "▄"],
-        (Stroke::Dashed, _) => ["▄", "▖", "▄"],
-        (Stroke::Dotted, _) => ["▄", " ", "▄"],
-        (Stroke::Sparse, _) => ["▖", " ", "▖"],
+    let [long, short] = if marker == Marker::Braille { ["⠒", "⠂"] } else { ["▄", "▖"] };
+    match stroke {
+        Stroke::Solid => [long; 3],
+        Stroke::Dashed => [long, short, long],
+        Stroke::Dotted => [long, " ", long],
+        Stroke::Sparse => [short, " ", short],
     }
 }
 

@@ -79,6 +79,7 @@ fn keys_change_the_range_and_the_scale_of_the_preloads() {
     let usual = range(&driver);
     let preload = driver.app.solved.as_ref().unwrap().outcome.figures.preload.unwrap();
     assert!(usual.0 < 0.0 && usual.1 > 1.9 * preload, "{usual:?}");
+    let most = 10.0 * driver.app.solved.as_ref().unwrap().full_contact;
     let mut after = |keys: &str| {
         driver.press(keys);
         compute(&mut driver, 1);
@@ -100,9 +101,13 @@ fn keys_change_the_range_and_the_scale_of_the_preloads() {
     near((far.0, 0.0), (usual.0, 0.0));
     let (from, to) = after("X");
     assert!(from > 0.0 && (to / from / 1e6 - 1.0).abs() < 1e-9);
-    let (from, to) = after("-");
-    assert!((to / from / 1e12 - 1.0).abs() < 1e-6);
+    // The axis ends far beyond full contact.
+    let (wider, end) = after("-");
+    assert!(wider < from && (end / most.max(to) - 1.0).abs() < 1e-9, "{wider} {end} {most}");
     near(after("X"), usual);
+    let (_, end) = after("- - - - - -");
+    assert!((end / most - 1.0).abs() < 1e-9, "{end} {most}");
+    near(after("0"), usual);
     // In another pane the keys have their other meaning.
     driver.app.view.pane = Pane::Force;
     driver.press("+ ( 0");
