@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 /// Factor from the start to the ends of a range that is not given.
 const FACTOR: f64 = 30.0;
 /// Residual in contact, in units of the noise, of a model that does not describe the curve.
-const MISFIT: f64 = 2.0;
+const MISFIT: f64 = 1.5;
 /// Correlation of parameters that are not separated, and half width of the 95 % interval of a logarithm that is flat.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
@@ -367,8 +367,7 @@ mod tests {
     fn intervals_hold_the_truth_of_most_spheres() {
         let effort = std::env::var("TEST_EFFORT").ok().and_then(|effort| effort.parse().ok());
         let (mut intervals, mut seconds) = (Vec::new(), Vec::new());
-        let from = std::env::var("FROM").map_or(0, |v| v.parse().unwrap());
-        for seed in from..effort.unwrap_or(12) {
+        for seed in 0..effort.unwrap_or(12).clamp(12, 200) {
             let made = random(seed, 4096);
             let curve = measured(&made, seed);
             let clock = std::time::Instant::now();

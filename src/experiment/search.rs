@@ -33,8 +33,12 @@ const EXPECTED: f64 = 1.2;
 /// Largest noise in units of that of the curve, and halvings of its logarithm in a step.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
+/// Largest factor of the noise in a step.
+const SLOWEST: f64 = 0.99;
 /// Residual, in units of the noise, beyond which a point counts less: it is on the wrong side of a jump.
 pub(super) const WRONG_SIDE: f64 = 5.0;
+/// Residual in units of the noise of a force beyond all numbers.
+const FAR: f64 = 1e12;
 /// Bases of evenly scattered points.
 const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 
@@ -138,7 +142,8 @@ impl Search<'_> {
     fn member(&mut self, at: Vec<f64>) -> Result<Member, ExperimentError> {
         let forces = self.forces(&at)?;
         let measured = self.space.curve.force.iter().zip(&forces);
-        let rests = measured.map(|(measured, model)| (measured - model) / self.space.curve.noise).collect();
+        let rest = |(measured, model): (&f64, &f64)| (measured - model) / self.space.curve.noise;
+        let rests = measured.map(rest).map(|rest| if rest.is_finite() { rest } else { FAR }).collect();
         Ok(Member { at, rests })
     }
 
@@ -263,7 +268,9 @@ impl Search<'_> {
             let middle = (low * high).sqrt();
             *if is_enough(&weights(middle)) { &mut high } else { &mut low } = middle;
         }
-        (high, weights(high))
+        // Never the same again.
+        let next = if high < population.noise { high } else { SLOWEST * high };
+        (next, weights(next))
     }
 
     /// Moves each member by differences of two others, or leaves it where it is (ter Braak, Stat. Comput. 16, 239, 2006).
