@@ -1,7 +1,6 @@
 //! The experiment beside the model: measured force curves, and the parameters of a scene that describe them.
 
 mod baseline;
-mod bootstrap;
 mod curve;
 mod error;
 mod fit;
@@ -10,6 +9,7 @@ mod parameter;
 mod read;
 mod scene;
 mod search;
+mod statistics;
 
 pub use curve::MeasuredCurve;
 pub use error::ExperimentError;

@@ -7,12 +7,15 @@ use crate::contact::{Contact, ContactError, CurvePoint, Direction, Foundation, H
 use crate::scene::{Form, Scene};
 use crate::simulation::Simulation;
 
-/// Points of the force curve of each segment beside those at the measured displacements.
+/// Points of the force curve of each segment beside those at its jumps.
 const SAMPLES: usize = 256;
-/// Points of the curve on which the end of a loading is looked for.
-const COARSE: usize = 64;
-/// Extensions of a loading that does not reach the displacement of its end.
+/// Extensions of a loading that does not reach the displacement of its end, and halvings of the way to that end.
 const EXTENSIONS: usize = 8;
+const HALVINGS: usize = 5;
+/// Smallest jump of the force over the noise that is looked for.
+const NOTABLE: f64 = 2.0;
+/// Points on each side of a fold, each half as far as the one before.
+const FAN: i32 = 8;
 
 /// A scene on the displacements of a measured curve.
 pub(super) struct Model<'a> {
@@ -57,28 +60,30 @@ impl<'a> Model<'a> {
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
         let contact = self.contact(values)?;
-        let offset = values[Parameter::Offset as usize];
-        let (stiffness, zero) = (values[Parameter::Stiffness as usize], values[Parameter::Zero as usize]);
+        let [offset, zero, stiffness] =
+            [Parameter::Offset, Parameter::Zero, Parameter::Stiffness].map(|one| values[one as usize]);
+        let instrument = [stiffness, self.curve.noise];
         let mut forces = Vec::with_capacity(self.curve.force.len());
-        let (mut here, mut start) = (None, 0);
+        let mut here = None;
         for (number, turn) in self.turns.iter().enumerate() {
-            let end = start + self.curve.segment[start..].partition_point(|segment| *segment == number);
-            let places: Vec<f64> = self.curve.displacement[start..end].iter().map(|at| at - offset).collect();
-            let (curve, leg) = match number % 2 {
-                0 => press(&contact, here.as_ref(), turn - offset, &places, stiffness)?,
-                _ => pull(here.as_ref(), &places, stiffness)?,
+            let (leg, curve) = match number % 2 {
+                0 => press(&contact, here.as_ref(), turn - offset, instrument)?,
+                _ => pull(here.as_ref(), instrument)?,
             };
+            let ends = [curve.points().first(), curve.points().last()].into_iter().flatten().copied();
             // Beyond the ends of a segment, by the noise of the displacement, the force is that of the end.
-            let at = |place: f64| {
-                let ends = [curve.points().first(), curve.points().last()].into_iter().flatten().copied();
+            let at = |displacement: f64| {
+                let place = displacement - offset;
                 let away = |point: &DisplacementPoint| (point.displacement - place).abs();
-                curve.at(place).or_else(|| ends.min_by(|one, other| away(one).total_cmp(&away(other))))
+                let nearest = || ends.clone().min_by(|one, other| away(one).total_cmp(&away(other)));
+                curve.at(place).or_else(nearest)
             };
+            let end = self.curve.segment.partition_point(|segment| *segment <= number);
+            let places = &self.curve.displacement[forces.len()..end];
             forces.extend(places.iter().map(|&place| zero + at(place).map_or(0.0, |point| point.force)));
-            let at = at(turn - offset).map_or(0.0, |point| point.indentation);
-            let is_apart = |leg: &Leg| leg.direction() == Direction::Unloading && at <= leg.end();
+            let at = at(*turn).map_or(0.0, |point| point.indentation);
+            let is_apart = |leg: &Leg| leg.direction() == Direction::Unloading && at < leg.end();
             here = leg.filter(|leg| !is_apart(leg)).map(|leg| (leg, at));
-            start = end;
         }
         Ok(forces)
     }
@@ -87,82 +92,94 @@ impl<'a> Model<'a> {
 /// A leg and the indentation of the body on it, m.
 type Here = (Leg, f64);
 
-/// Curve of a loading up to a displacement, m, and its leg; none of a body that does not touch.
+/// Leg of a loading and its curve up to a displacement, m; no leg of a body that does not touch.
 fn press(
     contact: &Contact,
     here: Option<&Here>,
     to: f64,
-    places: &[f64],
-    stiffness: f64,
-) -> Result<(DisplacementCurve, Option<Leg>), ContactError> {
+    instrument: [f64; 2],
+) -> Result<(Option<Leg>, DisplacementCurve), ContactError> {
     let free = here.is_none().then(CurvePoint::default);
     let (leg, from) = match here {
         Some((leg, at)) => (leg.turn(*at)?, *at),
-        None if to <= 0.0 => return Ok((over(Direction::Loading, free, &[], stiffness), None)),
+        None if to <= 0.0 => {
+            return Ok((None, DisplacementCurve::new(Direction::Loading, free.as_slice(), instrument[0])));
+        }
         None => (Leg::approach(contact)?, 0.0),
     };
-    let even = |end: f64, count: usize| -> Vec<f64> {
-        (0..count).map(|index| from + (end - from) * (index as f64 / (count - 1) as f64)).collect()
-    };
-    // The end of an instrument that takes a part of the way, or is pulled on.
-    let mut end = to.max(from);
+    // An indentation close behind the one at which the instrument is at its end: it takes a part of the way, or is pulled on.
+    let displacement = |at: f64| leg.point(at).map(|point| point.displacement(instrument[0]));
+    let (mut low, mut high) = (from, to.max(from));
     for _ in 0..EXTENSIONS {
-        let curve = over(Direction::Loading, free, &leg.curve(&even(end, COARSE))?, stiffness);
-        let reached = curve.points().last().map_or(to, |point| point.displacement);
+        let reached = displacement(high)?;
         if reached >= to {
-            let at = curve.at(to).map_or(end, |point| point.indentation);
-            end = end.min(at + (end - from) / COARSE as f64);
             break;
         }
-        end += 2.0 * (to - reached);
+        (low, high) = (high, high + 2.0 * (to - reached));
     }
-    Ok((refined(&leg, even(end, SAMPLES), places, free, stiffness)?, Some(leg)))
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        *if displacement(middle)? < to { &mut low } else { &mut high } = middle;
+    }
+    let curve = over(&leg, [from, high], 1, free, instrument)?;
+    Ok((Some(leg), curve))
 }
 
-/// Curve of an unloading to separation and its leg.
-fn pull(
-    here: Option<&Here>,
-    places: &[f64],
-    stiffness: f64,
-) -> Result<(DisplacementCurve, Option<Leg>), ContactError> {
+/// Leg of an unloading and its curve to separation.
+fn pull(here: Option<&Here>, instrument: [f64; 2]) -> Result<(Option<Leg>, DisplacementCurve), ContactError> {
+    let free = CurvePoint::default();
     let Some((leg, from)) = here else {
-        return Ok((over(Direction::Unloading, Some(CurvePoint::default()), &[], stiffness), None));
+        return Ok((None, DisplacementCurve::new(Direction::Unloading, &[free], instrument[0])));
     };
     let leg = leg.turn(*from)?;
     let end = leg.end().min(*from);
     // Close to separation the force may fall as the root of the indentation.
-    let share = |index: usize| (index as f64 / (SAMPLES - 1) as f64).powi(2);
-    let grid = (0..SAMPLES).map(|index| end + (from - end) * share(index)).collect();
-    let free = CurvePoint { indentation: end, ..CurvePoint::default() };
-    Ok((refined(&leg, grid, places, Some(free), stiffness)?, Some(leg)))
+    let curve = over(&leg, [end, *from], 2, Some(CurvePoint { indentation: end, ..free }), instrument)?;
+    Ok((Some(leg), curve))
 }
 
-/// Curve of a leg at the indentations of a grid and, in a second pass, at those of these displacements, m.
-fn refined(
-    leg: &Leg,
-    mut grid: Vec<f64>,
-    places: &[f64],
-    free: Option<CurvePoint>,
-    stiffness: f64,
-) -> Result<DisplacementCurve, ContactError> {
-    let (low, high) = (grid[0], grid[grid.len() - 1]);
-    let coarse = over(leg.direction(), free, &leg.curve(&grid)?, stiffness);
-    let at = places.iter().filter_map(|&place| coarse.at(place)).map(|point| point.indentation);
-    grid.extend(at.filter(|at| (low..=high).contains(at)));
-    grid.sort_by(f64::total_cmp);
-    Ok(over(leg.direction(), free, &leg.curve(&grid)?, stiffness))
-}
-
-/// Curve over the displacement through ascending points of a leg and a point without contact before or after them.
+/// Curve of a leg between two indentations over the displacement, through points that are close to the lower end by this
+/// power, and a point without contact before or after them. All jumps that exceed a noise, N, are where they are.
 fn over(
-    direction: Direction,
+    leg: &Leg,
+    [low, high]: [f64; 2],
+    power: i32,
     free: Option<CurvePoint>,
-    points: &[CurvePoint],
-    stiffness: f64,
-) -> DisplacementCurve {
-    let points: Vec<CurvePoint> = match direction {
-        Direction::Loading => free.into_iter().chain(points.iter().copied()).collect(),
-        Direction::Unloading => points.iter().rev().copied().chain(free).collect(),
+    [stiffness, noise]: [f64; 2],
+) -> Result<DisplacementCurve, ContactError> {
+    let share = |index: usize| (index as f64 / (SAMPLES - 1) as f64).powi(power);
+    let even = |index: usize| (low + (high - low) * share(index)).min(high);
+    let mut points = leg.curve(&(0..SAMPLES).map(even).collect::<Vec<f64>>())?;
+    let with = |mut points: Vec<CurvePoint>, mut at: Vec<f64>| {
+        at.sort_by(f64::total_cmp);
+        points.extend(leg.curve(&at)?);
+        points.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));
+        Ok::<_, ContactError>(points)
     };
-    DisplacementCurve::new(direction, &points, stiffness)
+    // Both ends of the jumps of the contact.
+    let jumps = leg.jumps(low, high, NOTABLE * noise);
+    points = with(points, jumps.into_iter().flat_map(|at| [at.next_down(), at]).collect())?;
+    // Places where the instrument cannot hold the body any more, which may be close before a jump of the contact.
+    let sign = if leg.direction() == Direction::Loading { 1.0 } else { -1.0 };
+    let mut reached = f64::NEG_INFINITY;
+    let mut folds = Vec::new();
+    let ordered = |index: usize| if sign > 0.0 { points[index] } else { points[points.len() - 1 - index] };
+    for [one, fold, next] in (2..points.len()).map(|index| [index - 2, index - 1, index].map(ordered)) {
+        let [before, at, after] = [one, fold, next].map(|point| sign * point.displacement(stiffness));
+        reached = reached.max(before);
+        if at > reached && after < at {
+            let beside = |end: CurvePoint| {
+                (1..=FAN).map(move |power| {
+                    fold.indentation + (end.indentation - fold.indentation) * 0.5_f64.powi(power)
+                })
+            };
+            folds.extend(beside(one).chain(beside(next)));
+        }
+    }
+    points = with(points, folds)?;
+    let points: Vec<CurvePoint> = match leg.direction() {
+        Direction::Loading => free.into_iter().chain(points).collect(),
+        Direction::Unloading => points.into_iter().rev().chain(free).collect(),
+    };
+    Ok(DisplacementCurve::new(leg.direction(), &points, stiffness))
 }

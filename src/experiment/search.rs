@@ -1,50 +1,69 @@
-//! The search for the least residuals: a coarse scan, trust regions from its best points, and the linearised fit.
+//! The search for the parameters that describe a curve, and their errors: a population that samples their probability
+//! (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat. Soc. B 68, 411, 2006).
+//!
+//! The forces jump with the parameters, so neither derivatives nor a linearised fit say how well a curve determines them. A
+//! population can: its members are drawn over the ranges and weighted as if the noise were large, where jumps count little.
+//! Then the noise falls step by step to that of the curve. At each step likely members are doubled, unlikely ones are left
+//! out, and all move by differences of others, which have the extent and the directions of the population. In the end the
+//! members are distributed as the parameters are by the noise.
 
 use super::baseline::dot;
 use super::curve::ends;
-use super::error::refused;
 use super::model::Model;
 use super::parameter::{Coordinate, Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
 use crate::contact::ContactError;
-use crate::spectrum::Cholesky;
-use bobyqa::{Bobyqa, Config};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
-/// Points of the coarse scan for each free parameter, and searches that begin at the start and at the best of them.
+const SEED: u64 = 29;
+/// Members drawn at first for each free parameter.
 const SCAN: usize = 60;
-const STARTS: usize = 6;
-/// Share of the range of the force that counts as noise in the scan, factor between the noise of two rounds of searches, and
-/// number of the best searches of the first round that go on until one describes the curve.
-const COARSE: f64 = 0.05;
-const FINER: f64 = 4.0;
-const KEPT: usize = 4;
+/// Members of a population beside those for each free parameter.
+const MEMBERS: usize = 24;
+const FOR_EACH: usize = 8;
+/// Share of the members that count after a step of the noise.
+const EFFECTIVE: f64 = 0.3;
+/// Moves of the population at each step, and those at the end, after which all members are samples.
+const MOVES: usize = 5;
+const LAST_MOVES: usize = 16;
+/// Most populations of a search, and mean square residual in units of the noise at which the second one is the last.
+const ATTEMPTS: usize = 4;
+const EXPECTED: f64 = 1.2;
+/// Largest noise in units of that of the curve, and halvings of its logarithm in a step.
+const LARGE: f64 = 1e6;
+const HALVINGS: usize = 12;
+/// Largest factor of the noise in a step.
+const SLOWEST: f64 = 0.99;
 /// Residual, in units of the noise, beyond which a point counts less: it is on the wrong side of a jump.
-const WRONG_SIDE: f64 = 5.0;
+pub(super) const WRONG_SIDE: f64 = 5.0;
+/// Residual in units of the noise of a force beyond all numbers.
+const FAR: f64 = 1e12;
 /// Bases of evenly scattered points.
 const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
-/// Radii of the first and the last trust region: in the first round, and in standard errors.
-const FIRST_ROUND: [f64; 2] = [0.5, 1e-2];
-const IN_ERRORS: [f64; 2] = [1.0, 0.02];
-/// Half the width of the box of a search in standard errors, and the largest number of such searches in a round.
-const BOX: f64 = 20.0;
-const MOST_SEARCHES: usize = 4;
-/// Residual over the noise above which the last rounds are repeated, how often at most, and from points in a box of this
-/// width in standard errors.
-const EXPECTED: f64 = 1.05;
-const SHAKES: usize = 6;
-const FAR: f64 = 40.0;
-/// Gain of a search that ends a round.
-const SMALL: f64 = 0.05;
 
-/// Coordinates with their cost.
-type Found = (f64, Vec<f64>);
+/// Coordinates with the residuals there, in units of the noise of the curve.
+#[derive(Clone)]
+struct Member {
+    at: Vec<f64>,
+    rests: Vec<f64>,
+}
 
-/// The fit close to the least residuals, in units of the noise, with zeros at points that are left out.
-pub(super) struct Linear {
-    pub residuals: Vec<f64>,
-    /// Derivatives of the forces by each coordinate.
-    pub derivatives: Vec<Vec<f64>>,
-    pub information: Cholesky,
+/// Members with their costs at a noise, in units of that of the curve, and the best of all with its cost at that of the curve.
+struct Population {
+    members: Vec<Member>,
+    costs: Vec<f64>,
+    noise: f64,
+    best: Member,
+    cost: f64,
+}
+
+/// Result of a search.
+pub(super) struct Found {
+    /// Coordinates of the least residuals.
+    pub best: Vec<f64>,
+    /// Coordinates distributed as the noise has it.
+    pub samples: Vec<Vec<f64>>,
 }
 
 /// The coordinates in which a scene is fitted, from these values on.
@@ -71,13 +90,33 @@ impl Space<'_> {
         values
     }
 
-    /// Root mean square residual in contact over the noise; a point on the wrong side of a jump counts as [`WRONG_SIDE`].
-    pub fn misfit(&self, forces: &[f64]) -> f64 {
-        let rests = self.curve.force.iter().zip(forces).skip(self.curve.free);
-        let square = |(measured, model): (&f64, &f64)| {
-            ((measured - model) / self.curve.noise).abs().min(WRONG_SIDE).powi(2)
-        };
-        (rests.map(square).sum::<f64>() / (self.curve.force.len() - self.curve.free) as f64).sqrt()
+    /// Straight lines of the zero of the force and of a removed drift, of length 1 and at right angles, if they are
+    /// estimated from the curve: they are refined with each model.
+    pub fn lines(&self) -> Vec<Vec<f64>> {
+        let (count, [zero, drift]) = (self.curve.force.len(), self.curve.is_estimated);
+        let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
+        let middle = 0.5 * (self.curve.free - 1) as f64;
+        let mut lines: Vec<Vec<f64>> = Vec::new();
+        for (is_used, slope) in [(zero && !has_zero, 0.0), (drift, 1.0)] {
+            let mut line: Vec<f64> =
+                (0..count).map(|index| 1.0 + slope * (index as f64 - middle - 1.0)).collect();
+            for other in &lines {
+                let along = dot(&line, other);
+                line.iter_mut().zip(other).for_each(|(one, other)| *one -= along * other);
+            }
+            let length = dot(&line, &line).sqrt();
+            line.iter_mut().for_each(|one| *one /= length);
+            lines.extend(is_used.then_some(line));
+        }
+        lines
+    }
+
+    /// Root mean square residual in contact, in units of the noise; a point on the wrong side of a jump counts as
+    /// [`WRONG_SIDE`].
+    pub fn misfit(&self, rests: &[f64]) -> f64 {
+        let rests = &rests[self.curve.free..];
+        let squares: f64 = rests.iter().map(|rest| rest.abs().min(WRONG_SIDE).powi(2)).sum();
+        (squares / rests.len() as f64).sqrt()
     }
 }
 
@@ -85,218 +124,200 @@ impl Space<'_> {
 pub(super) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
+    pub lines: Vec<Vec<f64>>,
     /// Receives the number of computed curves.
     pub report: &'a mut dyn FnMut(usize),
-    pub failed: Option<ExperimentError>,
 }
 
 impl Search<'_> {
-    /// Forces at these coordinates, N; none after a failure.
-    pub fn forces(&mut self, at: &[f64]) -> Vec<f64> {
+    /// Forces at these coordinates, N.
+    pub fn forces(&mut self, at: &[f64]) -> Result<Vec<f64>, ExperimentError> {
         if (self.space.stop)() {
-            self.failed = Some(ContactError::Interrupted.into());
-        }
-        if self.failed.is_some() {
-            return Vec::new();
+            return Err(ContactError::Interrupted.into());
         }
         (self.report)(self.model.evaluations);
-        self.model.forces(&self.space.values(at)).unwrap_or_else(|error| {
-            self.failed = Some(error);
-            Vec::new()
-        })
+        self.model.forces(&self.space.values(at))
     }
 
-    /// Half the sum of the squared residuals in units of a noise, N. The square of a point on the wrong side of a jump
-    /// continues as a straight line (Huber).
-    fn cost(&mut self, at: &[f64], noise: f64) -> f64 {
-        let forces = self.forces(at);
-        let loss = |(measured, model): (&f64, &f64)| {
-            let rest = ((measured - model) / noise).abs();
+    fn member(&mut self, at: Vec<f64>) -> Result<Member, ExperimentError> {
+        let forces = self.forces(&at)?;
+        let measured = self.space.curve.force.iter().zip(&forces);
+        let rest = |(measured, model): (&f64, &f64)| (measured - model) / self.space.curve.noise;
+        let rests = measured.map(rest).map(|rest| if rest.is_finite() { rest } else { FAR }).collect();
+        Ok(Member { at, rests })
+    }
+
+    /// Residuals without the lines of zero and drift, where those beyond a limit count as that limit.
+    pub fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
+        let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
+        let mut refined = rests.to_vec();
+        for line in &self.lines {
+            let along = dot(&clamped, line);
+            refined.iter_mut().zip(line).for_each(|(rest, line)| *rest -= along * line);
+        }
+        refined
+    }
+
+    /// Half the sum of the squared residuals over those of a noise in units of that of the curve. The square of a point
+    /// on the wrong side of a jump continues as a straight line (Huber).
+    fn cost(&self, member: &Member, noise: f64) -> f64 {
+        let loss = |rest: &f64| {
+            let rest = (rest / noise).abs();
             if rest > WRONG_SIDE { WRONG_SIDE * (rest - 0.5 * WRONG_SIDE) } else { 0.5 * rest * rest }
         };
-        let force = &self.space.curve.force;
-        if forces.is_empty() { f64::INFINITY } else { force.iter().zip(&forces).map(loss).sum() }
+        self.refined(&member.rests, WRONG_SIDE * noise).iter().map(loss).sum()
     }
 
-    /// Noise of the scan, N.
-    fn coarse(&self) -> f64 {
-        let (low, high) = ends(self.space.curve.force.iter().copied());
-        self.space.curve.noise.max(COARSE * (high - low))
-    }
-
-    /// The start, and the best of evenly scattered points.
-    pub fn scan(&mut self) -> Vec<Vec<f64>> {
+    /// The start and points evenly scattered over the ranges, others in each attempt.
+    fn scattered(&mut self, attempt: usize) -> Result<Vec<Member>, ExperimentError> {
         let Space { base, coordinates, .. } = self.space;
         let start: Vec<f64> = coordinates.iter().map(|one| one.of(one.start, base)).collect();
-        let scattered = |number: usize| {
+        let mut members = vec![self.member(start.clone())?];
+        let count = SCAN * start.len();
+        for number in attempt * count + 1..=(attempt + 1) * count {
             let rows = coordinates.iter().zip(PRIMES).zip(&start);
             let of = rows.map(|((one, prime), start)| {
                 match (one.parameter, one.ends(), share_of(number, prime)) {
                     // Rough bodies touch before the force exceeds the noise.
                     (Parameter::Offset, (low, high), share) => (start + 8.0 * share - 6.5).clamp(low, high),
-                    (Parameter::Zero, ..) => *start,
+                    (Parameter::Zero, _, share) => start + 0.1 * (share - 0.5),
                     (_, (low, high), share) => low + share * (high - low),
                 }
             });
-            of.collect::<Vec<f64>>()
+            let at = of.collect();
+            members.push(self.member(at)?);
+        }
+        Ok(members)
+    }
+
+    /// Finds the parameters of a curve.
+    pub fn find(&mut self) -> Result<Found, ExperimentError> {
+        let mut generator = ChaCha8Rng::seed_from_u64(SEED);
+        let mut population = self.least(ATTEMPTS, &mut generator)?;
+        let mut samples = Vec::new();
+        for _ in 0..LAST_MOVES {
+            self.move_all(&mut population, &mut generator)?;
+            samples.extend(population.members.iter().map(|member| member.at.clone()));
+        }
+        Ok(Found { best: population.best.at, samples })
+    }
+
+    /// Coordinates of small residuals: those of one attempt.
+    pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
+        Ok(self.least(1, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
+    }
+
+    /// The best of some populations at the noise of the curve: one in ten ends in another minimum than the least. The second
+    /// is the last if the residuals are those of the noise.
+    fn least(&mut self, attempts: usize, generator: &mut ChaCha8Rng) -> Result<Population, ExperimentError> {
+        let mut least = self.anneal(0, generator)?;
+        for attempt in 1..attempts {
+            let next = self.anneal(attempt, generator)?;
+            least = if next.cost < least.cost { next } else { least };
+            if least.cost < EXPECTED * 0.5 * least.best.rests.len() as f64 {
+                break;
+            }
+        }
+        Ok(least)
+    }
+
+    /// A population at the noise of the curve.
+    fn anneal(&mut self, attempt: usize, generator: &mut ChaCha8Rng) -> Result<Population, ExperimentError> {
+        let members = self.scattered(attempt)?;
+        let costs = vec![0.0; members.len()];
+        let mut population = Population {
+            best: members[0].clone(),
+            members,
+            costs,
+            noise: f64::INFINITY,
+            cost: f64::INFINITY,
         };
-        let (noise, count) = (self.coarse(), SCAN * start.len());
-        let mut scanned: Vec<Found> =
-            (1..=count).map(scattered).map(|at| (self.cost(&at, noise), at)).collect();
-        scanned.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let best = scanned.into_iter().take(STARTS - 1).map(|(_, at)| at);
-        [start.clone()].into_iter().chain(best).collect()
+        let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
+        loop {
+            let least = self.space.misfit(&self.refined(&population.best.rests, WRONG_SIDE)).max(1.0);
+            if population.noise <= least {
+                return Ok(population);
+            }
+            let (noise, weights) = self.cooler(&population, least);
+            let members = drawn(&population.members, &weights, count, generator.random());
+            let costs = members.iter().map(|member| self.cost(member, noise)).collect();
+            population = Population { members, costs, noise, ..population };
+            for _ in 0..MOVES {
+                self.move_all(&mut population, generator)?;
+            }
+        }
     }
 
-    /// Finds the least cost from some points on, in rounds with less and less noise: far from it jumps count little.
-    pub fn descend(&mut self, starts: &[Vec<f64>]) -> Result<(Vec<f64>, Linear), ExperimentError> {
-        let (low, high): (Vec<f64>, Vec<f64>) = self.space.coordinates.iter().map(Coordinate::ends).unzip();
-        let coarse = self.coarse();
-        let first =
-            |start: &Vec<f64>| least(start.clone(), (&low, &high), FIRST_ROUND, |at| self.cost(at, coarse));
-        let mut found: Vec<Found> = starts.iter().map(first).collect();
-        found.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let mut best = (f64::INFINITY, starts[0].clone());
-        for (_, mut at) in found.into_iter().take(KEPT) {
-            let mut noise = coarse;
-            let cost = loop {
-                noise = (noise / FINER).max(self.space.curve.noise);
-                let (cost, place) = self.polish(at, noise)?;
-                at = place;
-                if noise == self.space.curve.noise {
-                    break cost;
+    /// The next noise, at least `least`, and the weights of the members there.
+    fn cooler(&self, population: &Population, least: f64) -> (f64, Vec<f64>) {
+        let weights = |noise: f64| -> Vec<f64> {
+            let pairs = population.members.iter().zip(&population.costs);
+            let changes: Vec<f64> = pairs.map(|(member, cost)| cost - self.cost(member, noise)).collect();
+            let largest = ends(changes.iter().copied()).1;
+            changes.iter().map(|change| (change - largest).exp()).collect()
+        };
+        let enough = EFFECTIVE * population.members.len() as f64;
+        let is_enough =
+            |weights: &[f64]| weights.iter().sum::<f64>().powi(2) >= enough * dot(weights, weights);
+        let found = weights(least);
+        if is_enough(&found) {
+            return (least, found);
+        }
+        let (mut low, mut high) = (least, population.noise.min(LARGE));
+        for _ in 0..HALVINGS {
+            let middle = (low * high).sqrt();
+            *if is_enough(&weights(middle)) { &mut high } else { &mut low } = middle;
+        }
+        // Never the same again.
+        let next = if high < population.noise { high } else { SLOWEST * high };
+        (next, weights(next))
+    }
+
+    /// Moves each member by differences of two others, or leaves it where it is (ter Braak, Stat. Comput. 16, 239, 2006).
+    fn move_all(
+        &mut self,
+        population: &mut Population,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<(), ExperimentError> {
+        let usual = 2.38 / (2.0 * self.space.coordinates.len() as f64).sqrt();
+        let count = population.members.len();
+        for index in 0..count {
+            let [one, other] = [(); 2].map(|()| &population.members[generator.random_range(0..count)].at);
+            let length = usual * (0.5 + generator.random::<f64>());
+            let chance: f64 = generator.random();
+            let here = &population.members[index].at;
+            let moved =
+                here.iter().zip(one.iter().zip(other)).map(|(at, (one, other))| at + length * (one - other));
+            let at: Vec<f64> = moved.collect();
+            let is_within = |(at, one): (&f64, &Coordinate)| (one.ends().0..=one.ends().1).contains(at);
+            if at == *here || !at.iter().zip(&self.space.coordinates).all(is_within) {
+                continue;
+            }
+            let member = self.member(at)?;
+            let cost = self.cost(&member, population.noise);
+            if chance < (population.costs[index] - cost).exp() {
+                let total = self.cost(&member, 1.0);
+                if total < population.cost {
+                    (population.best, population.cost) = (member.clone(), total);
                 }
-            };
-            best = if cost < best.0 { (cost, at) } else { best };
-            if self.is_described(&best.1) {
-                break;
+                (population.members[index], population.costs[index]) = (member, cost);
             }
         }
-        self.shake(best, self.space.curve.noise)
-    }
-
-    /// Returns true where the residual is that of the noise.
-    fn is_described(&mut self, at: &[f64]) -> bool {
-        let forces = self.forces(at);
-        self.space.misfit(&forces) < EXPECTED
-    }
-
-    /// Repeats the last rounds from points around a place, while its residual is larger than the noise, and returns the best
-    /// place with the fit linearised there.
-    fn shake(&mut self, mut best: Found, noise: f64) -> Result<(Vec<f64>, Linear), ExperimentError> {
-        let mut linear = self.linearise(&best.1, noise)?;
-        for number in 1..=SHAKES {
-            if self.is_described(&best.1) {
-                break;
-            }
-            let even = best.1.iter().zip(PRIMES).map(|(_, prime)| FAR * (share_of(number, prime) - 0.5));
-            let place = self.moved(&best.1, &linear, even.collect());
-            let (_, place) = self.polish(place, FINER * noise)?;
-            let found = self.polish(place, noise)?;
-            if found.0 < best.0 {
-                linear = self.linearise(&found.1, noise)?;
-                best = found;
-            }
-        }
-        Ok((best.1, linear))
-    }
-
-    /// The point within the ranges at these coordinates around another one, in which the linearised cost grows evenly.
-    fn moved(&self, at: &[f64], linear: &Linear, even: Vec<f64>) -> Vec<f64> {
-        let change = linear.information.solve_transposed(even);
-        let moved = at.iter().zip(change).zip(&self.space.coordinates);
-        moved.map(|((at, change), one)| (at + change).clamp(one.ends().0, one.ends().1)).collect()
-    }
-
-    /// Least cost close to a point, in coordinates in which the linearised cost grows evenly.
-    fn polish(&mut self, mut at: Vec<f64>, noise: f64) -> Result<Found, ExperimentError> {
-        let (low, high) = (vec![-BOX; at.len()], vec![BOX; at.len()]);
-        let mut cost = self.cost(&at, noise);
-        for _ in 0..MOST_SEARCHES {
-            let linear = self.linearise(&at, noise)?;
-            let cost_at = |even: &[f64]| {
-                let place = self.moved(&at, &linear, even.to_vec());
-                self.cost(&place, noise)
-            };
-            let found = least(vec![0.0; at.len()], (&low, &high), IN_ERRORS, cost_at);
-            let gain = cost - found.0;
-            if gain > 0.0 {
-                (cost, at) = (found.0, self.moved(&at, &linear, found.1));
-            }
-            if gain < SMALL {
-                break;
-            }
-        }
-        Ok((cost, at))
-    }
-
-    /// Derivatives by differences over about one standard error, in which small jumps average out. Points that cross a
-    /// larger jump are left out.
-    fn linearise(&mut self, at: &[f64], noise: f64) -> Result<Linear, ExperimentError> {
-        let forces = self.forces(at);
-        let measured = self.space.curve.force.iter().zip(&forces);
-        let mut residuals: Vec<f64> = measured.map(|(measured, model)| (measured - model) / noise).collect();
-        let mut sizes: Vec<f64> = residuals.iter().map(|rest| rest.abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let usual = sizes.get(sizes.len() / 2).map_or(1.0, |median| 1.4826 * median).max(1.0);
-        let mut used: Vec<bool> = residuals.iter().map(|rest| rest.abs() <= WRONG_SIDE * usual).collect();
-        let mut derivatives = Vec::new();
-        for (index, coordinate) in self.space.coordinates.iter().enumerate() {
-            let (low, high) = coordinate.ends();
-            let (mut step, mut column) = (1e-3_f64, Vec::new());
-            for _ in 0..3 {
-                let places = [(at[index] - step).max(low), (at[index] + step).min(high)];
-                let [below, above] = places.map(|place| {
-                    let mut moved = at.to_vec();
-                    moved[index] = place;
-                    self.forces(&moved)
-                });
-                self.failed.take().map_or(Ok(()), Err)?;
-                let width = (places[1] - places[0]).max(f64::MIN_POSITIVE) * noise;
-                let derivative = |point: usize| {
-                    let change = above[point] - below[point];
-                    let bend = (above[point] + below[point] - 2.0 * forces[point]).abs();
-                    if bend > 0.5 * change.abs() && bend > noise { f64::NAN } else { change / width }
-                };
-                column = (0..forces.len()).map(derivative).collect::<Vec<f64>>();
-                let square: f64 = column.iter().filter(|one| one.is_finite()).map(|one| one * one).sum();
-                step = (usual / square.sqrt()).clamp(1e-7, 0.2);
-            }
-            used.iter_mut().zip(&column).for_each(|(used, one)| *used &= one.is_finite());
-            derivatives.push(column);
-        }
-        for values in derivatives.iter_mut().chain([&mut residuals]) {
-            values.iter_mut().zip(&used).for_each(|(value, used)| *value = if *used { *value } else { 0.0 });
-        }
-        let size = derivatives.len();
-        let product = |place: usize| dot(&derivatives[place / size], &derivatives[place % size]);
-        let mut matrix: Vec<f64> = (0..size * size).map(product).collect();
-        let largest = (0..size).map(|index| matrix[index * size + index]).fold(1.0, f64::max);
-        // A parameter without any effect keeps the matrix positive.
-        (0..size).for_each(|index| matrix[index * size + index] += 1e-12 * largest + 1e-3);
-        match Cholesky::new(matrix, size) {
-            Some(information) => Ok(Linear { residuals, derivatives, information }),
-            None => refused("the parameters have no effect on the curve", "fewer parameters in --free"),
-        }
+        Ok(())
     }
 }
 
-/// Finds the least value of a function within bounds, in trust regions with the first and the last of these radii.
-fn least(
-    mut at: Vec<f64>,
-    (low, high): (&[f64], &[f64]),
-    [first, last]: [f64; 2],
-    function: impl FnMut(&[f64]) -> f64,
-) -> Found {
-    let width = low.iter().zip(high).map(|(low, high)| high - low).fold(f64::INFINITY, f64::min);
-    let first = first.min(0.25 * width);
-    let mut config = Config::new(at.len());
-    (config.rho_begin, config.rho_end, config.max_fun) = (first, last.min(first), 100 * (at.len() + 1));
-    let cost = match Bobyqa::new(at.len(), config) {
-        Ok(mut solver) => solver.minimize(function, &mut at, low, high).f,
-        Err(_) => f64::INFINITY,
-    };
-    (cost, at)
+/// Draws members by their weights, evenly from a share of the first one on.
+fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
+    let step = weights.iter().sum::<f64>() / count as f64;
+    let (mut drawn, mut sum) = (Vec::with_capacity(count), 0.0);
+    for (member, weight) in members.iter().zip(weights) {
+        sum += weight;
+        while drawn.len() < count && (drawn.len() as f64 + share) * step < sum {
+            drawn.push(member.clone());
+        }
+    }
+    drawn
 }
 
 /// Point from 0 to 1 of an evenly scattered sequence (van der Corput).

@@ -83,10 +83,6 @@ impl Report for FitReport<'_> {
             };
             (one.parameter.name(), value)
         };
-        let start = |start: &Vec<f64>| {
-            let values = fit.parameters.iter().zip(start);
-            values.map(|(one, value)| (one.parameter.name(), *value)).collect::<BTreeMap<_, _>>()
-        };
         let correlation =
             |&(one, other, value): &(Parameter, Parameter, f64)| (one.name(), other.name(), value);
         let pair = |&(one, other): &(Parameter, Parameter)| [one.name(), other.name()];
@@ -100,7 +96,6 @@ impl Report for FitReport<'_> {
             "points_left_out": curve.missing,
             "correlations": fit.correlations.iter().map(correlation).collect::<Vec<_>>(),
             "not_distinguished": fit.not_distinguished.iter().map(pair).collect::<Vec<_>>(),
-            "starts": fit.starts.iter().map(start).collect::<Vec<_>>(),
             "evaluations": fit.evaluations,
             "scene": fit.document.scene(),
         }))

@@ -30,7 +30,7 @@ pub use detrend::Detrend;
 pub use error::SpectrumError;
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
-pub(crate) use linear::{Cholesky, slope};
+pub(crate) use linear::slope;
 pub use periodogram::{Bin, Direction, line_spectrum};
 pub use power_law::PowerLaw;
 pub use statistics::Statistics;

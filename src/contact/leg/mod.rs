@@ -211,6 +211,25 @@ impl Leg {
         }
     }
 
+    /// Returns the indentations in a range, m, at which the force of an adhesive contact jumps by about this force or more, N:
+    /// where patches grow or shrink at once, merge or part. Ascending.
+    pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
+        let Patches::Runs(_, runs) = &self.patches else { return Vec::new() };
+        let springs = |[first, last]: [u32; 2]| f64::from(last - first + 1);
+        let ends = runs.iter().flat_map(|run| [(run.from, springs(run.bottom)), (run.to, -springs(run.top))]);
+        let mut events: Vec<(f64, f64)> = ends.filter(|(at, _)| low < *at && *at <= high).collect();
+        events.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        // The springs that attach or detach are stretched by about s √n.
+        let stretch = self.contact.rule().stretch(self.direction);
+        let jump = |events: &[(f64, f64)]| {
+            let most = events.iter().fold(0.0_f64, |most, event| most.max(event.1.abs()));
+            let change: f64 = events.iter().map(|event| event.1).sum();
+            self.contact.foundation.spring_stiffness() * stretch * most.sqrt() * change.abs()
+        };
+        let together = events.chunk_by(|one, next| one.0 == next.0);
+        together.filter(|events| jump(events) >= least).map(|events| events[0].0).collect()
+    }
+
     /// Returns the smallest indentation at which each spring along the line is in contact, m: −∞ always, +∞ never.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
