@@ -24,7 +24,9 @@ const PULLS: f64 = -5.0;
 /// before contact; compression is positive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
+    /// Displacement of the instrument, m.
     pub displacement: Vec<f64>,
+    /// Force, N.
     pub force: Vec<f64>,
     /// Number of the segment of each point; those of even number press.
     pub segment: Vec<usize>,

@@ -8,11 +8,13 @@ use thiserror::Error;
 /// Reason why a curve is not read or not fitted. The caller puts the name of the file or scene in front.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ExperimentError {
+    /// A file that cannot be read as a curve.
     #[error(transparent)]
     File(#[from] TopographyError),
     /// A curve or a scene that cannot be fitted: fault and what is allowed.
     #[error("{0}; allowed: {1}")]
     Refused(String, String),
+    /// A failure of the computation, or a stop.
     #[error(transparent)]
     Run(#[from] RunError),
 }

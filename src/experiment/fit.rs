@@ -27,6 +27,7 @@ const NORMAL: f64 = 1.96;
 /// Options of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitOptions {
+    /// Parameters to be found.
     pub free: Vec<Free>,
     /// Random profiles on which the fit is repeated; 1: that of the scene alone.
     pub lines: u64,
@@ -37,10 +38,13 @@ pub struct FitOptions {
 /// A parameter with its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FittedParameter {
+    /// The parameter.
     pub parameter: Parameter,
-    /// Value before the fit, and the range in which the value was looked for.
+    /// Value before the fit, in SI units as all values.
     pub start: f64,
+    /// Range in which the value was looked for.
     pub range: (f64, f64),
+    /// Value of the least residuals.
     pub value: f64,
     /// Ends of the 95 % interval.
     pub interval: (f64, f64),
@@ -53,11 +57,13 @@ pub struct FittedParameter {
 /// Result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
+    /// The free parameters with their errors.
     pub parameters: Vec<FittedParameter>,
     /// Root mean square residual, N.
     pub residual: f64,
     /// Root mean square residual in contact over the noise; a point on the wrong side of a jump counts as 5 times the noise.
     pub misfit: f64,
+    /// Correlation of each pair of parameters.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
     /// Pairs that the curve does not separate; one parameter twice that the curve does not determine.
     pub not_distinguished: Vec<(Parameter, Parameter)>,

@@ -6,8 +6,11 @@ use std::str::FromStr;
 /// Parameter of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
+    /// Work of adhesion.
     Work,
+    /// Work of adhesion on closing.
     ClosingWork,
+    /// Effective modulus.
     Modulus,
     /// Measured displacement at first touch.
     Offset,
@@ -22,15 +25,17 @@ pub enum Parameter {
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
 pub(super) type Values = [f64; 7];
 
-/// Name on the command line and in JSON, technical term, symbol and SI unit of a parameter.
+/// Texts of a parameter, see [`Parameter::row`].
 type Row = (&'static str, &'static str, &'static str, &'static str);
 
 impl Parameter {
+    /// All parameters, in the order of tables.
     pub const ALL: [Parameter; 7] = {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
         [Work, ClosingWork, Modulus, Offset, Zero, Stiffness, Radius]
     };
 
+    /// Name on the command line and in JSON, technical term, symbol and SI unit.
     pub fn row(self) -> Row {
         const ROWS: [Row; 7] = [
             ("work", "work of adhesion", "γ", "J/m²"),
@@ -44,6 +49,7 @@ impl Parameter {
         ROWS[self as usize]
     }
 
+    /// Name on the command line and in JSON.
     pub fn name(self) -> &'static str {
         self.row().0
     }
@@ -79,7 +85,9 @@ impl Parameter {
 /// A parameter to be found, with its range if that is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
+    /// The parameter.
     pub parameter: Parameter,
+    /// Ends of its range in SI units; `None`: around its start.
     pub range: Option<(f64, f64)>,
 }
 

@@ -11,22 +11,19 @@ pub struct Measured {
     pub curve: Arc<MeasuredCurve>,
     /// Measured displacement at first touch, m.
     pub offset: f64,
-    /// Force before contact, N.
-    pub zero: f64,
 }
 
 impl Measured {
     pub fn new(name: String, curve: MeasuredCurve) -> Self {
         let offset = curve.displacement[curve.free];
-        Measured { name, curve: curve.into(), offset, zero: 0.0 }
+        Measured { name, curve: curve.into(), offset }
     }
 
     /// The points on the curve of a scene with an instrument of this stiffness, N/m.
     pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
         let point = |(at, force): (&f64, &f64)| {
-            let force = force - self.zero;
             let indentation = at - self.offset - force / stiffness;
-            CurvePoint { indentation, force, ..CurvePoint::default() }
+            CurvePoint { indentation, force: *force, ..CurvePoint::default() }
         };
         self.curve.displacement.iter().zip(&self.curve.force).map(point).collect()
     }

@@ -10,8 +10,6 @@ use crate::export::FitReport;
 use crate::scene::{format_quantity, format_range, quoted};
 use std::sync::Arc;
 
-/// Parameters of a fit that only place the curve beside that of the scene.
-const PLACE: [Parameter; 2] = [Parameter::Offset, Parameter::Zero];
 /// Number of computed curves between two reports of a fit.
 const REPORTED: usize = 64;
 
@@ -43,7 +41,7 @@ pub fn study(app: &App) -> Option<Study> {
             })
         }
         None => {
-            let options = options(PLACE.map(|parameter| Free { parameter, range: None }).to_vec());
+            let options = options(vec![Free { parameter: Parameter::Offset, range: None }]);
             Study::new(app.edit.generation, true, move |_, stop, _| {
                 let found = fit(&curve, &document, &options, stop, &mut |_| ());
                 found.map(Arc::new).map_err(|error| error.to_string())
@@ -54,7 +52,7 @@ pub fn study(app: &App) -> Option<Study> {
 
 pub fn ask_fit(app: &mut App) {
     match app.measured {
-        Some(_) => app.ask(Purpose::Fit, "work,offset,zero"),
+        Some(_) => app.ask(Purpose::Fit, "work,offset"),
         None => app.set_error("there is no measured curve; asperity SCENE --measured CURVE shows one"),
     }
 }
@@ -83,9 +81,10 @@ pub fn found(app: &mut App) {
             Err(why) => app.set_error(why),
         }
     }
-    let values = fitted(app).map(|fit| PLACE.map(|one| value(fit, one)));
-    if let Some((measured, [offset, zero])) = app.measured.as_mut().zip(values) {
-        (measured.offset, measured.zero) = (offset.unwrap_or(measured.offset), zero.unwrap_or(0.0));
+    let is_offset = |one: &&FittedParameter| one.parameter == Parameter::Offset;
+    let offset = fitted(app).and_then(|fit| Some(fit.parameters.iter().find(is_offset)?.value));
+    if let Some((measured, offset)) = app.measured.as_mut().zip(offset) {
+        measured.offset = offset;
     }
 }
 
@@ -97,10 +96,6 @@ pub fn fitted(app: &App) -> Option<&Fit> {
 /// Reason why the scene cannot be compared with the curve.
 pub fn failure(app: &App) -> Option<&str> {
     app.studies.failure::<Arc<Fit>>()
-}
-
-fn value(fit: &Fit, parameter: Parameter) -> Option<f64> {
-    fit.parameters.iter().find(|one| one.parameter == parameter).map(|one| one.value)
 }
 
 /// The parameters found, with their intervals; a scene that does not describe the curve is stated first.
