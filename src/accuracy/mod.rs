@@ -6,7 +6,6 @@
 //! edges between springs, whose own error is estimated. Timed runs are separate from compared ones.
 
 mod choose;
-mod curve;
 mod estimate;
 mod ladder;
 mod solution;

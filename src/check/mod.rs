@@ -5,16 +5,14 @@
 //! stepwise solver, which applies the rules without tree and thresholds, or a law of every body. A row that cannot be
 //! computed fails with a sentence about the place.
 
-mod body;
 mod case;
 mod closed_forms;
 mod hard_cases;
 mod laws;
 
 use crate::scene::{Document, Edges, Scene};
-use body::{Body, Measured};
 pub use case::Case;
-use case::{Subject, largest};
+use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +55,7 @@ pub fn judge(check: Check) -> Verdict {
     let error = match check.case.subject {
         Subject::Scene(text, measure) => scene(text, edges).and_then(|scene| measure(&scene)),
         Subject::Bodies(measure) => {
-            largest((0..body::RANDOM).map(|seed| measure(&Body::random(seed, edges)?)))
+            largest((0..case::RANDOM).map(|seed| measure(&Body::random(seed, edges)?)))
         }
     };
     Verdict { check, error: error.map_err(|error| error.to_string()), seconds: clock.elapsed().as_secs_f64() }

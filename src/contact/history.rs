@@ -1,7 +1,8 @@
 //! Result of a loading history: its legs, their curves and the work counts.
 
-use super::{CurvePoint, Direction, Move, Patch};
+use super::Move;
 use serde::Serialize;
+use std::ops::Range;
 
 /// Record of one leg.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,5 +151,79 @@ impl Work {
     pub(crate) fn count(&mut self, leg: &LegRecord) {
         self.attached += leg.attached;
         self.detached += leg.detached;
+    }
+}
+
+/// Direction of a leg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// The indentation grows.
+    Loading,
+    /// The indentation falls.
+    Unloading,
+}
+
+/// One point of a force curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurvePoint {
+    /// Indentation d, m; 0 at first touch.
+    pub indentation: f64,
+    /// Force F, N; compression positive.
+    pub force: f64,
+    /// Length in contact, m.
+    pub contact_length: f64,
+    /// Springs in contact.
+    pub springs: u64,
+    /// Contact fragments.
+    pub fragments: u64,
+    /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
+    pub stored_energy: f64,
+}
+
+impl CurvePoint {
+    /// Displacement D = d + F/k, m, of an instrument of this stiffness k, N/m, that holds the body here.
+    pub fn displacement(&self, stiffness: f64) -> f64 {
+        self.indentation + self.force / stiffness
+    }
+}
+
+/// A contact patch: springs in contact without a gap between them. In JSON the array `[first, last]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(into = "(usize, usize)")]
+pub struct Patch {
+    /// Index of the leftmost spring.
+    pub first: usize,
+    /// Index of the rightmost spring.
+    pub last: usize,
+}
+
+impl Patch {
+    /// Returns the indices of the springs.
+    pub fn springs(self) -> Range<usize> {
+        self.first..self.last + 1
+    }
+
+    /// Returns the spring in the middle.
+    pub fn middle(self) -> usize {
+        self.first + (self.last - self.first) / 2
+    }
+
+    /// Returns the patches of a line that is in contact or not spring by spring, from left to right.
+    pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
+        let mut patches: Vec<Patch> = Vec::new();
+        for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {
+            match patches.last_mut() {
+                Some(patch) if patch.last + 1 == spring => patch.last = spring,
+                _ => patches.push(Patch { first: spring, last: spring }),
+            }
+        }
+        patches
+    }
+}
+
+impl From<Patch> for (usize, usize) {
+    fn from(patch: Patch) -> (usize, usize) {
+        (patch.first, patch.last)
     }
 }

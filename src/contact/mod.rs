@@ -16,8 +16,6 @@
 mod adhesive;
 mod body;
 mod contact_state;
-mod crossing;
-mod curve_point;
 mod error;
 mod foundation;
 mod goal;
@@ -25,8 +23,6 @@ mod grid;
 mod history;
 mod interval;
 mod leg;
-mod moves;
-mod patch;
 mod reversal;
 mod springs;
 pub mod stepwise;
@@ -35,14 +31,14 @@ mod totals;
 
 pub use adhesive::ContactTree;
 pub use body::{Body, Motion, Solver, run};
-pub use curve_point::{CurvePoint, Direction};
+
 pub use error::ContactError;
 pub use foundation::{Edges, Foundation, HessRule};
+pub use goal::Move;
 pub(crate) use grid::CompensatedSum;
-pub use history::{History, LegRecord, Work};
+pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use leg::{Leg, PatchState};
-pub use moves::Move;
-pub use patch::Patch;
+
 pub use reversal::Reversal;
 pub use springs::{Contact, Springs};
 pub use stepwise::Stepwise;

@@ -7,8 +7,7 @@ use super::isotropic::{End, IsotropicSpectrum, LineMoments};
 use super::observation::{self, Observation};
 use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
-use super::reliability::reliability_cutoff;
-use super::statistics::{Statistics, Sums};
+use super::statistics::{Statistics, Sums, reliability_cutoff};
 use crate::topography::{self, Place, Topography};
 use std::f64::consts::{PI, TAU};
 

@@ -14,7 +14,6 @@
 //! h² = (1/2π) ∫₀^∞ q C2D dq. Steps are described in `docs/surfaces.md`.
 
 mod analysis;
-mod detrend;
 mod error;
 mod fit;
 mod isotropic;
@@ -22,11 +21,10 @@ mod linear;
 mod observation;
 mod periodogram;
 mod power_law;
-mod reliability;
 mod statistics;
 
+pub use crate::topography::Detrend;
 pub use analysis::{Analysis, Options, analyse};
-pub use detrend::Detrend;
 pub use error::SpectrumError;
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};

@@ -1,7 +1,6 @@
 //! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse real Fourier transform.
 
-use super::modes::Modes;
-use super::phases::phases;
+use super::modes::{Modes, phases};
 use super::{SelfAffine, SurfaceError};
 use crate::memory;
 use crate::parallel::in_parallel;

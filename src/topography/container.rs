@@ -157,7 +157,7 @@ impl Measurement {
 
 #[cfg(test)]
 mod tests {
-    use super::super::archive::tests::archive;
+    use super::super::bytes::tests::archive;
     use super::super::{ReadOptions, Topography, parse, parse_all};
     use super::*;
 

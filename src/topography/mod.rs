@@ -5,19 +5,14 @@
 //! takes at most 1 MiB + 64 n bytes of memory, n counted after decompression, and decompression ends at 1 MiB + 32
 //! bytes for each byte of the file.
 
-mod archive;
 mod bytes;
 mod container;
-mod detrend;
-mod entries;
 mod error;
-mod gsf;
 mod gwy;
 mod missing;
 mod netcdf;
 mod npy;
 mod open;
-mod outliers;
 mod reading;
 mod sdf;
 mod sur;
@@ -26,13 +21,12 @@ pub(crate) mod text;
 mod unit;
 mod x3p;
 
-pub use detrend::Detrend;
 pub use error::TopographyError;
 pub(crate) use error::{Place, refused, shown};
 pub(crate) use npy::columns as npy_columns;
 pub(crate) use open::unpacked;
 pub use open::{content, parse, parse_all, read};
 pub use reading::ReadOptions;
-pub use surface::{Cut, Topography};
+pub use surface::{Cut, Detrend, Topography};
 pub(crate) use surface::{UNEVEN, first_uneven, interpolated};
 pub use unit::{Unit, UnitError};

@@ -1,10 +1,9 @@
 //! The format of a file, determined by its first bytes, and its reader.
 
-use super::archive::{self, Archive};
-use super::bytes::{MOST_EXPANSION, most_expanded};
+use super::bytes::{Archive, MOST_EXPANSION, ZIP, most_expanded};
 use super::error::{Place, TopographyError, refused};
 use super::reading::{ReadOptions, Reading};
-use super::{Topography, container, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
+use super::{Topography, container, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
@@ -22,7 +21,7 @@ type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 /// First bytes of the binary formats. All others but archives are text.
 const SIGNATURES: [(&[u8], BinaryReader); 9] = [
     (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
-    (gsf::SIGNATURE, |bytes, _| gsf::read(bytes)),
+    (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
     (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
     (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
     (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
@@ -69,7 +68,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
 /// # Errors
 /// As [`read`].
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
-    let is_archive = bytes.starts_with(archive::SIGNATURE);
+    let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {
         let allowed = "a container of surfaces, or no --surface-name, in a scene roughness.surface_name";
         return Err(refused(Place::File, "a file of one surface, without a name", allowed));
@@ -107,7 +106,7 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
 /// Reads the numbers of a file of one surface.
 fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
     let content = unpacked(bytes)?;
-    if content.starts_with(archive::SIGNATURE) {
+    if content.starts_with(ZIP) {
         return x3p::read(Archive::new(&content)?);
     }
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));

@@ -2,7 +2,7 @@
 
 use super::error::{Place, TopographyError, refused};
 use super::surface::{Cut, Grid, LARGEST, Topography};
-use super::{Unit, missing, outliers};
+use super::{Unit, missing};
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;
@@ -131,9 +131,9 @@ impl Reading {
             return Err(refused(Place::File, "a profile, which has no rows to align", "a map"));
         }
         if options.align_rows {
-            outliers::level_rows(&mut heights, columns)?;
+            missing::level_rows(&mut heights, columns)?;
         }
-        let outliers = if options.robust { outliers::remove(&mut heights, columns)? } else { 0 };
+        let outliers = if options.robust { missing::remove_outliers(&mut heights, columns)? } else { 0 };
         let has_gaps = missing || outliers > 0;
         let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
         let surface = Topography::new(format, heights, columns, grid, interpolated)?;

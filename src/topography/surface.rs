@@ -1,7 +1,9 @@
 //! Measured heights in m with their positions.
 
 use super::error::{Place, TopographyError, gathered, refused};
-use super::{Detrend, missing};
+use super::missing;
+use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 /// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
 /// could overflow.
@@ -248,6 +250,23 @@ pub(crate) fn interpolated(
 /// Mean distance between positions, m.
 fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
+}
+
+/// Part of a surface removed before analysis.
+#[cfg_attr(feature = "tui", derive(clap::ValueEnum))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
+pub enum Detrend {
+    /// None; in scenes `Nothing`, since `None` omits a field.
+    #[serde(rename = "Nothing")]
+    #[strum(serialize = "Nothing")]
+    None,
+    /// Mean height.
+    Mean,
+    /// Mean height and tilt.
+    #[default]
+    Tilt,
+    /// Mean height, tilt and the curvatures of a paraboloid.
+    Curvature,
 }
 
 #[cfg(test)]

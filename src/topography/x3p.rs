@@ -1,8 +1,7 @@
 //! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths are in m.
 
 use super::Unit;
-use super::archive::Archive;
-use super::bytes::{Bytes, Number, Order};
+use super::bytes::{Archive, Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
 use crate::io::into_text;
@@ -151,7 +150,7 @@ fn count(root: Node<'_, '_>, name: &str) -> Result<usize, TopographyError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::archive::tests::archive;
+    use super::super::bytes::tests::archive;
     use super::*;
 
     const MAIN: &str = "<?xml version='1.0' encoding='UTF-8'?>\n\

@@ -4,10 +4,9 @@
 //! which ends at θ; a patch that splits detaches them. So the energy of a leg telescopes over its runs: the squared
 //! stretches at the beginning of each run, less those at its end, and the squares along its sliding edges.
 
-use super::curve::Runs;
+use super::Runs;
 use super::levels::EdgeCell;
-use super::run::{Ground, Run};
-use super::span::Span;
+use super::run::{Ground, Run, Span};
 use crate::contact::grid::CompensatedSum;
 use crate::contact::totals::SquareScale;
 

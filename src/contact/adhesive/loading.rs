@@ -1,8 +1,7 @@
 //! Loading: the indentation at which each part of the line closes, and the fragments between.
 
 use super::levels::Levels;
-use super::run::{Ground, Held, Listed, Run};
-use super::span::{Span, larger, smaller};
+use super::run::{Ground, Held, Listed, Run, Span, larger, smaller};
 use super::tree::{Branch, Node};
 use crate::contact::{ContactError, push, reserve, resized};
 use std::borrow::Cow;

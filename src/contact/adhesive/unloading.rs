@@ -1,8 +1,7 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
 use super::levels::Levels;
-use super::run::{Ground, Held, Listed, Run};
-use super::span::{Span, smaller};
+use super::run::{Ground, Held, Listed, Run, Span, smaller};
 use super::tree::Branch;
 use crate::contact::{ContactError, push};
 
