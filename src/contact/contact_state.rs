@@ -3,7 +3,8 @@
 use super::adhesive::{EdgeCells, EdgeSum, Slider};
 use super::grid::Grid;
 use super::totals::{ContactTotals, GapScale};
-use super::{ContactError, CurvePoint, Foundation, resized};
+use super::{ContactError, CurvePoint, Foundation};
+use crate::memory::resized;
 use std::ops::Range;
 
 /// Contact state at one indentation.

@@ -1,6 +1,7 @@
 //! Errors of the contact solvers.
 
 use crate::contact::Move;
+use crate::memory::OutOfMemory;
 use thiserror::Error;
 
 /// Reason why a body does not move to a target.
@@ -17,17 +18,11 @@ pub enum ContactError {
         reason: Box<ContactError>,
     },
     /// An array does not fit into memory.
-    #[error("not enough memory for {springs} springs")]
-    OutOfMemory {
-        /// Requested number of springs.
-        springs: usize,
-    },
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
     /// A target that is not a number, or infinite.
-    #[error("{value} is not finite; allowed: finite numbers")]
-    NotFinite {
-        /// Indentation, m, or force, N.
-        value: f64,
-    },
+    #[error("{0} is not finite; allowed: finite numbers")]
+    NotFinite(f64),
     /// A pulling force on a separated body.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,

@@ -48,7 +48,7 @@ pub(super) fn plan(
     };
     let order = match goal {
         Goal::Force(value) | Goal::Indentation(value) | Goal::Displacement(value) if !value.is_finite() => {
-            return Err(ContactError::NotFinite { value });
+            return Err(ContactError::NotFinite(value));
         }
         Goal::Force(force) if separated && force < 0.0 => return Err(ContactError::NothingToPull),
         Goal::Force(_) if separated => Ordering::Greater,

@@ -46,20 +46,3 @@ pub use totals::{ContactTotals, GapScale};
 
 /// Number of springs from which a second thread costs less than it saves.
 const TWO_THREADS: usize = 1 << 17;
-
-/// An empty vector with room for `count` values, or an error instead of an abort.
-pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, ContactError> {
-    crate::memory::emptied(Vec::new(), count).map_err(|_| ContactError::OutOfMemory { springs: count })
-}
-
-/// Adds a value to an array over this number of springs, or returns an error instead of an abort.
-fn push<T>(values: &mut Vec<T>, value: T, springs: usize) -> Result<(), ContactError> {
-    values.try_reserve(1).map_err(|_| ContactError::OutOfMemory { springs })?;
-    values.push(value);
-    Ok(())
-}
-
-/// `count` values in this memory; see [`crate::memory::resized`].
-fn resized<T: Clone>(values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, ContactError> {
-    crate::memory::resized(values, count, fill).map_err(|_| ContactError::OutOfMemory { springs: count })
-}

@@ -80,7 +80,10 @@ impl Body {
         let loading = Leg::approach(self.leg.contact())?;
         loading.count(&mut self.work);
         let balanced = loading.reach(Goal::Force(0.0), 0.0, &mut self.work);
-        let mut adhesion = |at| Ok(self.reverse(&loading, loading.state(at)?, &[])?.adhesion_force());
+        let mut adhesion = |at| {
+            let reversal = self.reverse(&loading, loading.state(at)?, &[]);
+            reversal.map(|reversal| reversal.adhesion_force())
+        };
         let at_touch = adhesion(0.0)?;
         let at_zero_force = match balanced {
             Err(ContactError::OutOfReach) => None,

@@ -7,10 +7,9 @@ use super::adhesive::EdgeCells;
 use super::contact_state::ContactState;
 use super::goal::{Goal, plan};
 use super::grid::Grid;
-use super::{
-    Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
-};
+use super::{Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work};
 use crate::contact::Move;
+use crate::memory::resized;
 
 /// Most steps of one motion.
 pub const STEP_LIMIT: u64 = 10_000_000;

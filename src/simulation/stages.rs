@@ -170,9 +170,8 @@ impl Simulation {
 
     /// Makes the heights of a roughness; synthesised ones in this memory.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
-        let points = scene.numerics.points as usize;
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory(points))?;
+        check_room(Plan::of(scene).line_bytes()).map_err(SurfaceError::from)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
             self.maker.synthesizer = Synthesizer::default();

@@ -1,15 +1,16 @@
 //! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
 use super::Detrend;
-use super::error::SpectrumError;
 use super::fit::Model;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments};
 use super::observation::{self, Observation};
 use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
 use super::statistics::{Statistics, Sums, reliability_cutoff};
-use crate::topography::{self, Place, Topography};
+use crate::memory::OutOfMemory;
+use crate::topography::{self, Place, Topography, TopographyError};
 use std::f64::consts::{PI, TAU};
+use thiserror::Error;
 
 /// Fewest points along a row, and rows of a map.
 const LEAST_POINTS: usize = 32;
@@ -36,6 +37,32 @@ const SAME: f64 = 1e-6;
 
 /// Wave numbers to which a spectrum without an end may continue, over the last resolved one.
 const CONTINUED: f64 = 4.0;
+
+/// Reason why surfaces are not analysed.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{reason}")]
+pub struct SpectrumError {
+    /// Index of the refused surface, from 0, if it is one.
+    pub(crate) surface: Option<usize>,
+    reason: String,
+}
+
+impl SpectrumError {
+    pub(super) fn new(reason: impl ToString) -> Self {
+        SpectrumError { surface: None, reason: reason.to_string() }
+    }
+
+    fn no_maximum() -> Self {
+        let fault = "the likelihood has no maximum: heights without noise or with few digits";
+        SpectrumError::new(format!("{fault}; allowed: measured heights"))
+    }
+}
+
+impl From<OutOfMemory> for SpectrumError {
+    fn from(error: OutOfMemory) -> Self {
+        SpectrumError::new(error)
+    }
+}
 
 /// Choices of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -101,7 +128,7 @@ struct Powers {
 /// [`SpectrumError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
 pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, SpectrumError> {
     if surfaces.is_empty() {
-        return Err(SpectrumError::Nothing);
+        return Err(SpectrumError::new("no surface; allowed: at least one"));
     }
     let mut sums = Sums::default();
     // Only the longest scans hold the height of the line, and only the finest ones its gradient.
@@ -134,10 +161,13 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
     {
-        return Err(SpectrumError::End { to, last: range[1] });
+        return Err(SpectrumError::new(format!(
+            "the spectrum continues up to q = {to:e} rad/m; allowed: above the last resolved wave, q = {:e} rad/m",
+            range[1]
+        )));
     }
     let fitted = |observations: &[Observation], end: End| {
-        Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
+        Model::new(observations, range, end).fit().ok_or_else(SpectrumError::no_maximum)
     };
     let self_affine = |observations: &[Observation], spectrum: &IsotropicSpectrum| {
         // The powers of the last waves depend on how the spectrum ends.
@@ -183,7 +213,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let line = isotropic.line_moments();
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
-        return Err(SpectrumError::NoMaximum);
+        return Err(SpectrumError::no_maximum());
     }
     Ok(Analysis {
         statistics: sums.statistics(),
@@ -206,7 +236,10 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
     let left = largest(after);
-    if left > 1e-12 * largest(before) && left > 1e-100 { Ok(()) } else { Err(SpectrumError::Smooth) }
+    if left > 1e-12 * largest(before) && left > 1e-100 {
+        return Ok(());
+    }
+    Err(SpectrumError::new("no roughness is left after detrending; allowed: heights that differ"))
 }
 
 impl Powers {
@@ -220,7 +253,8 @@ impl Powers {
     ) -> Result<Powers, SpectrumError> {
         let mut powers = Powers::default();
         for (index, surface) in surfaces.iter().enumerate() {
-            let refused = |error| SpectrumError::Surface { index, error };
+            let refused =
+                |error: TopographyError| SpectrumError { surface: Some(index), ..SpectrumError::new(error) };
             let (columns, rows) = (surface.columns(), surface.rows());
             let distances = surface.spacing().map_err(refused)?;
             let points = if rows > 1 { columns.min(rows) } else { columns };

@@ -14,7 +14,6 @@
 //! h² = (1/2π) ∫₀^∞ q C2D dq. Steps are described in `docs/surfaces.md`.
 
 mod analysis;
-mod error;
 mod fit;
 mod isotropic;
 mod linear;
@@ -24,8 +23,7 @@ mod power_law;
 mod statistics;
 
 pub use crate::topography::Detrend;
-pub use analysis::{Analysis, Options, analyse};
-pub use error::SpectrumError;
+pub use analysis::{Analysis, Options, SpectrumError, analyse};
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
 pub(crate) use linear::{Cholesky, slope};

@@ -35,7 +35,7 @@ impl MeasuredOptions {
             surfaces.extend(read);
         }
         analyse(&surfaces, &self.spectrum).map_err(|error| {
-            let file = files.get(error.surface().unwrap_or(0));
+            let file = files.get(error.surface.unwrap_or(0));
             SurfaceError::measured(file.map_or(Path::new(""), |path| path), &error)
         })
     }

@@ -1,14 +1,15 @@
 //! Errors of the rigid profile.
 
+use crate::memory::OutOfMemory;
 use std::path::Path;
 use thiserror::Error;
 
 /// Reason why a profile could not be made.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SurfaceError {
-    /// The arrays of this number of springs do not fit into memory.
-    #[error("numerics.points: not enough memory for {0} springs")]
-    OutOfMemory(usize),
+    /// The arrays of the springs do not fit into memory.
+    #[error("numerics.points: {0}")]
+    OutOfMemory(#[from] OutOfMemory),
     /// The Fourier transform refused its input.
     #[error("roughness: the Fourier transform failed: {0}")]
     Transform(String),

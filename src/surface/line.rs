@@ -1,8 +1,7 @@
 //! The rigid profile as the input of the contact: gaps below its highest point.
 
 use super::{Form, SurfaceError};
-use crate::memory;
-use std::ops::Range;
+use crate::memory::emptied;
 use std::sync::Arc;
 
 /// The rigid profile above springs at x = (i + ½)Δx.
@@ -53,47 +52,35 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let under = springs_under(form, length, points)?;
-        let mut heights =
-            memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
+        let mut heights = emptied(memory, points)?;
         match roughness {
-            Some(rough) => heights.extend_from_slice(&rough[under.clone()]),
-            None => heights.resize(under.len(), 0.0),
+            Some(rough) => heights.extend_from_slice(rough),
+            None => heights.resize(points, 0.0),
         }
-        Line::over(heights, under.start, length, points, form, scale)
+        Line::from_roughness(heights, length, form, scale)
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
     pub(crate) fn from_roughness(
-        mut heights: Vec<f64>,
-        length: f64,
-        form: Option<&Form>,
-        scale: f64,
-    ) -> Result<Self, SurfaceError> {
-        let points = heights.len();
-        let under = springs_under(form, length, points)?;
-        heights.truncate(under.end);
-        heights.drain(..under.start);
-        Line::over(heights, under.start, length, points, form, scale)
-    }
-
-    /// The profile of a form and of roughness, `gaps` before, of the springs from a first one on.
-    fn over(
         mut gaps: Vec<f64>,
-        first: usize,
         length: f64,
-        points: usize,
         form: Option<&Form>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let spacing = length / points as f64;
+        let (points, spacing) = (gaps.len(), length / gaps.len() as f64);
+        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        if under.is_empty() {
+            return Err(SurfaceError::NoSprings(spacing / 4.0));
+        }
+        let first = under.start as usize;
+        gaps.truncate(under.end as usize);
+        gaps.drain(..first);
         match form {
             None => gaps.iter_mut().for_each(|z| *z *= scale),
             Some(form) => {
                 // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
                 let axis = Form::spring_on_axis(points as u64) as f64;
-                let depths = form.table().map(|table| table.depths(spacing, points / 2 + 1)).transpose();
-                let depths = depths.map_err(|_| SurfaceError::OutOfMemory(points))?;
+                let depths = form.table().map(|table| table.depths(spacing, points / 2 + 1)).transpose()?;
                 let depth = |index: usize| match &depths {
                     Some(depths) => depths[index.abs_diff(points / 2)],
                     None => form.mdr_profile((index as f64 - axis) * spacing),
@@ -138,15 +125,6 @@ impl Line {
     pub fn deepest(&self) -> f64 {
         self.deepest
     }
-}
-
-/// Springs under a form, at least one.
-fn springs_under(form: Option<&Form>, length: f64, points: usize) -> Result<Range<usize>, SurfaceError> {
-    let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
-    if under.is_empty() {
-        return Err(SurfaceError::NoSprings(length / points as f64 / 4.0));
-    }
-    Ok(under.start as usize..under.end as usize)
 }
 
 /// Largest value; `Err(index)` of the first non-finite value.

@@ -1,7 +1,7 @@
 //! Measured profiles used as the line themselves.
 
 use super::{Amplitude, SurfaceError};
-use crate::memory::{check_room, emptied};
+use crate::memory::{OutOfMemory, check_room, gathered};
 use crate::spectrum::{Detrend, Options};
 use crate::topography::{ReadOptions, TopographyError, UNEVEN, first_uneven, interpolated, parse};
 use realfft::RealFftPlanner;
@@ -104,9 +104,9 @@ impl MeasuredProfile {
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
-        let out_of_memory = || SurfaceError::OutOfMemory(points);
-        check_room(TRANSFORM_BYTES * points as u64).map_err(|_| out_of_memory())?;
-        let mut heights = self.sample(self.length(), points, 0.0).map_err(|_| out_of_memory())?;
+        check_room(TRANSFORM_BYTES * points as u64)?;
+        let begins = self.begins(self.length()).unwrap_or(self.positions[0]);
+        let mut heights = self.heights_from(begins, self.length() / points as f64, points, 0.0)?;
         let curvature = rms_curvature(&heights, self.length() / points as f64);
         join_ends(&mut heights);
         let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
@@ -135,12 +135,20 @@ impl MeasuredProfile {
         let begins = self.begins(length).map_err(|covers| {
             format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
         })?;
-        let mut heights =
-            emptied(Vec::new(), points).map_err(|_| format!("not enough memory for {points} points"))?;
-        let places =
-            (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * (length / points as f64));
-        heights.extend(interpolated(&self.positions, &self.heights, self.level(), places));
-        Ok(heights)
+        let heights = self.heights_from(begins, length / points as f64, points, shift);
+        heights.map_err(|error| error.to_string())
+    }
+
+    /// Heights, m, at the centres of cells of this width from a position on, m, displaced by `shift` cells.
+    fn heights_from(
+        &self,
+        begins: f64,
+        cell: f64,
+        points: usize,
+        shift: f64,
+    ) -> Result<Vec<f64>, OutOfMemory> {
+        let places = (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * cell);
+        gathered(points, interpolated(&self.positions, &self.heights, self.level(), places))
     }
 
     /// Position, m, of the beginning of a line of a length, m; the error is the covered length, m.

@@ -34,9 +34,8 @@ impl Transform {
     fn planned(points: usize) -> Result<Self, SurfaceError> {
         let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
         let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
-        let out_of_memory = |_| SurfaceError::OutOfMemory(points);
-        let coefficients = zeros(points / 2 + 1).map_err(out_of_memory)?;
-        let scratch = zeros(plan.get_scratch_len()).map_err(out_of_memory)?;
+        let coefficients = zeros(points / 2 + 1)?;
+        let scratch = zeros(plan.get_scratch_len())?;
         Ok(Transform { points, plan, coefficients, scratch })
     }
 }
@@ -98,10 +97,9 @@ impl Synthesizer {
         memory: Vec<f64>,
         draw: impl FnOnce(usize, &mut [Complex64]),
     ) -> Result<Vec<f64>, SurfaceError> {
-        let out_of_memory = |_| SurfaceError::OutOfMemory(points);
         let kept = self.transform.take().filter(|kept| kept.points == points);
         let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
-        let mut heights = memory::resized(memory, points, 0.0).map_err(out_of_memory)?;
+        let mut heights = memory::resized(memory, points, 0.0)?;
 
         let coefficients = transform.coefficients.as_mut_slice();
         let nyquist = 2 * last == points as u64;

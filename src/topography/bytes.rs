@@ -1,8 +1,9 @@
 //! Numbers of binary files, each read only if the file has its bytes, the limits of their decompression, and archives
 //! (ZIP) in memory, unpacked up to these limits.
 
-use super::error::{Place, TopographyError, gathered, refused, shown};
+use super::error::{Place, TopographyError, refused, shown};
 use crate::io::read_limited;
+use crate::memory::gathered;
 use std::io::Cursor;
 use zip::ZipArchive;
 use zip::result::ZipError;
@@ -122,7 +123,7 @@ impl<'a> Bytes<'a> {
     /// Returns the next `count` numbers of a type.
     pub fn numbers(&mut self, count: usize, of: Number) -> Result<Vec<f64>, TopographyError> {
         let bytes = self.take(count.saturating_mul(of.size()))?;
-        gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))
+        Ok(gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))?)
     }
 
     /// Returns the bytes up to the next zero, which is skipped.

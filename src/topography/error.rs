@@ -1,6 +1,7 @@
 //! Reasons why a file is no surface.
 
 use crate::io::ReadError;
+use crate::memory::OutOfMemory;
 use crate::text::printable;
 use std::fmt;
 use thiserror::Error;
@@ -37,9 +38,9 @@ pub enum TopographyError {
     /// The content cannot be read, or is invalid: place within the file, fault, and allowed content.
     #[error("{0}")]
     Refused(String),
-    /// Insufficient memory for this number of points.
-    #[error("not enough memory for {0} points")]
-    OutOfMemory(usize),
+    /// Insufficient memory.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
 }
 
 impl TopographyError {
@@ -63,17 +64,6 @@ impl From<ReadError> for TopographyError {
 /// Error of invalid content.
 pub(crate) fn refused(place: Place, fault: impl fmt::Display, allowed: impl fmt::Display) -> TopographyError {
     TopographyError::Refused(format!("{place}{fault}; allowed: {allowed}"))
-}
-
-/// Collects an iterator of `points` values, if the memory suffices.
-pub(super) fn gathered(
-    points: usize,
-    values: impl Iterator<Item = f64>,
-) -> Result<Vec<f64>, TopographyError> {
-    let mut gathered = Vec::new();
-    gathered.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory(points))?;
-    gathered.extend(values);
-    Ok(gathered)
 }
 
 /// Text of a file for a message: one line of limited length.

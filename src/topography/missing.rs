@@ -1,7 +1,8 @@
 //! Missing points, interpolated from their neighbours, and outliers: heights far from those around them, as spikes of an
 //! instrument and grains of dust are.
 
-use super::error::{Place, TopographyError, gathered, refused};
+use super::error::{Place, TopographyError, refused};
+use crate::memory::{OutOfMemory, emptied, gathered};
 
 /// Smallest share of measured points for interpolation.
 const LEAST_MEASURED: f64 = 0.5;
@@ -27,8 +28,7 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usi
         return Err(refused(Place::File, fault, format!("at least {:.0} %", 100.0 * LEAST_MEASURED)));
     }
     let rows = heights.len() / columns;
-    let mut filled: Vec<(usize, f64)> = Vec::new();
-    filled.try_reserve_exact(missing).map_err(|_| TopographyError::OutOfMemory(missing))?;
+    let mut filled: Vec<(usize, f64)> = emptied(Vec::new(), missing)?;
     for row in 0..rows {
         for_each_gap(heights, row * columns, 1, columns, |index, height| filled.push((index, height)));
     }
@@ -87,7 +87,7 @@ const OF_DEVIATION: f64 = 1.482_602_218_505_602;
 /// Makes outliers in rows of `columns` points missing (NaN), by the identifier of Hampel: heights whose distance from the
 /// median of the points around them exceeds [`FAR`] standard deviations, which follow from the median of all distances.
 /// The tilt does not count, nor do more points on one side than on the other at borders. Returns the number of outliers.
-pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usize, TopographyError> {
+pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usize, OutOfMemory> {
     let rows = heights.len() / columns;
     let slope = |step: usize| {
         let pairs = heights.iter().zip(heights.iter().skip(step));
@@ -126,7 +126,7 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
 }
 
 /// Subtracts from each row of `columns` points the median of its heights.
-pub(super) fn level_rows(heights: &mut [f64], columns: usize) -> Result<(), TopographyError> {
+pub(super) fn level_rows(heights: &mut [f64], columns: usize) -> Result<(), OutOfMemory> {
     let mut known = gathered(columns, std::iter::repeat_n(0.0, columns))?;
     for row in heights.chunks_exact_mut(columns) {
         known.clear();

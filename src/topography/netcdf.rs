@@ -2,10 +2,11 @@
 //! variable `heights` over positions `x`, and `y` for a map.
 
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, gathered, refused};
+use super::error::{Place, TopographyError, refused};
 use super::reading::Reading;
 use super::surface::first_uneven;
 use super::unit::Unit;
+use crate::memory::gathered;
 
 /// First bytes, without the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";

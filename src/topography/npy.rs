@@ -8,6 +8,7 @@ use super::bytes::{Bytes, Number, Order};
 use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
 pub(super) use crate::io::npy::SIGNATURE;
+use crate::memory::emptied;
 
 /// Reads an array of format version 1, 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
@@ -34,10 +35,8 @@ pub(crate) fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), Topo
         let names = fields.iter().map(|(name, _)| name.clone()).collect();
         let size = fields.iter().map(|(_, number)| number.size()).sum::<usize>();
         let mut rows = data.part(points.saturating_mul(size))?;
-        let mut columns = vec![Vec::new(); fields.len()];
-        for column in &mut columns {
-            column.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory(points))?;
-        }
+        let column = |_: &(String, Number)| emptied(Vec::new(), points);
+        let mut columns = fields.iter().map(column).collect::<Result<Vec<Vec<f64>>, _>>()?;
         for _ in 0..points {
             for ((_, number), column) in fields.iter().zip(&mut columns) {
                 column.push(rows.number(*number)?);

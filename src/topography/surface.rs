@@ -1,7 +1,8 @@
 //! Measured heights in m with their positions.
 
-use super::error::{Place, TopographyError, gathered, refused};
+use super::error::{Place, TopographyError, refused};
 use super::missing;
+use crate::memory::gathered;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 

@@ -3,7 +3,8 @@
 use super::levels::Levels;
 use super::run::{Ground, Held, Listed, Run, Span, larger, smaller};
 use super::tree::{Branch, Node};
-use crate::contact::{ContactError, push, reserve, resized};
+use crate::contact::ContactError;
+use crate::memory::{gathered, push, resized};
 use std::borrow::Cow;
 
 /// Closing thresholds of the nodes of a tree on a loading from separation.
@@ -106,9 +107,7 @@ impl Closing {
     ) -> Result<Listed, ContactError> {
         let mut closes = Cow::Borrowed(self.closes.as_slice());
         if !held.is_empty() {
-            let mut own = reserve(self.closes.len())?;
-            own.extend_from_slice(&self.closes);
-            closes = Cow::Owned(own);
+            closes = Cow::Owned(gathered(self.closes.len(), self.closes.iter().copied())?);
         }
         let listed = Listed { runs: Vec::new(), end: f64::NEG_INFINITY, evaluations: 0 };
         let mut loading = Loading { ground, held, closes, known: &self.known, listed };
@@ -142,9 +141,9 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let parts =
                     tree.parts(node).into_iter().zip(self.split(held, tree.maximum(&tree.nodes()[node])));
                 for part in parts.clone() {
-                    push(&mut waiting, part, self.ground.gaps.len())?;
+                    push(&mut waiting, part)?;
                 }
-                push(&mut around, (node, held), self.ground.gaps.len())?;
+                push(&mut around, (node, held))?;
             }
         }
         for (node, held) in around.into_iter().rev() {
@@ -201,7 +200,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let merges = smaller(start.closes, merges);
                 let parent = tree.maximum(&node);
                 for (branch, held) in tree.parts(index).into_iter().zip(self.split(held, parent)) {
-                    push(&mut branches, Climb { branch, merges, parent, held }, self.ground.gaps.len())?;
+                    push(&mut branches, Climb { branch, merges, parent, held })?;
                 }
             }
         }
@@ -222,7 +221,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
             let Some(wall) = span.wall(gaps) else {
                 *complete = closes;
                 if closes < climb.merges {
-                    push(runs, Run::new(climb.branch, &span, closes, climb.merges), gaps.len())?;
+                    push(runs, Run::new(climb.branch, &span, closes, climb.merges))?;
                 }
                 break;
             };
@@ -235,7 +234,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let end = smaller(attaches, climb.merges);
                 if let Some(rise) = pin.take() {
                     let released = smaller(levels.release(ground.stretch, rise).0, end);
-                    push(runs, Run::pinned(climb.branch, &span, rise, closes, released), gaps.len())?;
+                    push(runs, Run::pinned(climb.branch, &span, rise, closes, released))?;
                     closes = released;
                 }
                 if closes < end {
@@ -243,7 +242,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                         (Some(run), Some(lower)) if ground.slides_on(&lower, &levels) => {
                             run.raise(&span, end)
                         }
-                        _ => push(runs, Run::new(climb.branch, &span, closes, end), gaps.len())?,
+                        _ => push(runs, Run::new(climb.branch, &span, closes, end))?,
                     }
                     below = Some(levels);
                 } else {

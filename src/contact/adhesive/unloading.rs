@@ -3,7 +3,8 @@
 use super::levels::Levels;
 use super::run::{Ground, Held, Listed, Run, Span, smaller};
 use super::tree::Branch;
-use crate::contact::{ContactError, push};
+use crate::contact::ContactError;
+use crate::memory::push;
 
 /// Margin of the bounds for rounding.
 const ABOVE: f64 = 1.0 + 1e-12;
@@ -33,7 +34,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
             parts.push(Part { branch, first, last, opens: from, is_whole: true });
             while let Some(part) = parts.pop() {
                 for part in self.descend(part, pin, &mut listed)?.into_iter().flatten() {
-                    push(&mut parts, part, self.gaps.len())?;
+                    push(&mut parts, part)?;
                 }
             }
         }
@@ -108,7 +109,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
                         let (released, slides) = levels.release(self.stretch, rise);
                         let released = smaller(opens, released);
                         leaves = if slides { smaller(leaves, released) } else { released };
-                        push(runs, Run::pinned(part.branch, &span, rise, released, to), gaps.len())?;
+                        push(runs, Run::pinned(part.branch, &span, rise, released, to))?;
                         to = released;
                     }
                     match (runs.last_mut(), above) {
@@ -117,7 +118,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
                         (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
                             run.lower(&span, leaves)
                         }
-                        _ => push(runs, Run::new(part.branch, &span, leaves, to), gaps.len())?,
+                        _ => push(runs, Run::new(part.branch, &span, leaves, to))?,
                     }
                     // A run continues only from a level equal to the gap of the span.
                     goes_on = (leaves == holds && leaves < to).then_some(levels);

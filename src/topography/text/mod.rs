@@ -13,7 +13,7 @@ use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
 use super::surface::{LARGEST, UNEVEN};
 use crate::io::PROVENANCE;
-use crate::memory::check_room;
+use crate::memory::{check_room, push, reserve};
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use header::Header;
 use std::borrow::Cow;
@@ -96,8 +96,7 @@ impl Rows {
     fn take(&mut self, place: Place, line: &str) -> Result<(), TopographyError> {
         let columns = self.columns;
         let positions = if columns <= 3 { columns - 1 } else { 0 };
-        let points = self.heights.len();
-        self.heights.try_reserve(columns).map_err(|_| TopographyError::OutOfMemory(points))?;
+        reserve(&mut self.heights, columns)?;
         let mut found = 0;
         for cell in self.separator.split(line) {
             found += 1;
@@ -106,9 +105,7 @@ impl Rows {
             }
             let value = self.value(&place, cell, found <= positions)?;
             if found <= positions {
-                let column = &mut self.positions[found - 1];
-                column.try_reserve(1).map_err(|_| TopographyError::OutOfMemory(points))?;
-                column.push(value);
+                push(&mut self.positions[found - 1], value)?;
             } else {
                 self.heights.push(value);
             }
@@ -197,9 +194,7 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
     if encoding == UTF_8 {
         return Ok(Cow::Borrowed(text));
     }
-    check_room(2 * text.len() as u64).map_err(|_| {
-        TopographyError::Refused(format!("not enough memory for {} bytes of UTF-16", text.len()))
-    })?;
+    check_room(2 * text.len() as u64)?;
     Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
 }
 
