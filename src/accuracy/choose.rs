@@ -15,10 +15,7 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// Most springs tried, unless the modes of the scene need more: then four times that number.
 const MOST_SPRINGS: u64 = 1 << 21;
 
-/// Parses a tolerance: `1e-3` or `0.1 %`.
-///
-/// # Errors
-/// Allowed values, for text that is no tolerance.
+/// Parses a tolerance: `1e-3` or `0.1 %`; the error is the allowed range.
 pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
     let text = text.trim();
@@ -123,9 +120,6 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// kinds of edges take about the same time, and edges between springs are preferred, whose error falls faster if the
 /// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is polled now and then;
 /// `trying` receives the next number of springs.
-///
-/// # Errors
-/// [`ChoiceError`].
 pub fn choose(
     scene: &Scene,
     folder: &Path,

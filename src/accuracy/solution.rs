@@ -10,7 +10,6 @@ use serde::Serialize;
 use std::f64::consts::PI;
 use std::path::Path;
 
-/// Fewest springs of any solution.
 pub(super) const FEWEST: u64 = 16;
 /// Factors of the loads of a scene for the loads around them.
 const AROUND: [f64; 2] = [0.5, 2.0];
@@ -94,7 +93,6 @@ impl Target {
         }
     }
 
-    /// Returns the quantity of a solution.
     pub(super) fn of(solution: &Solution) -> Self {
         if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
     }
@@ -158,7 +156,6 @@ impl<'a> Runs<'a> {
         Runs(Simulation::new(folder.to_path_buf()), stop)
     }
 
-    /// Solves a scene.
     pub(super) fn solve(&mut self, scene: &Scene) -> Result<Solution, RunError> {
         let outcome = self.0.run(scene, self.1, &mut |_, _, _| Ok(()))?;
         Ok(Solution::of(scene, &outcome))
@@ -238,7 +235,6 @@ const COMPARED: usize = 2048;
 /// Indentation, m, and force, N, at points of ascending indentation, for each loading stage.
 pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
 
-/// Returns the force curve of a loading history.
 pub(super) fn force_curve(history: &History) -> ForceCurve {
     let points = |leg: &LegRecord| {
         let mut points: Vec<_> = leg.curve.iter().map(|point| [point.indentation, point.force]).collect();

@@ -26,7 +26,6 @@ pub(super) enum Subject {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Name: words with hyphens.
     pub name: &'static str,
     /// Family: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of the rules.
     pub family: &'static str,
@@ -40,7 +39,6 @@ pub struct Case {
 }
 
 impl Case {
-    /// Creates a row of one of the tables.
     pub(super) const fn row(
         [family, evidence]: [&'static str; 2],
         [name, holds, error_of]: [&'static str; 3],
@@ -56,7 +54,6 @@ pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
 
-/// Returns the scene with another value of a field.
 pub(super) fn with(scene: &Scene, path: &str, value: f64) -> Measured<Scene> {
     Ok(Document::from_scene(scene, "check")?.set(path, &format!("{value:e}"))?.scene().clone())
 }
@@ -65,7 +62,6 @@ pub(super) fn outcome(scene: &Scene) -> Measured<Outcome> {
     Ok(crate::run(scene)?)
 }
 
-/// Returns an error unless `holds`.
 pub(super) fn ensure(holds: bool, what: impl FnOnce() -> String) -> Measured<()> {
     if holds { Ok(()) } else { Err(what().into()) }
 }

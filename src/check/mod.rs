@@ -27,12 +27,10 @@ pub struct Verdict {
     pub check: Check,
     /// The error, or the reason why there is none.
     pub error: Result<f64, String>,
-    /// Time, s.
     pub seconds: f64,
 }
 
 impl Verdict {
-    /// Returns true if the case holds.
     pub fn passes(&self) -> bool {
         // NaN is not within any bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
@@ -44,7 +42,6 @@ pub fn catalogue() -> Vec<Case> {
     [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
 }
 
-/// Returns all checks of the cases selected by `choose`.
 pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
     catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()

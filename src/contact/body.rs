@@ -1,8 +1,7 @@
 //! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error.
 
-use super::contact_state::{ContactState, Extreme};
+use super::contact_state::{ContactState, Extreme, Grid};
 use super::goal::{Goal, plan};
-use super::grid::Grid;
 use super::leg::{Leg, SEARCH_INTERVALS};
 use super::{Contact, ContactError, CurvePoint, Direction, History, LegRecord, Move, TWO_THREADS, Work};
 use crate::parallel::in_parallel;
@@ -113,7 +112,6 @@ impl Body {
         Ok(leg)
     }
 
-    /// Finds the motion to a target.
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let stiffness = self.leg.contact().loading_stiffness;
         let Some((direction, goal)) = plan(target, self.point(), stiffness)? else { return Ok(None) };
@@ -140,7 +138,6 @@ impl Body {
         (Grid::new(low, high, intervals * stride), stride)
     }
 
-    /// Carries out a motion and records it.
     fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
         let Motion { leg, low, high, goal } = motion;
@@ -180,8 +177,7 @@ impl Body {
         let extremes = if loads {
             let largest =
                 if ends_at_largest { sampled[last] } else { leg.extreme(Extreme::Largest, &sampled, work) };
-            let free = CurvePoint { indentation: low, ..CurvePoint::default() };
-            let points = curve.iter().copied().chain(touches.then_some(free));
+            let points = curve.iter().copied().chain(touches.then(|| CurvePoint::free(low)));
             let largest = self.point_of(largest);
             [points.min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest), largest]
         } else {
@@ -248,11 +244,8 @@ pub fn run(
         after(&record, &solver.leg())?;
         history.legs.push(record);
     }
-    let end = history.legs.last().and_then(|record| record.curve.last());
-    history.contacts = match end {
-        Some(point) if point.springs > 0 => solver.leg().patches(point.indentation),
-        _ => Vec::new(),
-    };
+    let end = history.legs.last().and_then(LegRecord::end_in_contact);
+    history.contacts = end.map_or_else(Vec::new, |point| solver.leg().patches(point.indentation));
     history.work = solver.work();
     Ok(history)
 }

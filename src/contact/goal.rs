@@ -4,7 +4,6 @@ use super::{ContactError, CurvePoint, Direction};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
-/// End of a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
     /// An indentation, m.
@@ -32,9 +31,6 @@ impl From<Move> for Goal {
 
 /// Returns the direction and the end of the motion of a body at `here` to a target, with an instrument of this stiffness,
 /// N/m; `None` for a body that is there.
-///
-/// # Errors
-/// [`ContactError::NotFinite`], [`ContactError::NothingToPull`].
 pub(super) fn plan(
     target: Move,
     here: CurvePoint,

@@ -45,7 +45,7 @@ impl LegRecord {
 
     /// A leg of a separated body that does not touch.
     pub(crate) fn free(target: Move, from: f64, to: f64) -> Self {
-        let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
+        let [start, end] = [from, to].map(CurvePoint::free);
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
@@ -73,18 +73,22 @@ impl LegRecord {
             LegRecord::insert(&mut curve, smallest);
             curve.reverse();
         }
-        let free = |indentation| CurvePoint { indentation, ..CurvePoint::default() };
         let [start, end] = [curve[0], curve[curve.len() - 1]];
         if before.springs == 0 && start.springs > 0 {
-            let points = [before, free(start.indentation)];
+            let points = [before, CurvePoint::free(start.indentation)];
             curve.splice(0..0, points.into_iter().skip(usize::from(before.indentation >= start.indentation)));
         }
         if after.springs == 0 && end.springs > 0 {
-            curve.push(free(end.indentation));
+            curve.push(CurvePoint::free(end.indentation));
             // The instrument, no longer deflected, moves the free body on.
             curve.extend(Some(after).filter(|after| after.indentation < end.indentation));
         }
         LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
+    }
+
+    /// The last point, unless the body is separated there.
+    pub(crate) fn end_in_contact(&self) -> Option<CurvePoint> {
+        self.curve.last().copied().filter(|point| point.springs > 0)
     }
 
     /// Indentation at the beginning, m.
@@ -147,7 +151,6 @@ pub struct Work {
 }
 
 impl Work {
-    /// Counts the springs of a leg of the loading.
     pub(crate) fn count(&mut self, leg: &LegRecord) {
         self.attached += leg.attached;
         self.detached += leg.detached;
@@ -182,6 +185,11 @@ pub struct CurvePoint {
 }
 
 impl CurvePoint {
+    /// A body that touches nothing at an indentation, m.
+    pub(crate) fn free(indentation: f64) -> Self {
+        CurvePoint { indentation, ..CurvePoint::default() }
+    }
+
     /// Displacement D = d + F/k, m, of an instrument of this stiffness k, N/m, that holds the body here.
     pub fn displacement(&self, stiffness: f64) -> f64 {
         self.indentation + self.force / stiffness

@@ -50,7 +50,6 @@ impl Intervals {
         Intervals(ends.iter().map(of).collect())
     }
 
-    /// Lowest and highest indentation, m.
     pub fn ends(&self) -> (f64, f64) {
         (self.0[0].low.indentation, self.0[self.0.len() - 1].high.indentation)
     }
@@ -79,7 +78,6 @@ impl Intervals {
         }
     }
 
-    /// Adds edge cells.
     pub fn add_piece(&mut self, piece: Piece) {
         let range = self.between(piece.from, piece.to);
         self.0[range].iter_mut().for_each(|interval| interval.pieces.push(piece));
@@ -114,7 +112,6 @@ impl Interval {
         }
     }
 
-    /// Lowest and highest indentation, m.
     fn ends(&self) -> (f64, f64) {
         (self.low.indentation, self.high.indentation)
     }
@@ -164,7 +161,6 @@ impl Interval {
             .map(|event| self.steady(event, event))
     }
 
-    /// The part between two contacts.
     fn between(&self, low: ContactState, high: ContactState) -> Self {
         let overlaps = |piece: &&Piece| piece.from <= high.indentation && piece.to > low.indentation;
         let pieces = self.pieces.iter().filter(overlaps).copied().collect();

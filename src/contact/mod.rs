@@ -11,15 +11,12 @@
 //!
 //! A [`Contact`] is what stays the same while the body moves, a [`Leg`] the contact at all indentations of a motion in
 //! one direction, and a [`Body`] a leg and the position on it. [`Leg`] applies these rules in one pass over a tree;
-//! [`Stepwise`] moves by small steps and relaxes, as the paper does.
+//! [`Stepwise`] moves by small steps and relaxes, as the paper does. What allocates may lack memory; other errors are named.
 
 mod adhesive;
 mod body;
 mod contact_state;
-mod error;
-mod foundation;
 mod goal;
-mod grid;
 mod history;
 mod interval;
 mod leg;
@@ -28,21 +25,96 @@ mod springs;
 pub mod stepwise;
 mod thresholds;
 mod totals;
-
 pub use adhesive::ContactTree;
 pub use body::{Body, Motion, Solver, run};
-
-pub use error::ContactError;
-pub use foundation::{Edges, Foundation, HessRule};
+pub(crate) use contact_state::CompensatedSum;
 pub use goal::Move;
-pub(crate) use grid::CompensatedSum;
 pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use leg::{Leg, PatchState};
-
 pub use reversal::Reversal;
-pub use springs::{Contact, Springs};
+pub use springs::{Contact, Edges, Foundation, HessRule, Springs};
 pub use stepwise::Stepwise;
 pub use totals::{ContactTotals, GapScale};
 
+use crate::memory::OutOfMemory;
+use thiserror::Error;
+
 /// Number of springs from which a second thread costs less than it saves.
 const TWO_THREADS: usize = 1 << 17;
+
+/// Reason why a body does not move to a target.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ContactError {
+    /// A stage of a loading is refused.
+    #[error("loading.{index} = {target:?}: {reason}")]
+    Stage {
+        /// Index of the stage.
+        index: usize,
+        /// Target of the stage.
+        target: Move,
+        /// Reason of the refusal.
+        reason: Box<ContactError>,
+    },
+    /// An array does not fit into memory.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
+    /// A target that is not a number, or infinite.
+    #[error("{0} is not finite; allowed: finite numbers")]
+    NotFinite(f64),
+    /// A pulling force on a separated body.
+    #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
+    NothingToPull,
+    /// A turning point without contact.
+    #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
+    NoContact,
+    /// The contact detaches above this force.
+    #[error("the contact detaches above that force; allowed in this stage: at least {smallest:e} N")]
+    DetachesBefore {
+        /// Smallest force the contact bears, N.
+        smallest: f64,
+    },
+    /// No finite indentation reaches the force.
+    #[error("no finite indentation reaches that force on this foundation")]
+    OutOfReach,
+    /// The stepwise solver would need too many steps.
+    #[error("more than {limit} steps of {step:e} m; take a larger numerics.solver.step or the exact solver")]
+    TooManySteps {
+        /// Step, m.
+        step: f64,
+        /// Most steps allowed in one stage.
+        limit: u64,
+    },
+    /// A motion or a search on a leg of the stepwise solver.
+    #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
+    Stepwise,
+    /// A state that the program excludes: a defect.
+    #[error("internal error, please report it: {0}")]
+    Internal(&'static str),
+    /// The computation was stopped.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl ContactError {
+    /// Returns true for a stage with a force that the contact does not reach.
+    pub(crate) fn is_out_of_reach(&self) -> bool {
+        match self {
+            ContactError::Stage { reason, .. } => reason.is_out_of_reach(),
+            ContactError::NothingToPull | ContactError::DetachesBefore { .. } | ContactError::OutOfReach => {
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Names the stage that is refused; memory, stops and defects concern the whole loading.
+    pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
+        match self {
+            ContactError::Stage { .. }
+            | ContactError::OutOfMemory { .. }
+            | ContactError::Internal(_)
+            | ContactError::Interrupted => self,
+            reason => ContactError::Stage { index, target, reason: Box::new(reason) },
+        }
+    }
+}

@@ -72,9 +72,6 @@ impl Body {
 
     /// Returns the adhesion forces after a turn at first touch and after one where the force is back at zero, N; `None` where
     /// the contact does not pull, or never reaches zero force. Both turns begin separated; the body stays in place.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub fn zero_load_adhesion(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;

@@ -4,9 +4,8 @@
 //! the sums with the exact solver.
 
 use super::adhesive::EdgeCells;
-use super::contact_state::ContactState;
+use super::contact_state::{ContactState, Grid};
 use super::goal::{Goal, plan};
-use super::grid::Grid;
 use super::{Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work};
 use crate::contact::Move;
 use crate::memory::resized;
@@ -40,9 +39,6 @@ struct State {
 impl<'a> Stepwise<'a> {
     /// Creates a separated body of whole springs, moved by steps of `step` m. `stop` returns true after a step to end
     /// the run.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub fn new(
         contact: &'a Contact,
         step: f64,
@@ -176,7 +172,6 @@ impl<'a> Stepwise<'a> {
         ContactError::TooManySteps { step: self.step, limit: STEP_LIMIT }
     }
 
-    /// Steps to the goal.
     fn walk(&mut self, target: Move, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
         for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
             *threshold = if holds { f64::NEG_INFINITY } else { f64::INFINITY };
@@ -230,7 +225,7 @@ impl<'a> Stepwise<'a> {
         let squared = if loads { -self.state.squared_stretch } else { self.state.squared_stretch };
         let (leg, end) = (self.leg(), self.point());
         let (low, high) = (origin.min(end.indentation), origin.max(end.indentation));
-        let curve = leg.curve(Grid::new(low, high, self.samples - 1).points())?;
+        let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
         let record = LegRecord::moved(
             (target, leg.direction()),
             curve,

@@ -20,7 +20,6 @@ impl Default for GapScale {
 /// Gaps below 2^62 quanta fit an `i64`, and 2^28 of them an `i128`.
 const GAP_BITS: i32 = 62;
 
-/// 2^GAP_BITS.
 const GAP_RANGE: f64 = (1_u64 << GAP_BITS) as f64;
 
 /// Largest exponent of the scale, so that scale and quantum are both normal numbers.
@@ -29,10 +28,10 @@ const LARGEST_SCALE_EXPONENT: i32 = 1000;
 impl GapScale {
     /// Scale for gaps up to `largest` (m, finite, at least zero).
     pub fn for_gaps_up_to(largest: f64) -> Self {
-        let exponent =
-            if largest > 0.0 { GAP_BITS - exponent_above(largest) } else { LARGEST_SCALE_EXPONENT };
-        let exponent = exponent.min(LARGEST_SCALE_EXPONENT);
-        GapScale { quanta_per_metre: power_of_two(exponent), quantum: power_of_two(-exponent) }
+        // The smallest power of two above the largest gap, which may be zero.
+        let (_, above) = libm::frexp(largest.max(f64::MIN_POSITIVE));
+        let exponent = (GAP_BITS - above).min(LARGEST_SCALE_EXPONENT);
+        GapScale { quanta_per_metre: libm::ldexp(1.0, exponent), quantum: libm::ldexp(1.0, -exponent) }
     }
 
     /// A gap in quanta, rounded down.
@@ -45,17 +44,6 @@ impl GapScale {
     pub fn quantum(&self) -> f64 {
         self.quantum
     }
-}
-
-/// Smallest e with 2^e > `value`, for a positive finite value.
-fn exponent_above(value: f64) -> i32 {
-    let biased = ((value.to_bits() >> 52) & 0x7ff) as i32;
-    // Subnormal numbers all lie below 2^-1022.
-    biased.max(1) - 1022
-}
-
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
 /// Bits of squared quanta that a sum of squares leaves out: 2^28 squares then fit an `i128`.

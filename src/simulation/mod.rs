@@ -1,6 +1,5 @@
 //! From a scene to its force curve: the stages, their selection by the scene, and their results.
 
-mod loading;
 mod outcome;
 mod plan;
 mod reversals;

@@ -135,8 +135,8 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let (mut of_longest, mut of_finest) = ((0.0, Sums::default()), (0.0, Sums::default()));
     let mut reliability: Option<f64> = None;
     let powers = Powers::of(surfaces, options, 0, |surface, heights, distances| {
-        let columns = surface.columns();
-        check_rough(surface.heights(), heights)?;
+        let columns = surface.columns;
+        check_rough(&surface.heights, heights)?;
         sums.add(heights, columns, distances);
         let scan = columns as f64 * distances[0];
         for ((most, sums), size) in [(&mut of_longest, scan), (&mut of_finest, 1.0 / distances[0])] {
@@ -255,7 +255,7 @@ impl Powers {
         for (index, surface) in surfaces.iter().enumerate() {
             let refused =
                 |error: TopographyError| SpectrumError { surface: Some(index), ..SpectrumError::new(error) };
-            let (columns, rows) = (surface.columns(), surface.rows());
+            let (columns, rows) = (surface.columns, surface.rows());
             let distances = surface.spacing().map_err(refused)?;
             let points = if rows > 1 { columns.min(rows) } else { columns };
             if points < LEAST_POINTS {

@@ -11,14 +11,12 @@ use std::f64::consts::TAU;
 /// Weight λ of the second differences.
 const SMOOTHNESS: f64 = 1.0;
 
-/// Nodes per decade.
 const NODES_PER_DECADE: f64 = 6.0;
 
 /// Most steps, and the decrease of the objective that ends the search.
 const MOST_STEPS: usize = 200;
 const SMALL_DECREASE: f64 = 1e-9;
 
-/// Largest change of a value in a step.
 const LARGEST_STEP: f64 = 1.5;
 
 /// Observations with the terms of their means.

@@ -206,13 +206,11 @@ pub struct IsotropicSpectrum {
 
 impl IsotropicSpectrum {
     /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
-    #[must_use]
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }
 
     /// PSD of the equivalent line, m³, at a wave number, rad/m: q C2D/2.
-    #[must_use]
     pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
@@ -228,7 +226,6 @@ impl IsotropicSpectrum {
     }
 
     /// First and last wave number, rad/m.
-    #[must_use]
     pub fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
     }

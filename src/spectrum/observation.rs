@@ -23,11 +23,9 @@ const MOST_ALIASES: u32 = 4;
 /// Mean power of the waves of a band.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Observation {
-    /// Wave number, rad/m.
     pub wave_number: f64,
     /// Mean power: C1D in m³ or C2D in m⁴.
     pub power: f64,
-    /// Number of independent waves.
     pub waves: f64,
     /// Range of wave numbers: the power times this range times q^p is a share of the moment of the equivalent line.
     pub range: f64,
@@ -77,7 +75,6 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
     if power.windowed { 2.0 * power.steps[0].max(power.steps[1]) } else { 0.0 }
 }
 
-/// Bands of the powers of a map.
 pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
     let MapPower { windowed, steps, sampling, ref waves, .. } = *power;
     let correlated = if windowed { HANN_CORRELATED * HANN_CORRELATED } else { 1.0 };

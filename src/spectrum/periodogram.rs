@@ -78,7 +78,6 @@ pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Ve
     Ok(bins(power.waves.into_iter().map(|(wave_number, power)| (wave_number, power, 1))))
 }
 
-/// Power of the waves of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapPower {
     pub windowed: bool,

@@ -15,7 +15,6 @@ const STARTS_PER_DECADE: f64 = 4.0;
 const FEW_STEPS: usize = 6;
 const MOST_STEPS: usize = 60;
 
-/// Range of the Hurst exponent.
 const HURST: [f64; 2] = [-0.5, 1.5];
 
 /// Self-affine spectrum fitted to observed powers.

@@ -17,7 +17,6 @@ pub struct Statistics {
     pub kurtosis: f64,
 }
 
-/// Sums for the statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sums {
     points: usize,

@@ -61,9 +61,6 @@ pub enum Form {
 impl Form {
     /// Reads the table of a form from a folder, unless it is known, for a profile of this length, m. All copies of the form
     /// then have the table; other forms have none. Without its table a form is flat.
-    ///
-    /// # Errors
-    /// [`SurfaceError::FormTable`].
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let refused = |reason: &dyn ToString| SurfaceError::FormTable {
@@ -121,7 +118,6 @@ impl Form {
     }
 
     /// The form without its waves.
-    #[must_use]
     pub fn without_waves(&self) -> Form {
         match self {
             &Form::WavySphere { radius, .. } => Form::Paraboloid { radius },
@@ -199,7 +195,6 @@ impl Form {
 }
 
 /// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor of a power law rⁿ on the equivalent profile.
-#[must_use]
 pub fn power_law_factor(exponent: f64) -> f64 {
     // Logarithms of Γ: the quotient remains finite where its parts would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
@@ -214,34 +209,23 @@ const NODES: usize = 56;
 /// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature.
 static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(|| std::array::from_fn(node));
 
-/// H₀(z), z ≥ 0.
-#[must_use]
+/// Struve function H₀(z), z ≥ 0.
 pub fn struve_0(z: f64) -> f64 {
     if z < LARGE {
-        return FRAC_2_PI * integral(|angle| (z * angle.cos()).sin());
+        let terms = RULE.iter().map(|&(angle, weight)| weight * (z * angle.cos()).sin());
+        return FRAC_2_PI * terms.sum::<f64>();
     }
-    // H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1)
-    let difference = asymptotic(z.recip(), |k| -((2.0 * k + 1.0) / z).powi(2));
-    libm::y0(z) + FRAC_2_PI * difference
-}
-
-/// ∫ over the quarter circle.
-fn integral(of: impl Fn(f64) -> f64) -> f64 {
-    RULE.iter().map(|&(angle, weight)| weight * of(angle)).sum()
-}
-
-/// Sum of a series from its first term and the factor after term k, down to rounding.
-fn asymptotic(first: f64, factor: impl Fn(f64) -> f64) -> f64 {
-    let (mut sum, mut term) = (0.0, first);
+    // H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1), down to rounding.
+    let (mut sum, mut term) = (0.0, z.recip());
     for k in 0..LARGE as u32 {
         sum += term;
-        let next = term * factor(f64::from(k));
+        let next = -term * ((2.0 * f64::from(k) + 1.0) / z).powi(2);
         if next.abs() >= term.abs() || next.abs() < f64::EPSILON * f64::abs(sum) {
             break;
         }
         term = next;
     }
-    sum
+    libm::y0(z) + FRAC_2_PI * sum
 }
 
 /// A zero of the Legendre polynomial and its weight, on the quarter circle.

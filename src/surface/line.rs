@@ -41,9 +41,6 @@ impl Line {
     }
 
     /// The same profile with the gaps in this memory.
-    ///
-    /// # Errors
-    /// Errors of [`Line::new`].
     pub fn new_in(
         memory: Vec<f64>,
         length: f64,
@@ -109,19 +106,16 @@ impl Line {
     }
 
     /// Position x, m, of the `index`-th spring under the body.
-    #[must_use]
     pub fn position(&self, index: usize) -> f64 {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
     /// Height of the lowest point, m.
-    #[must_use]
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
     }
 
     /// Largest gap, m.
-    #[must_use]
     pub fn deepest(&self) -> f64 {
         self.deepest
     }
@@ -161,7 +155,6 @@ pub struct Histogram {
 impl Histogram {
     /// Counts `heights` (m, finite) into `bins` bins between `low` and `high`, ends included; heights outside are
     /// omitted. For a range of zero width all are in the first bin.
-    #[must_use]
     pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {
         let mut counts = vec![0; bins.max(1)];
         let last = counts.len() - 1;

@@ -43,9 +43,6 @@ impl Transform {
 impl Synthesizer {
     /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs, in `memory`:
     /// heights at x = (i + ½ − `shift`)L/N.
-    ///
-    /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -132,9 +129,6 @@ impl SelfAffine {
     ///
     /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same profile, to
     /// the rounding of the transform.
-    ///
-    /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {
         Synthesizer::default().synthesize(self, seed, points, 0.0, Vec::new())
     }

@@ -27,7 +27,6 @@ pub struct SelfAffine {
 impl SelfAffine {
     /// Amplitude of mode k in units of that of mode 1 without a roll-off.
     #[inline]
-    #[must_use]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
         let decay = mode.max(self.roll_off).powf(self.amplitude_exponent());
@@ -49,7 +48,6 @@ impl SelfAffine {
     /// A_k²), the sums over the modes of the profile.
     ///
     /// Finite sums of positive terms: H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
-    #[must_use]
     pub fn gradient_per_height(&self, length: f64) -> f64 {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }

@@ -19,7 +19,6 @@ pub(super) fn most_expanded(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
 }
 
-/// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     Little,
@@ -27,15 +26,21 @@ pub(super) enum Order {
 }
 
 macro_rules! numbers {
-    ($($name:ident: $type:ty),*) => {
-        /// Type of a number.
+    ($($name:ident $code:literal: $type:ty),*) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Number {
             $($name),*
         }
 
         impl Number {
-            /// Returns the number of bytes.
+            /// Returns the type of a name of NumPy.
+            pub fn named(name: &str) -> Option<Number> {
+                match name {
+                    $($code => Some(Number::$name),)*
+                    _ => None,
+                }
+            }
+
             pub fn size(self) -> usize {
                 match self {
                     $(Number::$name => size_of::<$type>()),*
@@ -59,7 +64,8 @@ macro_rules! numbers {
     };
 }
 
-numbers!(U8: u8, I8: i8, U16: u16, I16: i16, U32: u32, I32: i32, U64: u64, I64: i64, F32: f32, F64: f64);
+numbers!(U8 "u1": u8, I8 "i1": i8, U16 "u2": u16, I16 "i2": i16, U32 "u4": u32, I32 "i4": i32, U64 "u8": u64,
+    I64 "i8": i64, F32 "f4": f32, F64 "f8": f64);
 
 /// Part of a binary file, read in sequence.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +89,6 @@ impl<'a> Bytes<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Returns the next `count` bytes.
     pub fn take(&mut self, count: usize) -> Result<&'a [u8], TopographyError> {
         let left = &self.bytes[self.at..];
         let taken = left.get(..count).ok_or_else(|| {
@@ -101,12 +106,10 @@ impl<'a> Bytes<'a> {
         Ok(Bytes { bytes: &self.bytes[..self.at], at, order: self.order })
     }
 
-    /// Returns the next number.
     pub fn number(&mut self, of: Number) -> Result<f64, TopographyError> {
         Ok(of.value(self.take(of.size())?, self.order))
     }
 
-    /// Returns the next N numbers.
     pub fn array<const N: usize>(&mut self, of: Number) -> Result<[f64; N], TopographyError> {
         let mut array = [0.0; N];
         for value in &mut array {
@@ -120,7 +123,6 @@ impl<'a> Bytes<'a> {
         Ok(self.number(of)? as usize)
     }
 
-    /// Returns the next `count` numbers of a type.
     pub fn numbers(&mut self, count: usize, of: Number) -> Result<Vec<f64>, TopographyError> {
         let bytes = self.take(count.saturating_mul(of.size()))?;
         Ok(gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))?)

@@ -61,7 +61,6 @@ impl From<ReadError> for TopographyError {
     }
 }
 
-/// Error of invalid content.
 pub(crate) fn refused(place: Place, fault: impl fmt::Display, allowed: impl fmt::Display) -> TopographyError {
     TopographyError::Refused(format!("{place}{fault}; allowed: {allowed}"))
 }

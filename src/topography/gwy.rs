@@ -85,7 +85,6 @@ fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<(Cow<'a, str>, Value<
     Ok(Some((name, value)))
 }
 
-/// Components of a data field.
 #[derive(Default)]
 struct Field<'a> {
     columns: f64,

@@ -17,9 +17,6 @@ pub(super) fn count(heights: &[f64]) -> usize {
 /// A missing height is the mean of two linear interpolations, one along its row and one along its column, each from
 /// the nearest measured point before to the nearest one behind. Before the first or behind the last measured point
 /// of a row or column the height is constant; a row or column without any measured point does not contribute.
-///
-/// # Errors
-/// Fewer than half of the points are measured, or a point has no measured one in its row or column.
 pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, TopographyError> {
     let missing = count(heights);
     let share = 1.0 - missing as f64 / heights.len() as f64;
@@ -192,17 +189,17 @@ mod tests {
         for rows in [1, 30] {
             let heights: Vec<f64> = (0..columns * rows).map(tilted).collect();
             let mut same = heights.clone();
-            assert_eq!((remove(&mut same, columns), &same), (Ok(0), &heights));
+            assert_eq!((remove_outliers(&mut same, columns), &same), (Ok(0), &heights));
             let mut spiked = heights.clone();
             let places = [17, columns * rows - 10];
             places.iter().for_each(|&place| spiked[place] += 400.0);
             spiked[5] = f64::NAN;
-            assert_eq!(remove(&mut spiked, columns), Ok(places.len()));
+            assert_eq!(remove_outliers(&mut spiked, columns), Ok(places.len()));
             assert!(places.iter().all(|&place| spiked[place].is_nan()));
         }
         let mut flat = vec![1.0; 64];
         flat[30] = 9.0;
-        assert_eq!(remove(&mut flat, 8), Ok(0));
+        assert_eq!(remove_outliers(&mut flat, 8), Ok(0));
     }
 
     #[test]

@@ -19,7 +19,6 @@ const ATTRIBUTES: usize = 12;
 /// Type of characters; all others are numbers.
 const CHARACTERS: usize = 2;
 
-/// A variable of a file.
 struct Variable<'a> {
     name: &'a [u8],
     /// Indices of its dimensions, the fastest last.
@@ -36,7 +35,6 @@ struct Variable<'a> {
 /// A file after its header.
 struct Dataset<'a> {
     bytes: &'a [u8],
-    /// Lengths.
     dimensions: Vec<usize>,
     variables: Vec<Variable<'a>>,
 }
@@ -140,7 +138,6 @@ impl<'a> Dataset<'a> {
     }
 }
 
-/// Reads the entries of a list.
 fn list<'a, T>(
     header: &mut Bytes<'a>,
     tag: usize,
@@ -218,7 +215,6 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
     Ok(Variable { name, dimensions, unit, missing, scale, offset, of, begin })
 }
 
-/// Returns the distance between equally spaced positions.
 fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
     let ([first, .., last], count) = (positions, positions.len()) else {
         return Err(refused(Place::File, "a map of one row", "at least 2 positions along each axis"));

@@ -60,7 +60,6 @@ fn no_field() -> TopographyError {
     refused(Place::Byte(10), "an array without fields", "numbers")
 }
 
-/// Content of the header.
 struct Header {
     /// Names and types of the fields of a point; one without a name for an array of numbers.
     fields: Vec<(String, Number)>,
@@ -84,7 +83,6 @@ impl Header {
         Ok((header, data))
     }
 
-    /// Number of the values.
     fn points(&self) -> usize {
         self.shape.iter().fold(1, |points: usize, axis| points.saturating_mul(*axis))
     }
@@ -119,22 +117,10 @@ impl Header {
                 return Err(wrong("two orders of bytes"));
             }
             order = order.or(of_field);
-            let number = match name {
-                "f8" => Number::F64,
-                "f4" => Number::F32,
-                "i1" => Number::I8,
-                "i2" => Number::I16,
-                "i4" => Number::I32,
-                "i8" => Number::I64,
-                "u1" => Number::U8,
-                "u2" => Number::U16,
-                "u4" => Number::U32,
-                "u8" => Number::U64,
-                _ => {
-                    let fault = format!("numbers of type {:?}", shown(descr));
-                    return Err(refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8"));
-                }
-            };
+            let number = Number::named(name).ok_or_else(|| {
+                let fault = format!("numbers of type {:?}", shown(descr));
+                refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8")
+            })?;
             fields.push((field.to_owned(), number));
         }
         let is_column_major = match entry("fortran_order")? {

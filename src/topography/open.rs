@@ -12,10 +12,8 @@ use std::path::Path;
 /// Most bytes of a file.
 pub const MOST_BYTES: usize = 1 << 30;
 
-/// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// A reader of a whole binary file.
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
 /// First bytes of the binary formats. All others but archives are text.
@@ -127,23 +125,19 @@ pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());
     }
-    let content = expanded(bytes)?;
-    if content.starts_with(&GZIP) {
-        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
-    }
-    Ok(content.into())
-}
-
-/// Decompresses gzip.
-fn expanded(bytes: &[u8]) -> Result<Vec<u8>, TopographyError> {
     let most = most_expanded(bytes.len());
-    read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES)).map_err(|error| match error {
+    let content = read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES));
+    let content = content.map_err(|error| match error {
         ReadError::TooLong { .. } if most <= MOST_BYTES => {
             let fault = format!("gzip expands to more than {MOST_EXPANSION} times its size");
             refused(Place::File, fault, "at most that and 1 MiB")
         }
         error => error.into(),
-    })
+    })?;
+    if content.starts_with(&GZIP) {
+        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
+    }
+    Ok(content.into())
 }
 
 #[cfg(test)]
@@ -342,6 +336,6 @@ mod tests {
         );
         let options = ReadOptions { interpolate: true, ..metres() };
         let surface = parse(text, &options).unwrap();
-        assert_eq!((surface.heights(), surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
+        assert_eq!((&surface.heights[..], surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
     }
 }

@@ -94,9 +94,6 @@ impl Reading {
     }
 
     /// Converts heights and positions to m.
-    ///
-    /// # Errors
-    /// An unknown unit or distance, missing or too many points, values out of range.
     pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, TopographyError> {
         let points = self.heights.len();
         if !(2..=MOST_POINTS).contains(&points) {
@@ -141,9 +138,6 @@ impl Reading {
     }
 
     /// Converts heights to m. Returns true if some are missing.
-    ///
-    /// # Errors
-    /// Missing points if these are not interpolated, heights out of range.
     fn heights_in_metres(&mut self, unit: Unit, interpolate: bool) -> Result<bool, TopographyError> {
         let points = self.heights.len();
         let first = self.heights.iter().position(|height| !height.is_finite());
@@ -170,7 +164,6 @@ fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(
     Err(refused(Place::Point(index + 1), fault, format!("from -{LARGEST:e} to {LARGEST:e} m")))
 }
 
-/// Checks ascending positions, m.
 fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
     check_range("position", positions, |_| true)?;
     // Units divide, and neighbours closer than the last digit coincide.

@@ -77,7 +77,6 @@ pub(super) fn read_text(bytes: &[u8]) -> Result<Reading, TopographyError> {
     Ok(Reading { first_missing, ..reading(heights, columns, scales, missing) })
 }
 
-/// Reads the header of the text form.
 fn entries<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Entries, TopographyError> {
     let mut entries = Entries::default();
     for (number, line) in lines.skip(1).filter(|(_, line)| !line.is_empty()) {
@@ -121,13 +120,11 @@ impl Entries {
         Ok(())
     }
 
-    /// Value of a key, and its place.
     pub fn text(&self, key: &str) -> Option<(&str, Place)> {
         let found = self.entries.iter().find(|(name, ..)| name.eq_ignore_ascii_case(key));
         found.map(|(_, value, line)| (value.as_str(), Place::Line(*line)))
     }
 
-    /// Finite number of a key.
     pub fn number(&self, key: &str) -> Result<Option<f64>, TopographyError> {
         let Some((value, place)) = self.text(key) else { return Ok(None) };
         match value.parse::<f64>() {
@@ -148,7 +145,6 @@ impl Entries {
     }
 }
 
-/// Error of a key missing from a header.
 fn missing(key: &str, required: &str) -> TopographyError {
     refused(Place::File, format!("no {key} in the header"), required)
 }

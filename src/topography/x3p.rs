@@ -7,7 +7,6 @@ use super::reading::Reading;
 use crate::io::into_text;
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// Most bytes of `main.xml`.
 const LONGEST_INDEX: usize = 1 << 26;
 
 /// Most attributes of `main.xml`, declarations of namespaces among them. The parser compares each with all others of
@@ -17,7 +16,6 @@ const MOST_ATTRIBUTES: usize = 256;
 /// Name of the index in the archive.
 pub(super) const INDEX: &str = "main.xml";
 
-/// Letters of the types of heights.
 const TYPES: [(&str, Number); 4] =
     [("I", Number::I16), ("L", Number::I32), ("F", Number::F32), ("D", Number::F64)];
 
@@ -67,7 +65,6 @@ fn check_index(index: &str) -> Result<(), TopographyError> {
     Ok(())
 }
 
-/// Error of the index.
 fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }

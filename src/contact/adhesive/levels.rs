@@ -12,7 +12,7 @@
 //!   rises.
 
 use super::run::{Ground, Span};
-use crate::contact::grid::CompensatedSum;
+use crate::contact::CompensatedSum;
 
 /// Length of a span at level t: `length + growth (t − gap)` cells, from its largest gap up to `top`.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +47,6 @@ pub struct EdgeSum {
 }
 
 impl EdgeSum {
-    /// Adds the edge cells of a fragment.
     #[inline]
     pub fn add(&mut self, cells: EdgeCells) {
         self.length.add(cells.length);
@@ -55,7 +54,6 @@ impl EdgeSum {
         self.squares.add(cells.squares);
     }
 
-    /// All edge cells.
     pub fn total(&self) -> EdgeCells {
         let EdgeSum { length, compression, squares } = *self;
         EdgeCells { length: length.total(), compression: compression.total(), squares: squares.total() }
@@ -276,7 +274,6 @@ impl Slider {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Levels of a span.
     #[inline]
     pub fn levels(&self, span: &Span) -> Levels {
         if SLIDES {

@@ -38,13 +38,11 @@ pub struct Held {
     pub pin: Option<f64>,
 }
 
-/// The runs of a leg.
 #[derive(Debug)]
 pub struct Listed {
     pub runs: Vec<Run>,
     /// Smallest indentation of full contact of a loading, or of contact of an unloading, m.
     pub end: f64,
-    /// Evaluations of the rule of Hess.
     pub evaluations: u64,
 }
 
@@ -62,7 +60,6 @@ pub struct Ground<'a, const SLIDES: bool> {
 }
 
 impl Run {
-    /// Returns a run over one span.
     pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
         Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
     }
@@ -88,7 +85,6 @@ impl Run {
         (self.from, self.bottom) = (from, span.ends());
     }
 
-    /// Returns true for an indentation (m) at which the run exists.
     #[inline]
     pub fn is_at(&self, indentation: f64) -> bool {
         self.from <= indentation && indentation < self.to
@@ -96,29 +92,20 @@ impl Run {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// The span of a branch between these springs.
     #[inline]
     pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
         let (first, last) = (first as usize, last as usize);
         let ends = larger(self.gaps[first], self.gaps[last]);
         // Above the lowest span of a branch the largest gap is that of the outermost spring that attached last.
-        let gap = branch.origin().map_or(ends, |node| larger(ends, self.tree.nodes()[node].gap));
+        let gap = branch.origin().map_or(ends, |node| larger(ends, self.tree.nodes[node].gap));
         Span { gap, first, last }
     }
 
-    /// The smallest span of a run.
     #[inline]
     pub fn bottom(&self, run: &Run) -> Span {
         self.span(run.branch, run.bottom)
     }
 
-    /// The largest span of a run.
-    #[inline]
-    pub fn top(&self, run: &Run) -> Span {
-        self.span(run.branch, run.top)
-    }
-
-    /// The edge cells of a run on one of its spans.
     #[inline]
     pub fn slider(&self, run: &Run, span: &Span) -> Slider {
         Slider::new(self.gaps, span, self.stretch, run.pin())
@@ -230,11 +217,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
 /// subtree of the max-Cartesian tree of the gaps, where of equal gaps the leftmost is nearest the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Largest gap, m.
     pub gap: f64,
-    /// First spring.
     pub first: usize,
-    /// Last spring.
     pub last: usize,
 }
 
@@ -277,13 +261,11 @@ impl Span {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
     }
 
-    /// Number of springs.
     #[inline]
     pub fn springs(&self) -> usize {
         self.last + 1 - self.first
     }
 
-    /// First and last spring.
     #[inline]
     pub fn ends(&self) -> [u32; 2] {
         [self.first as u32, self.last as u32]

@@ -24,20 +24,19 @@ const LANES: usize = 64;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
     /// Local minima and maxima in turn along the line; the first and the last are minima.
-    turns: Vec<u32>,
-    nodes: Vec<Node>,
+    pub(super) turns: Vec<u32>,
+    pub(super) nodes: Vec<Node>,
     /// Sums before each `BLOCK`-th spring: of the gaps, or of the mean gaps of cells, in quanta; and of their squares.
     sums: Vec<[i128; 2]>,
     /// True for sums of cells between springs.
     of_cells: bool,
-    scale: GapScale,
+    pub(super) scale: GapScale,
     pending: Vec<Pending>,
 }
 
 /// A local maximum of the gap: where two components merge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Its gap, m.
     pub gap: f64,
     /// Smallest gap of its subtree, m.
     pub lowest: f64,
@@ -60,7 +59,6 @@ impl Branch {
         Branch((rank as u32) << 1 | 1)
     }
 
-    /// From this node.
     #[inline]
     pub fn node(node: usize) -> Self {
         Branch((node as u32) << 1)
@@ -110,22 +108,6 @@ impl ContactTree {
     /// Nodes: local maxima of the gap inside the line.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
-    }
-
-    /// The scale of its sums.
-    #[inline]
-    pub(crate) fn scale(&self) -> GapScale {
-        self.scale
-    }
-
-    #[inline]
-    pub(in crate::contact) fn nodes(&self) -> &[Node] {
-        &self.nodes
-    }
-
-    #[inline]
-    pub(in crate::contact) fn turns(&self) -> &[u32] {
-        &self.turns
     }
 
     /// The branch that grows until it fills the line.

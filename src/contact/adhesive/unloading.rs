@@ -72,7 +72,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
         let (bottom, lowest, place) = match part.branch.origin() {
             Ok(index) => {
-                let node = &tree.nodes()[index];
+                let node = &tree.nodes[index];
                 (node.gap, node.lowest, tree.maximum(node))
             }
             Err(rank) => {

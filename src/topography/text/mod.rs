@@ -4,7 +4,6 @@
 //! skipped. The first line of numbers fixes the separator ([`layout::Separator::of`]) and the number of columns: one
 //! is z, two are x z, three are x y z of a full grid row by row, four and more are a row of a matrix.
 
-mod header;
 mod layout;
 pub(crate) use layout::{Cell, Decimal, Separator};
 
@@ -15,13 +14,12 @@ use super::surface::{LARGEST, UNEVEN};
 use crate::io::PROVENANCE;
 use crate::memory::{check_room, push, reserve};
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
-use header::Header;
+use layout::Header;
 use std::borrow::Cow;
 
 /// First characters of a comment.
 pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
 
-/// Reads a text line by line.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let (mut header, mut rows) = (Header::default(), None::<Rows>);
     let take = |place: Place, line: &str| rows.get_or_insert_with(|| Rows::new(line)).take(place, line);
@@ -73,7 +71,6 @@ struct Rows {
     columns: usize,
     /// Positions x, or x and y.
     positions: [Vec<f64>; 2],
-    /// Heights row by row.
     heights: Vec<f64>,
     first_missing: Option<Place>,
 }
@@ -317,7 +314,7 @@ mod tests {
 
     fn grid(points: &[(f64, f64)]) -> Result<(usize, [f64; 2]), String> {
         let (x, y) = points.iter().copied().unzip();
-        from_points(&[x, y]).map_err(|error| error.to_string())
+        grid_of(&[x, y]).map_err(|error| error.to_string())
     }
 
     #[test]
