@@ -203,7 +203,11 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         best.fresh_tree = best.fresh_tree.min(seconds_since(clock));
 
         for one in &mut best.loops {
-            let hess = HessRule::new(rough.foundation, rough.work_of_adhesion(one.kappa));
+            let hess = HessRule::from_works(
+                rough.foundation,
+                rough.work_of_adhesion(one.kappa),
+                rough.work_of_adhesion(one.kappa),
+            );
             for (edges, timed) in EDGES.into_iter().zip(&mut one.edges) {
                 tree = timed.measure(tree, edges, hess, rough);
             }

@@ -216,7 +216,7 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
     let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
-    let hess = HessRule::new(foundation, work);
+    let hess = HessRule::from_works(foundation, work, work);
     let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
     contact.springs().tree(Edges::SubCell).unwrap();
     let turns = [0.01, 0.1, 1.0].map(|share| Move::ToForce(share * 2e6 * 1e-3 * 5e-7));

@@ -178,14 +178,9 @@ impl<'a> Runs<'a> {
 
 /// Returns true if the memory or the time did not suffice.
 pub(super) fn is_spent(error: &RunError) -> bool {
-    match error {
-        RunError::OutOfMemory { .. } => true,
-        RunError::Surface(error) => matches!(error, SurfaceError::OutOfMemory { .. }),
-        RunError::Contact(error) => {
-            matches!(error, ContactError::OutOfMemory { .. } | ContactError::Interrupted)
-        }
-        _ => false,
-    }
+    use RunError::{Contact, OutOfMemory, Surface};
+    let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory(_)));
+    is_short || matches!(error, Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted))
 }
 
 /// Returns true if no spring is under the body, or the contact of too few springs does not reach a target of the loading.

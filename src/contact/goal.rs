@@ -1,7 +1,6 @@
-//! Targets of a body, and the direction and the end of its motion to one.
+//! Direction and end of the motion of a body to a target.
 
-use super::{ContactError, CurvePoint, Direction};
-use serde::{Deserialize, Serialize};
+use super::{ContactError, CurvePoint, Direction, Move};
 use std::cmp::Ordering;
 
 #[derive(Clone, Copy, Debug)]
@@ -67,22 +66,4 @@ pub(super) fn plan(
 /// Order of finite numbers, in which −0 equals 0.
 fn order(a: f64, b: f64) -> Ordering {
     a.partial_cmp(&b).unwrap_or(Ordering::Equal)
-}
-
-/// Target of a body: one loading stage.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Move {
-    /// Until the force first reaches this value, N (compression positive).
-    ToForce(f64),
-    /// To this indentation, m (0 at first touch).
-    ToIndentation(f64),
-    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, k the loading stiffness of the
-    /// contact. Of a rigid instrument D is the indentation.
-    ToDisplacement(f64),
-    /// To the indentation of first touch, d = 0.
-    ToTouch,
-    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
-    ToZeroForce,
-    /// To separation.
-    ToSeparation,
 }

@@ -1,7 +1,6 @@
-//! Result of a loading history: its legs, their curves and the work counts.
+//! Loading histories: targets, legs with their curves, patches and work counts.
 
-use super::Move;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Record of one leg.
@@ -234,4 +233,22 @@ impl From<Patch> for (usize, usize) {
     fn from(patch: Patch) -> (usize, usize) {
         (patch.first, patch.last)
     }
+}
+
+/// Target of a body: one loading stage.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Move {
+    /// Until the force first reaches this value, N (compression positive).
+    ToForce(f64),
+    /// To this indentation, m (0 at first touch).
+    ToIndentation(f64),
+    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, k the loading stiffness of the
+    /// contact. Of a rigid instrument D is the indentation.
+    ToDisplacement(f64),
+    /// To the indentation of first touch, d = 0.
+    ToTouch,
+    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
+    ToZeroForce,
+    /// To separation.
+    ToSeparation,
 }

@@ -22,18 +22,17 @@ mod interval;
 mod leg;
 mod reversal;
 mod springs;
-pub mod stepwise;
+mod stepwise;
 mod thresholds;
 mod totals;
 pub use adhesive::ContactTree;
 pub use body::{Body, Motion, Solver, run};
-pub(crate) use contact_state::CompensatedSum;
-pub use goal::Move;
-pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
+pub use history::{CurvePoint, Direction, History, LegRecord, Move, Patch, Work};
 pub use leg::{Leg, PatchState};
 pub use reversal::Reversal;
 pub use springs::{Contact, Edges, Foundation, HessRule, Springs};
-pub use stepwise::Stepwise;
+pub use stepwise::{STEP_LIMIT, Stepwise};
+pub(crate) use totals::CompensatedSum;
 pub use totals::{ContactTotals, GapScale};
 
 use crate::memory::OutOfMemory;
@@ -77,13 +76,10 @@ pub enum ContactError {
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,
     /// The stepwise solver would need too many steps.
-    #[error("more than {limit} steps of {step:e} m; take a larger numerics.solver.step or the exact solver")]
-    TooManySteps {
-        /// Step, m.
-        step: f64,
-        /// Most steps allowed in one stage.
-        limit: u64,
-    },
+    #[error(
+        "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
+    )]
+    TooManySteps(f64),
     /// A motion or a search on a leg of the stepwise solver.
     #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
     Stepwise,
@@ -98,13 +94,9 @@ pub enum ContactError {
 impl ContactError {
     /// Returns true for a stage with a force that the contact does not reach.
     pub(crate) fn is_out_of_reach(&self) -> bool {
-        match self {
-            ContactError::Stage { reason, .. } => reason.is_out_of_reach(),
-            ContactError::NothingToPull | ContactError::DetachesBefore { .. } | ContactError::OutOfReach => {
-                true
-            }
-            _ => false,
-        }
+        use ContactError::{DetachesBefore, NothingToPull, OutOfReach, Stage};
+        let reason = if let Stage { reason, .. } = self { reason } else { self };
+        matches!(reason, NothingToPull | DetachesBefore { .. } | OutOfReach)
     }
 
     /// Names the stage that is refused; memory, stops and defects concern the whole loading.

@@ -103,15 +103,6 @@ impl Contact {
         Contact { loading_stiffness, ..self }
     }
 
-    /// Stiffness of the instrument in units of the stiffness of one spring; zero for a rigid one, whose displacement is
-    /// the indentation.
-    pub(super) fn instrument_springs(&self) -> f64 {
-        if self.loading_stiffness.is_infinite() {
-            return 0.0;
-        }
-        self.loading_stiffness / self.foundation.spring_stiffness()
-    }
-
     /// Creates a contact of the same springs and edges with another foundation and rule.
     pub(crate) fn with_rule(&self, foundation: Foundation, hess: Option<HessRule>) -> Self {
         Self::of(Arc::clone(&self.springs), self.edges, foundation, hess)
@@ -230,11 +221,6 @@ pub struct HessRule {
 impl HessRule {
     /// The rule without adhesion: no stretch.
     pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
-
-    /// The rule for a work of adhesion γ in J/m².
-    pub fn new(foundation: Foundation, work_of_adhesion: f64) -> Self {
-        Self::from_works(foundation, work_of_adhesion, work_of_adhesion)
-    }
 
     /// The rule for a work of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
     ///

@@ -165,11 +165,7 @@ impl<'a> Stepwise<'a> {
         // From separation the first step is the touch.
         let start = if self.state.totals.springs == 0 { start.max(0.0) } else { start };
         let way = if direction == Direction::Loading { end - start } else { start - end };
-        if way / self.step > STEP_LIMIT as f64 { Err(self.too_many_steps()) } else { Ok(()) }
-    }
-
-    fn too_many_steps(&self) -> ContactError {
-        ContactError::TooManySteps { step: self.step, limit: STEP_LIMIT }
+        if way / self.step > STEP_LIMIT as f64 { Err(ContactError::TooManySteps(self.step)) } else { Ok(()) }
     }
 
     fn walk(&mut self, target: Move, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
@@ -188,7 +184,7 @@ impl<'a> Stepwise<'a> {
                 return Err(ContactError::Interrupted);
             }
             if steps > STEP_LIMIT {
-                return Err(self.too_many_steps());
+                return Err(ContactError::TooManySteps(self.step));
             }
             let held_until = self.state.indentation;
             let moved = steps as f64 * self.step;

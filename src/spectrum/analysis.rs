@@ -1,16 +1,14 @@
 //! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
-use super::Detrend;
 use super::fit::Model;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments};
 use super::observation::{self, Observation};
 use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
 use super::statistics::{Statistics, Sums, reliability_cutoff};
-use crate::memory::OutOfMemory;
+use super::{Detrend, SpectrumError};
 use crate::topography::{self, Place, Topography, TopographyError};
 use std::f64::consts::{PI, TAU};
-use thiserror::Error;
 
 /// Fewest points along a row, and rows of a map.
 const LEAST_POINTS: usize = 32;
@@ -37,32 +35,6 @@ const SAME: f64 = 1e-6;
 
 /// Wave numbers to which a spectrum without an end may continue, over the last resolved one.
 const CONTINUED: f64 = 4.0;
-
-/// Reason why surfaces are not analysed.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error("{reason}")]
-pub struct SpectrumError {
-    /// Index of the refused surface, from 0, if it is one.
-    pub(crate) surface: Option<usize>,
-    reason: String,
-}
-
-impl SpectrumError {
-    pub(super) fn new(reason: impl ToString) -> Self {
-        SpectrumError { surface: None, reason: reason.to_string() }
-    }
-
-    fn no_maximum() -> Self {
-        let fault = "the likelihood has no maximum: heights without noise or with few digits";
-        SpectrumError::new(format!("{fault}; allowed: measured heights"))
-    }
-}
-
-impl From<OutOfMemory> for SpectrumError {
-    fn from(error: OutOfMemory) -> Self {
-        SpectrumError::new(error)
-    }
-}
 
 /// Choices of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

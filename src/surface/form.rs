@@ -63,7 +63,8 @@ impl Form {
     /// then have the table; other forms have none. Without its table a form is flat.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
-        let refused = |reason: &dyn ToString| SurfaceError::FormTable {
+        let refused = |reason: &dyn ToString| SurfaceError::File {
+            field: "form.file",
             file: folder.join(file).display().to_string(),
             reason: reason.to_string(),
         };

@@ -249,7 +249,7 @@ impl EquivalentLine {
     /// Analyses the surfaces in the files of all faces.
     ///
     /// # Errors
-    /// [`SurfaceError::Measured`] for a face without a file, and for a file that holds no surface or has no spectrum.
+    /// [`SurfaceError::File`] for a face without a file, and for a file that holds no surface or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
         Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })

@@ -31,17 +31,11 @@ pub enum SurfaceError {
     /// The height at a spring, the first such one, is not finite.
     #[error("the line has a height that is not finite at spring {0}; form and roughness are too large")]
     NotFinite(usize),
-    /// A measured profile could not be read.
-    #[error("roughness.file = {file:?}: {reason}")]
-    Measured {
-        /// The file.
-        file: String,
-        /// Fault, with its row if known.
-        reason: String,
-    },
-    /// The table of a form could not be read, or ends within the profile.
-    #[error("form.file = {file:?}: {reason}")]
-    FormTable {
+    /// A measured profile or the table of a form could not be read, or a table ends within the profile.
+    #[error("{field} = {file:?}: {reason}")]
+    File {
+        /// Field of the scene, `roughness.file` or `form.file`.
+        field: &'static str,
         /// The file.
         file: String,
         /// Fault, with its place if known.
@@ -56,6 +50,7 @@ pub enum SurfaceError {
 
 impl SurfaceError {
     pub(crate) fn measured(file: &Path, reason: &(impl ToString + ?Sized)) -> Self {
-        SurfaceError::Measured { file: file.display().to_string(), reason: reason.to_string() }
+        let (field, file) = ("roughness.file", file.display().to_string());
+        SurfaceError::File { field, file, reason: reason.to_string() }
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers of binary files, each read only if the file has its bytes, the limits of their decompression, and archives
 //! (ZIP) in memory, unpacked up to these limits.
 
-use super::error::{Place, TopographyError, refused, shown};
+use super::{Place, TopographyError, refused, shown};
 use crate::io::read_limited;
 use crate::memory::gathered;
 use std::io::Cursor;

@@ -1,8 +1,8 @@
 //! Containers of contact.engineering: archives with an index, in JSON or in YAML, of surfaces and their measurements.
 
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{ReadOptions, Reading};
 use super::{Detrend, Unit};
+use super::{Place, TopographyError, refused, shown};
 use serde::Deserialize;
 
 /// Names of the index: in JSON, and in YAML.

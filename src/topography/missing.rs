@@ -1,7 +1,7 @@
 //! Missing points, interpolated from their neighbours, and outliers: heights far from those around them, as spikes of an
 //! instrument and grains of dust are.
 
-use super::error::{Place, TopographyError, refused};
+use super::{Place, TopographyError, refused};
 use crate::memory::{OutOfMemory, emptied, gathered};
 
 /// Smallest share of measured points for interpolation.

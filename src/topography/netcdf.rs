@@ -2,10 +2,10 @@
 //! variable `heights` over positions `x`, and `y` for a map.
 
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused};
 use super::reading::Reading;
 use super::surface::first_uneven;
 use super::unit::Unit;
+use super::{Place, TopographyError, refused};
 use crate::memory::gathered;
 
 /// First bytes, without the version.

@@ -5,15 +5,17 @@
 //! brackets, and twice as long for each further one.
 
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
+use super::{Place, TopographyError, refused, shown};
 pub(super) use crate::io::npy::SIGNATURE;
 use crate::memory::emptied;
 
 /// Reads an array of format version 1, 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let (mut header, mut data) = Header::read(bytes)?;
-    let [(_, number), ref others @ ..] = header.fields[..] else { return Err(no_field()) };
+    let [(_, number), ref others @ ..] = header.fields[..] else {
+        return Err(refused(Place::Byte(10), "an array without fields", "numbers"));
+    };
     if others.len() > 1 || others.iter().any(|other| other.1 != number) {
         let fault = "other fields than one or two of the same type";
         return Err(refused(Place::Byte(10), fault, "heights, or positions and heights"));
@@ -54,10 +56,6 @@ pub(crate) fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), Topo
     let (along, between) = if rows >= of_row { (row_step, step) } else { (step, row_step) };
     let column = |column: usize| (0..points).map(|point| values[point * along + column * between]).collect();
     Ok((Vec::new(), (0..count).map(column).collect()))
-}
-
-fn no_field() -> TopographyError {
-    refused(Place::Byte(10), "an array without fields", "numbers")
 }
 
 struct Header {

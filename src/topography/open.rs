@@ -1,8 +1,8 @@
 //! The format of a file, determined by its first bytes, and its reader.
 
 use super::bytes::{Archive, MOST_EXPANSION, ZIP, most_expanded};
-use super::error::{Place, TopographyError, refused};
 use super::reading::{ReadOptions, Reading};
+use super::{Place, TopographyError, refused};
 use super::{Topography, container, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;

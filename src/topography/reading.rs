@@ -1,7 +1,7 @@
 //! From the numbers of a file to heights in m: units, distances between points, missing points.
 
-use super::error::{Place, TopographyError, refused};
 use super::surface::{Cut, Grid, LARGEST, Topography};
+use super::{Place, TopographyError, refused};
 use super::{Unit, missing};
 
 /// Most points of a surface: 2 GiB of heights.

@@ -3,8 +3,8 @@
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
+use super::{Place, TopographyError, refused, shown};
 
 /// Types of heights by their number in the header, with the integer that marks a missing point.
 const TYPES: [(Number, Option<f64>); 8] = [

@@ -1,7 +1,7 @@
 //! Measured heights in m with their positions.
 
-use super::error::{Place, TopographyError, refused};
 use super::missing;
+use super::{Place, TopographyError, refused};
 use crate::memory::gathered;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
@@ -48,7 +48,7 @@ pub struct Topography {
     pub columns: usize,
     pub(super) grid: Grid,
     /// Indices of the points with interpolated heights.
-    pub(super) interpolated: Vec<usize>,
+    pub(crate) interpolated: Vec<usize>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
     /// Name of the measurement in a container; empty for a file of its own.
@@ -92,10 +92,6 @@ impl Topography {
         };
         let fault = format!("a slope of {:e} from the point before", slope(index));
         Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")))
-    }
-
-    pub(crate) fn first_interpolated(&self) -> Option<usize> {
-        self.interpolated.first().copied()
     }
 
     /// Number of points with interpolated heights, outliers among them.

@@ -1,6 +1,6 @@
 //! Units of length in files.
 
-use super::error::{Place, TopographyError, shown};
+use super::{Place, TopographyError, shown};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;

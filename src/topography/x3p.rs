@@ -2,8 +2,8 @@
 
 use super::Unit;
 use super::bytes::{Archive, Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
+use super::{Place, TopographyError, refused, shown};
 use crate::io::into_text;
 use roxmltree::{Document, Node, ParsingOptions};
 

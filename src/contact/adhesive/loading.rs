@@ -1,7 +1,7 @@
 //! Loading: the indentation at which each part of the line closes, and the fragments between.
 
-use super::levels::Levels;
-use super::run::{Ground, Held, Listed, Run, Span, larger, smaller};
+use super::levels::{Levels, Span, larger, smaller};
+use super::run::{Ground, Held, Listed, Run};
 use super::tree::{Branch, Node};
 use crate::contact::ContactError;
 use crate::memory::{gathered, push, resized};
@@ -237,7 +237,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 if closes < end {
                     match (runs.last_mut(), below) {
                         (Some(run), Some(lower)) if ground.slides_on(&lower, &levels) => {
-                            run.raise(&span, end)
+                            (run.to, run.top) = (end, span.ends());
                         }
                         _ => push(runs, Run::new(climb.branch, &span, closes, end))?,
                     }

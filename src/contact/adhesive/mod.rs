@@ -9,17 +9,16 @@ mod loading;
 mod run;
 mod tree;
 mod unloading;
-pub(in crate::contact) use levels::{EdgeCells, EdgeSum, Levels, Slider};
+pub(in crate::contact) use levels::{EdgeCells, EdgeSum, Levels, Slider, Span};
 pub(in crate::contact) use loading::Closing;
-pub(in crate::contact) use run::{Ground, Held, Run, Span};
+pub(in crate::contact) use run::{Ground, Held, Run};
 pub use tree::ContactTree;
 pub(in crate::contact) use tree::largest;
 
-use crate::contact::CompensatedSum;
 use crate::contact::ContactError;
 use crate::contact::contact_state::{ContactState, Grid, Tally};
 use crate::contact::interval::{Intervals, Piece};
-use crate::contact::totals::SquareScale;
+use crate::contact::totals::{CompensatedSum, SquareScale};
 use levels::EdgeCell;
 
 pub struct Runs<'a, const SLIDES: bool> {

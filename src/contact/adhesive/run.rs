@@ -1,7 +1,18 @@
-//! Spans, neighbouring springs that one fragment holds, and runs: the fragments of a leg, each over the range of
-//! indentations in which its edges move without a jump.
+//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump; and the edge
+//! models of a fragment, its length, its next attachment and detachment.
+//!
+//! A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on each
+//! level a length ℓ, the only input of the rule of Hess: its largest stretch is Δl_max = s √ℓ, eq. (10), with the stretch s
+//! of a fragment of unit length.
+//!
+//! * Whole springs, as the paper counts them: a fragment of n springs is n Δx long at all levels of its span.
+//! * Edges that slide between springs: the line is straight between neighbouring springs, and a fragment ends at the crossing
+//!   of the line with the level of the fragment. A fragment at level t is in equilibrium with the indentation φ(t) = t −
+//!   Δl_max(ℓ(t)): it grows while φ(t) ≤ d and recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its
+//!   wall ℓ is linear in t, so φ is convex: φ falls to its lowest value and then rises, and a fragment rests only where φ
+//!   rises.
 
-use super::levels::Slider;
+use super::levels::{EdgeCell, Levels, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::ContactTotals;
 
@@ -73,16 +84,6 @@ impl Run {
     #[inline]
     pub fn pin(&self) -> Option<f64> {
         Some(self.pin).filter(|pin| !pin.is_nan())
-    }
-
-    /// Extends the run upwards, to the next larger span.
-    pub fn raise(&mut self, span: &Span, to: f64) {
-        (self.to, self.top) = (to, span.ends());
-    }
-
-    /// Extends the run downwards, to the next smaller span.
-    pub fn lower(&mut self, span: &Span, from: f64) {
-        (self.from, self.bottom) = (from, span.ends());
     }
 
     #[inline]
@@ -211,75 +212,79 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 }
 
-/// Springs `first..=last` of one fragment and their largest gap, m.
-///
-/// Every fragment in equilibrium under any loading history is a span all of whose neighbours have larger gaps: a
-/// subtree of the max-Cartesian tree of the gaps, where of equal gaps the leftmost is nearest the root.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span {
-    pub gap: f64,
-    pub first: usize,
-    pub last: usize,
-}
-
-impl Span {
-    /// The largest span of its branch within these first and last springs whose walls lie above a level, m; itself if its
-    /// walls do already.
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
     #[inline]
-    pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
-        let Span { gap, mut first, mut last } = *self;
-        while first > lowest as usize && gaps[first - 1] < level {
-            first -= 1;
+    pub fn levels(&self, span: &Span) -> Levels {
+        if SLIDES {
+            return Levels::between_springs(self.gaps, span).0;
         }
-        while last < highest as usize && gaps[last + 1] <= level {
-            last += 1;
+        let length = f64::from(span.springs() as u32);
+        Levels { gap: span.gap, length, growth: 0.0, top: f64::INFINITY }
+    }
+
+    /// Smallest length that a span has at its highest level, in cells.
+    #[inline]
+    pub fn least_length(&self, first: usize, last: usize) -> f64 {
+        // One of two edge cells is full at the highest level.
+        (last + usize::from(!SLIDES) - first).max(1) as f64
+    }
+
+    /// Smallest indentation at which a span of these levels attaches its wall of this gap, m.
+    #[inline]
+    pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
+        let length = if SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
+        wall - self.stretch * length.sqrt()
+    }
+
+    /// Smallest indentation at which a span of these levels holds its most stretched spring, m; at most its gap.
+    #[inline]
+    pub fn holds_to(&self, levels: &Levels) -> f64 {
+        let (gap, stretch) = (levels.gap, self.stretch);
+        if !SLIDES {
+            // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
+            // is the next number above; but a spring whose gap is closed stays under any rule.
+            return (gap - stretch * levels.length.sqrt()).next_up().min(gap);
         }
-        Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
+        // At the smallest φ √ℓ is half of stretch × growth.
+        let root = 0.5 * stretch * levels.growth;
+        let excess = root * root - levels.length;
+        // Without branches: they would often be mispredicted.
+        let rise = excess / levels.growth;
+        let most = levels.top - gap;
+        let rise = if rise < most { rise } else { most };
+        let rise = if excess > 0.0 { rise } else { 0.0 };
+        let holds = (gap + rise) - stretch * levels.length_at(rise).sqrt();
+        if holds < gap { holds } else { gap }
     }
 
-    /// The spring that attaches next, the lower one beside the span; `None` where it fills the line.
+    /// Returns true if the edges pass from a span to the next larger one without a jump.
     #[inline]
-    pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
-        match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
-            (Some(left), Some(&right)) => Some(if right <= gaps[left] { self.last + 1 } else { left }),
-            (Some(left), None) => Some(left),
-            (None, Some(_)) => Some(self.last + 1),
-            (None, None) => None,
+    pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
+        if !SLIDES {
+            return true;
         }
+        // φ rises from the lowest level of the upper span on, and that span adds no level cell.
+        let root = 0.5 * self.stretch * upper.growth;
+        let reached = lower.length_at(lower.top - lower.gap);
+        root * root < upper.length && upper.length - reached < 0.25
     }
 
-    /// The span extended by the spring beside it that attaches next.
-    #[inline]
-    pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
-        let gap = gaps[wall];
-        if wall > self.last { Span { gap, last: wall, ..*self } } else { Span { gap, first: wall, ..*self } }
+    /// ∫ (c − θ)² dx over the places passed while the edges move between two spans and levels, each place at its own
+    /// indentation θ, in cells times ½ s².
+    pub fn passed_squares(&self, [lower, upper]: [(Span, f64); 2]) -> f64 {
+        if !SLIDES {
+            let [fewer, more] = [lower, upper].map(|(span, _)| span.springs() as f64);
+            // Springs attach one by one to patches of `fewer` springs and more, and detach from those of `more` and fewer.
+            let sign = if self.unloading { 1.0 } else { -1.0 };
+            return (more - fewer) * (more + fewer + sign);
+        }
+        // Twice the stretch s √ℓ of an edge times the change of the length ℓ.
+        let length = |(span, level): (Span, f64)| {
+            let [left, right] = EdgeCell::of(self.gaps, &span, level);
+            [(span.last - span.first) as f64, left.share + right.share]
+        };
+        let ([cells0, share0], [cells1, share1]) = (length(lower), length(upper));
+        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
+        ((cells1 - cells0) + (share1 - share0)) * ((cells0 + cells1) + (share0 + share1))
     }
-
-    /// The next larger span, if there is one.
-    #[inline]
-    pub fn grown(&self, gaps: &[f64]) -> Self {
-        self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
-    }
-
-    #[inline]
-    pub fn springs(&self) -> usize {
-        self.last + 1 - self.first
-    }
-
-    #[inline]
-    pub fn ends(&self) -> [u32; 2] {
-        [self.first as u32, self.last as u32]
-    }
-}
-
-/// The smaller of two numbers, neither of which is NaN: `f64::min` would check for NaN.
-#[inline]
-pub fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
-}
-
-/// The larger of two numbers, neither of which is NaN.
-#[inline]
-pub fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }

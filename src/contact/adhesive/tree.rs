@@ -1,6 +1,6 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
-use super::run::larger;
+use super::levels::larger;
 use crate::contact::Edges;
 use crate::contact::totals::sums_of_few;
 use crate::contact::{GapScale, TWO_THREADS};

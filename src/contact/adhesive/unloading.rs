@@ -1,7 +1,7 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
-use super::levels::Levels;
-use super::run::{Ground, Held, Listed, Run, Span, smaller};
+use super::levels::{Levels, Span, smaller};
+use super::run::{Ground, Held, Listed, Run};
 use super::tree::Branch;
 use crate::contact::ContactError;
 use crate::memory::push;
@@ -116,7 +116,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
                         // Pinned edges run away at once.
                         _ if leaves == to => {}
                         (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
-                            run.lower(&span, leaves)
+                            (run.from, run.bottom) = (leaves, span.ends());
                         }
                         _ => push(runs, Run::new(part.branch, &span, leaves, to))?,
                     }

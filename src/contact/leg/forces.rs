@@ -49,9 +49,11 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// The leg with the instrument beside the contact: the force of both is k D where D = d + F/k.
+    /// The leg with the instrument beside the contact, in springs: the force of both is k D where D = d + F/k. Of a rigid
+    /// one, whose displacement is the indentation, there are none.
     fn with_instrument(&self) -> Self {
-        Leg { instrument: self.contact.instrument_springs(), ..self.clone() }
+        let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
+        Leg { instrument: if springs.is_infinite() { 0.0 } else { springs }, ..self.clone() }
     }
 
     /// Finds the indentation at which a motion from another one reaches its goal, m, and that goal: the separation where

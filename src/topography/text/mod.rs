@@ -8,9 +8,9 @@ mod layout;
 pub(crate) use layout::{Cell, Decimal, Separator};
 
 use super::Unit;
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
 use super::surface::{LARGEST, UNEVEN};
+use super::{Place, TopographyError, refused, shown};
 use crate::io::PROVENANCE;
 use crate::memory::{check_room, push, reserve};
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
