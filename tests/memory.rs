@@ -111,7 +111,8 @@ fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
         for seed in 1..4 {
             let (line, largest) = allocations::largest(|| {
                 heights = synthesizer.synthesize(spectrum, seed, points, 0.0, take(&mut heights)).unwrap();
-                Line::new_in(take(&mut gaps), 1.0, points, None, Some(&heights), 1.0).unwrap()
+                gaps.clone_from(&heights);
+                Line::from_roughness(take(&mut gaps), 1.0, None, 1.0).unwrap()
             });
             gaps = Arc::into_inner(line.gaps).unwrap();
             // A plan requests its table of sines at once.

@@ -11,7 +11,7 @@ use serde::Serialize;
 use std::f64::consts::PI;
 
 /// The governing parameters of a scene, each given or derived from the others.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Governing {
     /// Effective modulus E*, Pa.
     pub effective_modulus: f64,
@@ -52,15 +52,7 @@ impl Governing {
             let amplitude = unit.scaled(rms_height);
             Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
         });
-        let without = Governing {
-            effective_modulus,
-            work_of_adhesion: None,
-            closing_work: None,
-            amplitude,
-            kappa: None,
-            elastic_energy_ratio: None,
-        };
-        without.with_adhesion(scene.adhesion)
+        Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
     }
 
     /// The same profile with another adhesion.
@@ -203,7 +195,6 @@ impl SteepWaves {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Document;
     use crate::scene::{Document, Roughness, open};
     use crate::simulation::Simulation;
     use std::f64::consts::TAU;

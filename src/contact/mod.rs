@@ -16,22 +16,20 @@
 mod adhesive;
 mod body;
 mod contact_state;
-mod goal;
 mod history;
 mod interval;
 mod leg;
-mod reversal;
 mod springs;
 mod stepwise;
 mod thresholds;
 mod totals;
 pub use adhesive::ContactTree;
-pub use body::{Body, Motion, Solver, run};
+pub use body::{Body, Motion, Reversal, Solver, run};
 pub use history::{CurvePoint, Direction, History, LegRecord, Move, Patch, Work};
 pub use leg::{Leg, PatchState};
-pub use reversal::Reversal;
 pub use springs::{Contact, Edges, Foundation, HessRule, Springs};
-pub use stepwise::{STEP_LIMIT, Stepwise};
+use stepwise::STEP_LIMIT;
+pub use stepwise::Stepwise;
 pub(crate) use totals::CompensatedSum;
 pub use totals::{ContactTotals, GapScale};
 

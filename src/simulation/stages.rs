@@ -9,7 +9,7 @@ use crate::contact::{
     Body, Contact, ContactError, ContactTree, Foundation, History, Leg, LegRecord, Patch, Solver, Springs,
     Stepwise, Work, run,
 };
-use crate::memory::check_room;
+use crate::memory::{check_room, emptied};
 use crate::reference::smooth_adhesion_force;
 use crate::scene::{Edges, Form, Move, Scene, Solver as SolverChoice};
 use crate::surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
@@ -155,15 +155,15 @@ impl Simulation {
         {
             self.roughen(scene, of, take(&mut memory))?;
         }
-        let form = scene.form.as_ref();
-        let line = match &mut self.roughness {
-            Some(rough) if self.single => Line::from_roughness(take(&mut rough.heights), length, form, scale),
-            rough => {
-                let heights = rough.as_ref().map(|rough| rough.heights.as_slice());
-                Line::new_in(memory, length, points, form, heights, scale)
-            }
-        };
-        Ok(line?)
+        if let Some(rough) = self.roughness.as_mut().filter(|_| self.single) {
+            memory = take(&mut rough.heights);
+        } else {
+            memory = emptied(memory, points).map_err(SurfaceError::from)?;
+            let heights = self.roughness.as_ref().map_or(&[][..], |rough| &rough.heights);
+            memory.extend_from_slice(heights);
+            memory.resize(points, 0.0);
+        }
+        Ok(Line::from_roughness(memory, length, scene.form.as_ref(), scale)?)
     }
 
     /// Makes the heights of a roughness; synthesised ones in this memory.
@@ -205,7 +205,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Releases the memory of earlier runs.
     fn give_back(&mut self) {
         let RoughnessMaker { folder, measured, .. } = take(&mut self.maker);
         let maker = RoughnessMaker { folder, measured, ..RoughnessMaker::default() };

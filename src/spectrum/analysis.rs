@@ -1,7 +1,7 @@
 //! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
 use super::fit::Model;
-use super::isotropic::{End, IsotropicSpectrum, LineMoments};
+use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
 use super::observation::{self, Observation};
 use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
 use super::power_law::{self, PowerLaw};
@@ -170,7 +170,9 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     if options.end == End::Ends && !ends_inside {
         // Without such a fit nothing is known of the missing waves.
         let change = |longer: IsotropicSpectrum| {
-            let (within, all) = (isotropic.changes(&longer.until(range[1])), isotropic.changes(&longer));
+            let within = Nodes { end: range[1], ..longer.nodes };
+            let within = IsotropicSpectrum { nodes: within, ..longer.clone() };
+            let (within, all) = (isotropic.changes(&within), isotropic.changes(&longer));
             [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()))
         };
         let longer = fitted(&observations, End::Continues(CONTINUED * range[1]));
@@ -182,7 +184,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         let height = Some(of_longest.1.statistics().rms_height).filter(|_| !is_levelled);
         isotropic.check_identities(height, &of_finest.1.statistics());
     }
-    let line = isotropic.line_moments();
+    let line = line_moments(std::slice::from_ref(&isotropic));
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
         return Err(SpectrumError::no_maximum());

@@ -29,7 +29,6 @@ impl Cholesky {
         Some(Cholesky { size, factor: matrix })
     }
 
-    /// Solution of the system with this right-hand side.
     pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
         let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in 0..self.size {

@@ -1,7 +1,7 @@
 //! The rigid profile as the input of the contact: gaps below its highest point.
 
 use super::{Form, SurfaceError};
-use crate::memory::emptied;
+use crate::memory::{gathered, resized};
 use std::sync::Arc;
 
 /// The rigid profile above springs at x = (i + ½)Δx.
@@ -19,7 +19,8 @@ pub struct Line {
     pub spacing: f64,
     /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
     pub summit: f64,
-    deepest: f64,
+    /// Largest gap, m.
+    pub deepest: f64,
 }
 
 impl Line {
@@ -37,28 +38,15 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        Line::new_in(Vec::new(), length, points, form, roughness, scale)
-    }
-
-    /// The same profile with the gaps in this memory.
-    pub fn new_in(
-        memory: Vec<f64>,
-        length: f64,
-        points: usize,
-        form: Option<&Form>,
-        roughness: Option<&[f64]>,
-        scale: f64,
-    ) -> Result<Self, SurfaceError> {
-        let mut heights = emptied(memory, points)?;
-        match roughness {
-            Some(rough) => heights.extend_from_slice(rough),
-            None => heights.resize(points, 0.0),
-        }
+        let heights = match roughness {
+            Some(rough) => gathered(points, rough.iter().copied())?,
+            None => resized(Vec::new(), points, 0.0)?,
+        };
         Line::from_roughness(heights, length, form, scale)
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
-    pub(crate) fn from_roughness(
+    pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
         form: Option<&Form>,
@@ -113,11 +101,6 @@ impl Line {
     /// Height of the lowest point, m.
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
-    }
-
-    /// Largest gap, m.
-    pub fn deepest(&self) -> f64 {
-        self.deepest
     }
 }
 
@@ -260,7 +243,7 @@ mod tests {
                 let expected = rough.iter().copied().fold(0.0, f64::max);
                 let line = Line::new(1.0, points, None, Some(&rough), 1.0).unwrap();
                 assert_eq!((line.summit, line.gaps[bad]), (expected, expected - rough[bad]));
-                assert_eq!(line.deepest(), line.gaps.iter().copied().fold(0.0, f64::max));
+                assert_eq!(line.deepest, line.gaps.iter().copied().fold(0.0, f64::max));
                 rough[bad..].fill(f64::NAN);
                 let result = Line::new(1.0, points, None, Some(&rough), 1.0);
                 assert_eq!(result, Err(SurfaceError::NotFinite(bad)));

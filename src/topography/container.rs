@@ -8,10 +8,8 @@ use serde::Deserialize;
 /// Names of the index: in JSON, and in YAML.
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
 
-/// Most bytes of the index.
 pub(super) const LONGEST_INDEX: usize = 1 << 24;
 
-/// Most measurements of a surface.
 const MOST_MEASUREMENTS: usize = 10_000;
 
 #[derive(Deserialize)]

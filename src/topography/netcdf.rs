@@ -1,10 +1,10 @@
 //! NetCDF in its classic format (CDF-1 and CDF-2), as written by contact.engineering and SurfaceTopography: a
 //! variable `heights` over positions `x`, and `y` for a map.
 
+use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
 use super::surface::first_uneven;
-use super::unit::Unit;
 use super::{Place, TopographyError, refused};
 use crate::memory::gathered;
 

@@ -13,7 +13,6 @@ const LONGEST_INDEX: usize = 1 << 26;
 /// its element, and those of an element with all that it inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// Name of the index in the archive.
 pub(super) const INDEX: &str = "main.xml";
 
 const TYPES: [(&str, Number); 4] =
@@ -131,7 +130,6 @@ fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
     find(node, name).map_or("", trimmed)
 }
 
-/// Returns the number of an axis, if the axis has it.
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, TopographyError> {
     let Some(text) = find(axis, name).map(trimmed) else { return Ok(None) };
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());

@@ -1,7 +1,6 @@
 //! The stepwise solver against the exact one.
 
 use super::body::*;
-use asperity::contact::STEP_LIMIT;
 use asperity::contact::{Contact, ContactError, Direction, Edges, Foundation, Move, Solver, Stepwise};
 use proptest::prelude::*;
 

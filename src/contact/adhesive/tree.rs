@@ -31,7 +31,6 @@ pub struct ContactTree {
     /// True for sums of cells between springs.
     of_cells: bool,
     pub(super) scale: GapScale,
-    pending: Vec<Pending>,
 }
 
 /// A local maximum of the gap: where two components merge.
@@ -192,8 +191,7 @@ impl ContactTree {
     fn merge(&mut self, gaps: &[f64]) -> Result<(), OutOfMemory> {
         let count = self.turns.len() / 2;
         let mut nodes = emptied(std::mem::take(&mut self.nodes), count)?;
-        let mut pending = std::mem::take(&mut self.pending);
-        pending.clear();
+        let mut pending: Vec<Pending> = Vec::new();
         let gap_at = |turn: usize| gaps[self.turns[turn] as usize];
         let mut lowest = if self.turns.is_empty() { 0.0 } else { gap_at(0) };
         let finish = |top: Pending, lowest: f64, nodes: &mut Vec<Node>| {
@@ -217,7 +215,7 @@ impl ContactTree {
         while let Some(top) = pending.pop() {
             lowest = finish(top, lowest, &mut nodes);
         }
-        (self.nodes, self.pending) = (nodes, pending);
+        self.nodes = nodes;
         Ok(())
     }
 }
@@ -230,10 +228,7 @@ fn sums_along(
     scale: GapScale,
 ) -> Result<Vec<[i128; 2]>, OutOfMemory> {
     let count = gaps.len() / BLOCK + 1;
-    sums.clear();
-    if sums.capacity() < count {
-        sums = emptied(Vec::new(), count)?;
-    }
+    sums = emptied(sums, count)?;
     let mut sum = [0_i128; 2];
     sums.push(sum);
     let mut add = |few: [i128; 2]| {

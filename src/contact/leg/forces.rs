@@ -7,7 +7,7 @@
 
 use super::{Leg, Patches};
 use crate::contact::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
-use crate::contact::goal::Goal;
+use crate::contact::history::Goal;
 use crate::contact::interval::{Interval, Intervals};
 use crate::contact::thresholds::Thresholds;
 use crate::contact::{ContactError, CurvePoint, Direction, Edges, Work};

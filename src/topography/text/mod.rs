@@ -17,7 +17,6 @@ use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use layout::Header;
 use std::borrow::Cow;
 
-/// First characters of a comment.
 pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
