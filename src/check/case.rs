@@ -8,11 +8,8 @@ use crate::{Contact, Cycle, Profile};
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
 
-/// Evidence: a closed form of the literature or of this model.
 pub(super) const CLOSED_FORM: &str = "closed form";
-/// Evidence: the same quantity from another computation.
 pub(super) const INDEPENDENT: &str = "independent computation";
-/// Evidence: a law for the result, such as mirror, scaling, memory or energy.
 pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 
 /// Input of a case and measurement of its error.
@@ -70,7 +67,6 @@ pub(super) fn relative_error(found: f64, expected: f64) -> f64 {
     (found / expected - 1.0).abs()
 }
 
-/// Returns the largest relative error of values from their expected ones.
 pub(super) fn relative_errors<const N: usize>(pairs: [(f64, f64); N]) -> Measured {
     largest(pairs.map(|(found, expected)| Ok(relative_error(found, expected))))
 }

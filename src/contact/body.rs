@@ -197,84 +197,7 @@ impl Body {
         self.curve_time += clock.elapsed();
         Ok(record)
     }
-}
 
-impl Solver for Body {
-    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
-        let here = self.point();
-        match self.plan(target)? {
-            None => {
-                if here.springs == 0 {
-                    self.leg = Leg::apart(self.leg.contact(), self.leg.direction());
-                }
-                Ok(LegRecord::still(target, here))
-            }
-            Some(Motion { leg, goal: Goal::Indentation(to), .. }) if here.springs == 0 && to < 0.0 => {
-                (self.leg, self.state) = (leg, ContactState::free(to));
-                Ok(LegRecord::free(target, here.indentation, to))
-            }
-            Some(motion) => self.record(target, motion),
-        }
-    }
-
-    fn leg(&self) -> Leg {
-        self.leg.clone()
-    }
-
-    fn work(&self) -> Work {
-        self.work
-    }
-
-    fn curve_seconds(&self) -> f64 {
-        self.curve_time.as_secs_f64()
-    }
-}
-
-/// Runs a whole loading history. `after` receives each completed stage and its leg.
-///
-/// # Errors
-/// The first stage that fails ends the run.
-pub fn run(
-    solver: &mut dyn Solver,
-    targets: &[Move],
-    mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
-) -> Result<History, ContactError> {
-    let mut history = History::default();
-    for (index, &target) in targets.iter().enumerate() {
-        let record = solver.advance(target).map_err(|reason| reason.in_stage(index, target))?;
-        after(&record, &solver.leg())?;
-        history.legs.push(record);
-    }
-    let end = history.legs.last().and_then(LegRecord::end_in_contact);
-    history.contacts = end.map_or_else(Vec::new, |point| solver.leg().patches(point.indentation));
-    history.work = solver.work();
-    Ok(history)
-}
-
-/// The unloading from one turning point to separation, exact to rounding.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reversal {
-    /// Turning point.
-    pub turn: CurvePoint,
-    /// Smallest force on the way back.
-    pub smallest: CurvePoint,
-    /// Indentation at which the last patch detaches, m.
-    pub separation: f64,
-    /// Energy dissipated from separation to separation, J.
-    pub dissipated_energy: f64,
-    /// Forces at the requested points, up to the turning point, N.
-    pub forces: Vec<f64>,
-}
-
-impl Reversal {
-    /// Adhesion force F_a, N: minus the smallest force; `None` where the body does not pull.
-    pub fn adhesion_force(&self) -> Option<f64> {
-        // Not −F: that would make a force of zero negative.
-        Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)
-    }
-}
-
-impl Body {
     /// Loads this separated body once and unloads it from each of these targets, which begin separated at d = 0. A force is
     /// reached where the loading is first at least as large: a pulling one at first touch, or while the bodies are still
     /// drawn together. Calls `see` with the index of the target and its reversal, from the shallowest on; the forces are
@@ -360,5 +283,80 @@ impl Body {
             dissipated_energy: released[0] + released[1] + 0.0,
             forces,
         })
+    }
+}
+
+impl Solver for Body {
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+        let here = self.point();
+        match self.plan(target)? {
+            None => {
+                if here.springs == 0 {
+                    self.leg = Leg::apart(self.leg.contact(), self.leg.direction());
+                }
+                Ok(LegRecord::still(target, here))
+            }
+            Some(Motion { leg, goal: Goal::Indentation(to), .. }) if here.springs == 0 && to < 0.0 => {
+                (self.leg, self.state) = (leg, ContactState::free(to));
+                Ok(LegRecord::free(target, here.indentation, to))
+            }
+            Some(motion) => self.record(target, motion),
+        }
+    }
+
+    fn leg(&self) -> Leg {
+        self.leg.clone()
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+
+    fn curve_seconds(&self) -> f64 {
+        self.curve_time.as_secs_f64()
+    }
+}
+
+/// Runs a whole loading history. `after` receives each completed stage and its leg.
+///
+/// # Errors
+/// The first stage that fails ends the run.
+pub fn run(
+    solver: &mut dyn Solver,
+    targets: &[Move],
+    mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<History, ContactError> {
+    let mut history = History::default();
+    for (index, &target) in targets.iter().enumerate() {
+        let record = solver.advance(target).map_err(|reason| reason.in_stage(index, target))?;
+        after(&record, &solver.leg())?;
+        history.legs.push(record);
+    }
+    let end = history.legs.last().and_then(LegRecord::end_in_contact);
+    history.contacts = end.map_or_else(Vec::new, |point| solver.leg().patches(point.indentation));
+    history.work = solver.work();
+    Ok(history)
+}
+
+/// The unloading from one turning point to separation, exact to rounding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reversal {
+    /// Turning point.
+    pub turn: CurvePoint,
+    /// Smallest force on the way back.
+    pub smallest: CurvePoint,
+    /// Indentation at which the last patch detaches, m.
+    pub separation: f64,
+    /// Energy dissipated from separation to separation, J.
+    pub dissipated_energy: f64,
+    /// Forces at the requested points, up to the turning point, N.
+    pub forces: Vec<f64>,
+}
+
+impl Reversal {
+    /// Adhesion force F_a, N: minus the smallest force; `None` where the body does not pull.
+    pub fn adhesion_force(&self) -> Option<f64> {
+        // Not −F: that would make a force of zero negative.
+        Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)
     }
 }

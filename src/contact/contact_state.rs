@@ -9,9 +9,7 @@ use std::ops::Range;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactState {
-    /// d, m.
     pub indentation: f64,
-    /// Totals of the whole springs or cells.
     pub totals: ContactTotals,
     /// Contact length in units of the distance between springs.
     pub length: f64,

@@ -257,9 +257,7 @@ pub enum Move {
 
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
-    /// An indentation, m.
     Indentation(f64),
-    /// A force, N.
     Force(f64),
     /// A displacement of an instrument that is not rigid, m.
     Displacement(f64),

@@ -55,16 +55,11 @@ impl Intervals {
     }
 
     /// Range of the intervals that reach up to `from` and begin below `to`, m.
-    fn between(&self, from: f64, to: f64) -> Range<usize> {
+    pub fn between(&self, from: f64, to: f64) -> Range<usize> {
         let first = self.0.partition_point(|interval| interval.high.indentation < from);
         let end = self.0.partition_point(|interval| interval.low.indentation < to);
         // A part without extent may end a rounding before it begins.
         first..end.max(first)
-    }
-
-    /// Returns true if an interval overlaps with the indentations from one up to another, m.
-    pub fn overlap(&self, from: f64, to: f64) -> bool {
-        !self.between(from, to).is_empty()
     }
 
     /// Adds springs or cells that carry from one indentation up to another, m.

@@ -25,7 +25,6 @@ pub struct Thresholds<'a> {
 }
 
 impl<'a> Thresholds<'a> {
-    /// Creates the contact of these springs, whose thresholds are in m.
     pub fn new(contact: &'a Contact, thresholds: &'a [f64]) -> Self {
         let slides = contact.edges == Edges::SubCell;
         Thresholds { gaps: contact.gaps(), thresholds, slides, scale: contact.springs.scale() }

@@ -20,8 +20,6 @@ impl Default for GapScale {
 /// Gaps below 2^62 quanta fit an `i64`, and 2^28 of them an `i128`.
 const GAP_BITS: i32 = 62;
 
-const GAP_RANGE: f64 = (1_u64 << GAP_BITS) as f64;
-
 /// Largest exponent of the scale, so that scale and quantum are both normal numbers.
 const LARGEST_SCALE_EXPONENT: i32 = 1000;
 
@@ -183,7 +181,7 @@ impl SquareScale {
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let GapScale { mut quanta_per_metre, mut quantum } = scale;
         let mut coarser = 0;
-        while largest * quanta_per_metre >= 2.0 * GAP_RANGE {
+        while largest * quanta_per_metre >= (1_u64 << (GAP_BITS + 1)) as f64 {
             (quanta_per_metre, quantum, coarser) = (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
         }
         SquareScale { quanta_per_metre, quantum, coarser }

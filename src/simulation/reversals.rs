@@ -90,9 +90,6 @@ impl Simulation {
 
     /// Compares minor loops between the same two indentations, one on the way back from the first loading there and one
     /// on the way back from the deepest turning point of a map, for `levels` upper and as many lower indentations.
-    ///
-    /// # Errors
-    /// Errors of [`Simulation::run`].
     pub fn minor_loops(
         &mut self,
         scene: &Scene,

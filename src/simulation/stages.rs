@@ -19,7 +19,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const HISTOGRAM_BINS: usize = 64;
-const NO_PROFILE: ContactError = ContactError::Internal("the profile of the scene has not been made");
 /// Factor of the memory of the next run above which that of former ones is released.
 const MOST_SPARE: u64 = 4;
 /// Bytes that are always kept.
@@ -123,7 +122,9 @@ impl Simulation {
             self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
             self.line = Some((key, line));
         }
-        let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
+        let Some((_, line)) = &self.line else {
+            return Err(ContactError::Internal("the profile of the scene has not been made").into());
+        };
         let facts = LineFacts {
             points,
             length,

@@ -40,9 +40,6 @@ pub struct MeasuredProfile {
 impl MeasuredProfile {
     /// Reads a profile, or a row or column of a map, from the content of a file. Detrending requires equally spaced
     /// points.
-    ///
-    /// # Errors
-    /// [`TopographyError`] if the content is no profile.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -58,7 +55,6 @@ impl MeasuredProfile {
         self.cell().map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
     }
 
-    /// Distance from the first to the last point, m.
     fn span(&self) -> f64 {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
@@ -108,10 +104,8 @@ impl MeasuredProfile {
             (mode, exponentials * (coefficient / points as f64).norm_sqr())
         });
         let of_modes = Amplitude::from_modes(squares, self.length());
-        let mean_wave_number = match of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2) {
-            mean if mean.is_finite() => mean,
-            _ => 0.0,
-        };
+        let mean = of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2);
+        let mean_wave_number = if mean.is_finite() { mean } else { 0.0 };
         Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 

@@ -72,12 +72,8 @@ pub enum TopographyError {
 impl TopographyError {
     /// The error with the name of the measurement that has it.
     pub(super) fn within(self, name: &str) -> Self {
-        match self {
-            TopographyError::Refused(reason) => {
-                TopographyError::Refused(format!("{}: {reason}", shown(name)))
-            }
-            other => other,
-        }
+        let TopographyError::Refused(reason) = self else { return self };
+        TopographyError::Refused(format!("{}: {reason}", shown(name)))
     }
 }
 

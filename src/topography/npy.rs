@@ -10,7 +10,6 @@ use super::{Place, TopographyError, refused, shown};
 pub(super) use crate::io::npy::SIGNATURE;
 use crate::memory::emptied;
 
-/// Reads an array of format version 1, 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let (mut header, mut data) = Header::read(bytes)?;
     let [(_, number), ref others @ ..] = header.fields[..] else {

@@ -38,9 +38,6 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, Topog
 }
 
 /// Reads the bytes of a regular file of at most 1 GiB, for [`parse`].
-///
-/// # Errors
-/// [`TopographyError`] if the file cannot be read or is longer.
 pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
@@ -62,9 +59,6 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
 }
 
 /// Reads a surface, or all measurements of a surface in a container, from the content of a file.
-///
-/// # Errors
-/// As [`read`].
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
     let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {

@@ -124,10 +124,10 @@ impl Reading {
             None => Grid::Even([even(0)?, even(1)?]),
         };
         let rows = heights.len() / columns;
-        if options.align_rows && rows < 2 {
-            return Err(refused(Place::File, "a profile, which has no rows to align", "a map"));
-        }
         if options.align_rows {
+            if rows < 2 {
+                return Err(refused(Place::File, "a profile, which has no rows to align", "a map"));
+            }
             missing::level_rows(&mut heights, columns)?;
         }
         let outliers = if options.robust { missing::remove_outliers(&mut heights, columns)? } else { 0 };

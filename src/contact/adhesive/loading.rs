@@ -231,7 +231,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let end = smaller(attaches, climb.merges);
                 if let Some(rise) = pin.take() {
                     let released = smaller(levels.release(ground.stretch, rise).0, end);
-                    push(runs, Run::pinned(climb.branch, &span, rise, closes, released))?;
+                    push(runs, Run { pin: rise, ..Run::new(climb.branch, &span, closes, released) })?;
                     closes = released;
                 }
                 if closes < end {

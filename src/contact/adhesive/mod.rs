@@ -83,7 +83,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     pub fn search(&self, intervals: &mut Intervals) {
         let (ground, (low, high)) = (&self.ground, intervals.ends());
         for run in self.runs {
-            if !intervals.overlap(run.from, run.to) {
+            if intervals.between(run.from, run.to).is_empty() {
                 continue;
             }
             ground.each_span(run, low, |span, from, to| {

@@ -31,7 +31,7 @@ pub struct Run {
     /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
     pub to: f64,
     /// Height of the level of pinned edges above the largest gap, m; NaN for edges that are free to move.
-    pin: f64,
+    pub pin: f64,
     /// First and last spring of its smallest span.
     pub bottom: [u32; 2],
     /// First and last spring of its largest span.
@@ -73,11 +73,6 @@ pub struct Ground<'a, const SLIDES: bool> {
 impl Run {
     pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
         Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
-    }
-
-    /// A run over one span with its edges pinned at a rise above its largest gap, m.
-    pub fn pinned(branch: Branch, span: &Span, rise: f64, from: f64, to: f64) -> Self {
-        Run { pin: rise, ..Run::new(branch, span, from, to) }
     }
 
     /// Rise of pinned edges, m.

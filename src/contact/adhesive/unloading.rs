@@ -109,7 +109,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
                         let (released, slides) = levels.release(self.stretch, rise);
                         let released = smaller(opens, released);
                         leaves = if slides { smaller(leaves, released) } else { released };
-                        push(runs, Run::pinned(part.branch, &span, rise, released, to))?;
+                        push(runs, Run { pin: rise, ..Run::new(part.branch, &span, released, to) })?;
                         to = released;
                     }
                     match (runs.last_mut(), above) {
