@@ -23,18 +23,20 @@ mod springs;
 mod stepwise;
 mod thresholds;
 mod totals;
-pub use adhesive::ContactTree;
+pub use adhesive::{ContactTree, Edges};
 pub use body::{Body, Motion, Reversal, Solver, run};
 pub use history::{CurvePoint, Direction, History, LegRecord, Move, Patch, Work};
 pub use leg::{Leg, PatchState};
-pub use springs::{Contact, Edges, Foundation, HessRule, Springs};
-use stepwise::STEP_LIMIT;
+pub use springs::{Contact, Foundation, HessRule, Springs};
 pub use stepwise::Stepwise;
 pub(crate) use totals::CompensatedSum;
 pub use totals::{ContactTotals, GapScale};
 
 use crate::memory::OutOfMemory;
 use thiserror::Error;
+
+/// Most steps of one motion of the stepwise solver.
+const STEP_LIMIT: u64 = 10_000_000;
 
 /// Number of springs from which a second thread costs less than it saves.
 const TWO_THREADS: usize = 1 << 17;

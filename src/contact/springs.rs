@@ -1,11 +1,9 @@
 //! The springs under a rigid line, their elastic foundation by the method of dimensionality reduction, the rule of Hess on it,
 //! and the contact that they form: all that stays the same while the body moves.
 
-use super::adhesive::{Closing, ContactTree};
+use super::adhesive::{Closing, ContactTree, Edges};
 use super::{ContactError, CurvePoint, Direction, GapScale, Patch};
-use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
-use strum::IntoStaticStr;
 
 /// Springs under a rigid line: their gaps, and the trees that depend on the gaps and the edge model alone.
 ///
@@ -142,23 +140,6 @@ impl Contact {
             Some(closing) => Ok(closing),
             None => close().map(|closing| self.closing.get_or_init(|| closing)),
         }
-    }
-}
-
-/// Edge model of a contact patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
-pub enum Edges {
-    /// The rule of the paper: a patch of n springs is n Δx long.
-    Grid,
-    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
-    /// patch: the error falls with Δx².
-    SubCell,
-}
-
-impl Edges {
-    /// Name in scene files.
-    pub fn name(self) -> &'static str {
-        self.into()
     }
 }
 

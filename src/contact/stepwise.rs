@@ -6,12 +6,11 @@
 use super::adhesive::EdgeCells;
 use super::contact_state::{ContactState, Grid};
 use super::history::{Goal, plan};
-use super::{Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work};
-use crate::contact::Move;
+use super::{
+    Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Move, STEP_LIMIT, Solver,
+    Work,
+};
 use crate::memory::resized;
-
-/// Most steps of one motion.
-pub(super) const STEP_LIMIT: u64 = 10_000_000;
 
 /// A body moved by small steps and relaxed after each.
 #[derive(Clone)]

@@ -1,10 +1,9 @@
 //! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
-use super::fit::Model;
+use super::fit::{Model, PowerLaw, fit_power_law};
 use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
 use super::observation::{self, Observation};
 use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
-use super::power_law::{self, PowerLaw};
 use super::statistics::{Statistics, Sums, reliability_cutoff};
 use super::{Detrend, SpectrumError};
 use crate::topography::{self, Place, Topography, TopographyError};
@@ -145,7 +144,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         // The powers of the last waves depend on how the spectrum ends.
         let last = if ends_inside { range[1] - BEFORE_END * range[0] } else { f64::INFINITY };
         let before: Vec<_> = observations.iter().filter(|one| one.wave_number < last).cloned().collect();
-        power_law::fit(&Model::new(&before, range, options.end), spectrum)
+        fit_power_law(&Model::new(&before, range, options.end), spectrum)
     };
     let mut isotropic = fitted(&observations, options.end)?;
     let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
@@ -234,11 +233,8 @@ impl Powers {
             let points = if rows > 1 { columns.min(rows) } else { columns };
             if points < LEAST_POINTS {
                 let fault = format!("{points} points along an axis");
-                return Err(refused(topography::refused(
-                    Place::File,
-                    fault,
-                    format!("at least {LEAST_POINTS}"),
-                )));
+                let allowed = format!("at least {LEAST_POINTS}");
+                return Err(refused(topography::refused(Place::File, fault, allowed)));
             }
             let mut heights = surface.copied_heights(quarters).map_err(refused)?;
             let periodic = options.periodic || surface.periodic;

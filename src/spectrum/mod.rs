@@ -19,16 +19,15 @@ mod isotropic;
 mod linear;
 mod observation;
 mod periodogram;
-mod power_law;
 mod statistics;
 
 pub use crate::topography::Detrend;
 pub use analysis::{Analysis, Options, analyse};
+pub use fit::PowerLaw;
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
 pub(crate) use linear::{Cholesky, slope};
 pub use periodogram::{Bin, Direction, line_spectrum};
-pub use power_law::PowerLaw;
 pub use statistics::Statistics;
 
 use crate::memory::OutOfMemory;

@@ -1,6 +1,25 @@
 //! Spans, neighbouring springs that one fragment holds, and their levels: length, edges and edge cells as the edges slide.
 
 use crate::contact::totals::CompensatedSum;
+use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
+
+/// Edge model of a contact patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
+pub enum Edges {
+    /// The rule of the paper: a patch of n springs is n Δx long.
+    Grid,
+    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
+    /// patch: the error falls with Δx².
+    SubCell,
+}
+
+impl Edges {
+    /// Name in scene files.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+}
 
 /// Springs `first..=last` of one fragment and their largest gap, m.
 ///

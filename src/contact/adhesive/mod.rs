@@ -9,6 +9,7 @@ mod loading;
 mod run;
 mod tree;
 mod unloading;
+pub use levels::Edges;
 pub(in crate::contact) use levels::{EdgeCells, EdgeSum, Levels, Slider, Span};
 pub(in crate::contact) use loading::Closing;
 pub(in crate::contact) use run::{Ground, Held, Run};

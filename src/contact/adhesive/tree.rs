@@ -1,7 +1,6 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
-use super::levels::larger;
-use crate::contact::Edges;
+use super::levels::{Edges, larger};
 use crate::contact::totals::sums_of_few;
 use crate::contact::{GapScale, TWO_THREADS};
 use crate::memory::{OutOfMemory, emptied, push, reserve};
