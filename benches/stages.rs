@@ -203,7 +203,11 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         best.fresh_tree = best.fresh_tree.min(seconds_since(clock));
 
         for one in &mut best.loops {
-            let hess = HessRule::new(rough.foundation, rough.work_of_adhesion(one.kappa));
+            let hess = HessRule::from_works(
+                rough.foundation,
+                rough.work_of_adhesion(one.kappa),
+                rough.work_of_adhesion(one.kappa),
+            );
             for (edges, timed) in EDGES.into_iter().zip(&mut one.edges) {
                 tree = timed.measure(tree, edges, hess, rough);
             }
@@ -228,8 +232,8 @@ impl Lines {
         let heights = take(&mut self.heights);
         let unit = self.synthesizer.synthesize(rough.spectrum, black_box(seed), rough.points, 0.0, heights);
         self.heights = unit.expect("memory for the line");
-        let gaps = take(&mut self.gaps);
-        let line = Line::new_in(gaps, LENGTH, rough.points, None, Some(&self.heights), RMS_HEIGHT);
+        self.gaps.clone_from(&self.heights);
+        let line = Line::from_roughness(take(&mut self.gaps), LENGTH, None, RMS_HEIGHT);
         self.gaps = Arc::into_inner(black_box(line.expect("a finite line")).gaps).unwrap_or_default();
         seconds_since(clock)
     }

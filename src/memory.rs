@@ -3,8 +3,8 @@
 //!
 //! Memory in proportion to input is reserved before use: an allocation that fails elsewhere ends the process.
 
-use std::collections::TryReserveError;
 use std::hint::black_box;
+use thiserror::Error;
 
 /// Factor of the required memory above which a buffer is released.
 const MOST_SPARE: usize = 4;
@@ -17,39 +17,64 @@ const BESIDE: u64 = 33 << 20;
 /// Fewest bytes that are checked.
 const FEW: u64 = 1 << 20;
 
+/// Insufficient memory for this number of bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("not enough memory for {} MiB", .0.div_ceil(1 << 20))]
+pub struct OutOfMemory(u64);
+
+impl OutOfMemory {
+    fn of<T>(count: usize) -> Self {
+        OutOfMemory((count as u64).saturating_mul(size_of::<T>() as u64))
+    }
+}
+
 /// Checks that the system can provide this many more bytes now, and releases them untouched.
-///
-/// # Errors
-/// Insufficient memory.
-pub(crate) fn check_room(bytes: u64) -> Result<(), TryReserveError> {
+pub(crate) fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());
     }
     let mut asked = Vec::<u8>::new();
-    asked.try_reserve_exact(usize::try_from(bytes.saturating_add(BESIDE)).unwrap_or(usize::MAX))?;
+    let count = usize::try_from(bytes.saturating_add(BESIDE)).unwrap_or(usize::MAX);
+    asked.try_reserve_exact(count).map_err(|_| OutOfMemory(bytes))?;
     // The compiler may remove an allocation without an observer.
     black_box(asked.as_ptr());
     Ok(())
 }
 
 /// An empty vector with room for `count` values, in this memory if it suffices.
-pub(crate) fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, TryReserveError> {
+pub(crate) fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
-    values.try_reserve_exact(count)?;
+    values.try_reserve_exact(count).map_err(|_| OutOfMemory::of::<T>(count))?;
     Ok(values)
 }
 
 /// `count` values in this memory if it suffices: the previous ones, then `fill`.
-pub(crate) fn resized<T: Clone>(
-    mut values: Vec<T>,
-    count: usize,
-    fill: T,
-) -> Result<Vec<T>, TryReserveError> {
+pub(crate) fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
-    values.try_reserve_exact(count.saturating_sub(values.len()))?;
+    let more = count.saturating_sub(values.len());
+    values.try_reserve_exact(more).map_err(|_| OutOfMemory::of::<T>(count))?;
     values.resize(count, fill);
     Ok(values)
+}
+
+/// Collects `count` values.
+pub(crate) fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
+    let mut gathered = emptied(Vec::new(), count)?;
+    gathered.extend(values);
+    Ok(gathered)
+}
+
+/// Adds a value.
+pub(crate) fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
+    reserve(values, 1)?;
+    values.push(value);
+    Ok(())
+}
+
+/// Makes room for `more` values, with some to spare.
+pub(crate) fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
+    values.try_reserve(more).map_err(|_| OutOfMemory::of::<T>(values.len() + more))
 }
 
 fn unless_far_too_large<T>(values: Vec<T>, count: usize) -> Vec<T> {

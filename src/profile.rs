@@ -76,19 +76,16 @@ impl Profile {
     }
 
     /// Number of points.
-    #[must_use]
     pub fn points(&self) -> usize {
         self.line.points
     }
 
     /// Distance between points, m.
-    #[must_use]
     pub fn spacing(&self) -> f64 {
         self.line.spacing
     }
 
     /// Length, m: the number of points times their distance.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.line.length
     }
@@ -99,7 +96,6 @@ impl Profile {
     }
 
     /// Gaps below the highest point, m, at least 0.
-    #[must_use]
     pub fn gaps(&self) -> &[f64] {
         &self.line.gaps
     }

@@ -111,7 +111,8 @@ fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
         for seed in 1..4 {
             let (line, largest) = allocations::largest(|| {
                 heights = synthesizer.synthesize(spectrum, seed, points, 0.0, take(&mut heights)).unwrap();
-                Line::new_in(take(&mut gaps), 1.0, points, None, Some(&heights), 1.0).unwrap()
+                gaps.clone_from(&heights);
+                Line::from_roughness(take(&mut gaps), 1.0, None, 1.0).unwrap()
             });
             gaps = Arc::into_inner(line.gaps).unwrap();
             // A plan requests its table of sines at once.
@@ -216,7 +217,7 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
     let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
-    let hess = HessRule::new(foundation, work);
+    let hess = HessRule::from_works(foundation, work, work);
     let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
     contact.springs().tree(Edges::SubCell).unwrap();
     let turns = [0.01, 0.1, 1.0].map(|share| Move::ToForce(share * 2e6 * 1e-3 * 5e-7));

@@ -34,8 +34,9 @@ pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "Hess",
         lines: Lines::Of(&[
-            ("src/contact/foundation.rs", "fn largest_stretch("),
-            ("src/contact/adhesive/edge_model.rs", "impl<const SLIDES: bool> Ground<'_, SLIDES> {"),
+            ("src/contact/springs.rs", "fn largest_stretch("),
+            ("src/contact/adhesive/run.rs", "pub fn attachment("),
+            ("src/contact/adhesive/run.rs", "pub fn holds_to("),
         ]),
         called_for: Case::is_adhesive,
         counted: |work| work.hess_evaluations,
@@ -51,7 +52,7 @@ pub const EFFECTS: &[Effect] = &[
     },
     Effect {
         name: "histogram",
-        lines: Lines::Of(&[("src/surface/histogram.rs", "pub fn new(")]),
+        lines: Lines::Of(&[("src/surface/line.rs", "pub fn new(heights: impl Iterator")]),
         called_for: Case::is_observed,
         counted: |work| work.heights_binned,
     },

@@ -35,7 +35,8 @@ pub fn kernel(case: &Case) -> Given {
         Class::RoughLoop | Class::AdhesiveLoop | Class::AdhesiveObserved => (rough(), &LOOP),
     };
     let (line, edges) = (&smooth_or_rough, case.edges);
-    let hess = case.is_adhesive().then(|| HessRule::new(FOUNDATION, WORK_OF_ADHESION));
+    let hess =
+        case.is_adhesive().then(|| HessRule::from_works(FOUNDATION, WORK_OF_ADHESION, WORK_OF_ADHESION));
     let mut body = Body::new(&Contact::new(Arc::clone(&line.gaps), edges, FOUNDATION, hess), SAMPLES);
     if !case.is_adhesive() {
         let history = run(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");

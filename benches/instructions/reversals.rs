@@ -53,7 +53,7 @@ pub fn run_as_child() -> bool {
     let foundation = Foundation::new(LENGTH, SPRINGS, EFFECTIVE_MODULUS);
     let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
     let work = RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa);
-    let hess = HessRule::new(foundation, work);
+    let hess = HessRule::from_works(foundation, work, work);
     let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
     let body = || Body::new(&Contact::new(Arc::clone(&line.gaps), edges, foundation, Some(hess)), SAMPLES);
     match part {

@@ -37,7 +37,7 @@ fn parse(text: &str) -> Result<MeasuredProfile, TopographyError> {
 }
 
 fn assert_points(profile: &MeasuredProfile) {
-    let (positions, heights) = (profile.positions(), profile.heights());
+    let (positions, heights) = (&profile.positions, &profile.heights);
     assert!(positions.len() >= 2 && positions.len() == heights.len());
     assert!(positions.iter().chain(heights).all(|value| value.is_finite()));
     assert!(positions.windows(2).all(|pair| pair[0] < pair[1]));
@@ -51,8 +51,8 @@ fn assert_points(profile: &MeasuredProfile) {
 
 fn assert_samples(profile: &MeasuredProfile) {
     let length = profile.length();
-    let (low, high) = ends(profile.heights());
-    let first = profile.heights()[0];
+    let (low, high) = ends(&profile.heights);
+    let first = profile.heights[0];
     let margin = 4.0 * f64::EPSILON * (high - low);
     for part in [1.0, 0.5, 1e-3] {
         for points in [1, 2, 7, 64] {
@@ -74,7 +74,7 @@ fn assert_samples(profile: &MeasuredProfile) {
     }
     // More memory than available, and a longer line than the profile, are refused without a try. Points at even
     // distances cover half a distance more at each end.
-    let points = profile.heights().len() as f64;
+    let points = profile.heights.len() as f64;
     let covered = length * (points / (points - 1.0));
     let refused =
         [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * covered + 1e-300, 2, 0.0)];

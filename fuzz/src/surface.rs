@@ -34,9 +34,9 @@ pub fn surface(bytes: &[u8]) {
     }
     // Additions of the user change nothing stated by the file.
     if let [first, second, ..] = &read[..] {
-        assert_eq!((first.format(), first.columns()), (second.format(), second.columns()));
+        assert_eq!((first.format, first.columns), (second.format, second.columns));
     }
-    if let Some(surface) = read.pop().filter(|surface| surface.heights().len() <= MOST_ANALYSED) {
+    if let Some(surface) = read.pop().filter(|surface| surface.heights.len() <= MOST_ANALYSED) {
         assert_analysis(surface);
     }
 }
@@ -49,8 +49,8 @@ fn assert_error(error: &TopographyError) {
 }
 
 fn assert_surface(surface: &Topography) {
-    let heights = surface.heights();
-    assert_eq!(heights.len(), surface.columns() * surface.rows());
+    let heights = &surface.heights;
+    assert_eq!(heights.len(), surface.columns * surface.rows());
     assert!(heights.len() >= 2 && surface.interpolated() <= heights.len());
     assert!(heights.iter().all(|height| height.abs() <= 1e9), "{heights:?}");
     if let Ok(spacing) = surface.spacing() {

@@ -151,7 +151,6 @@ impl Ladder<'_> {
         springs.into_iter().chain(step()).collect()
     }
 
-    /// Solves and times one setting.
     fn rung(&self, knob: Knob, setting: f64, scene: &Scene) -> Result<(Row, Solution), RunError> {
         let (mut runs, compared) = (Runs::new(self.folder, self.is_over), compared(scene));
         let is_step = knob == Knob::Step;

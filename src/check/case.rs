@@ -1,14 +1,15 @@
-//! A row of the catalogue of checks, and what its measurements share.
+//! A row of the catalogue of checks, and what its measurements share: rough profiles under adhesion, loaded through the front
+//! of the library.
 
-use super::body::{Body, Measured};
-use crate::scene::{Document, Edges, Scene};
+use crate::scene::{Document, Edges, Material, Move, Scene};
 use crate::simulation::Outcome;
+use crate::surface::{SelfAffine, phases};
+use crate::{Contact, Cycle, Profile};
+use std::error::Error;
+use std::f64::consts::{PI, TAU};
 
-/// Evidence: a closed form of the literature or of this model.
 pub(super) const CLOSED_FORM: &str = "closed form";
-/// Evidence: the same quantity from another computation.
 pub(super) const INDEPENDENT: &str = "independent computation";
-/// Evidence: a law for the result, such as mirror, scaling, memory or energy.
 pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 
 /// Input of a case and measurement of its error.
@@ -22,7 +23,6 @@ pub(super) enum Subject {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Name: words with hyphens.
     pub name: &'static str,
     /// Family: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of the rules.
     pub family: &'static str,
@@ -36,7 +36,6 @@ pub struct Case {
 }
 
 impl Case {
-    /// Creates a row of one of the tables.
     pub(super) const fn row(
         [family, evidence]: [&'static str; 2],
         [name, holds, error_of]: [&'static str; 3],
@@ -52,7 +51,6 @@ pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
 
-/// Returns the scene with another value of a field.
 pub(super) fn with(scene: &Scene, path: &str, value: f64) -> Measured<Scene> {
     Ok(Document::from_scene(scene, "check")?.set(path, &format!("{value:e}"))?.scene().clone())
 }
@@ -61,7 +59,6 @@ pub(super) fn outcome(scene: &Scene) -> Measured<Outcome> {
     Ok(crate::run(scene)?)
 }
 
-/// Returns an error unless `holds`.
 pub(super) fn ensure(holds: bool, what: impl FnOnce() -> String) -> Measured<()> {
     if holds { Ok(()) } else { Err(what().into()) }
 }
@@ -70,7 +67,6 @@ pub(super) fn relative_error(found: f64, expected: f64) -> f64 {
     (found / expected - 1.0).abs()
 }
 
-/// Returns the largest relative error of values from their expected ones.
 pub(super) fn relative_errors<const N: usize>(pairs: [(f64, f64); N]) -> Measured {
     largest(pairs.map(|(found, expected)| Ok(relative_error(found, expected))))
 }
@@ -81,4 +77,89 @@ pub(super) fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
         let error = error?;
         Ok(if error.is_nan() { f64::INFINITY } else { most.max(error) })
     })
+}
+
+/// Error of a case, or the reason why there is none.
+pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
+
+pub const RANDOM: u64 = 48;
+
+/// E* of random bodies, Pa; their length, m; and their rms height or largest height, m.
+const MODULUS: f64 = 2.0e6;
+const LENGTH: f64 = 1.0e-4;
+const HEIGHT: f64 = 1.0e-7;
+
+/// A rigid profile on an adhesive foundation: heights and length, m, effective modulus E*, Pa, and work of adhesion γ,
+/// J/m².
+#[derive(Clone, Debug)]
+pub struct Body {
+    pub heights: Vec<f64>,
+    pub length: f64,
+    pub modulus: f64,
+    pub work: f64,
+    pub edges: Edges,
+}
+
+impl Body {
+    /// Creates one of several kinds of profiles. The adhesion ranges from almost none to far more than that of full
+    /// contact; the seed determines the body everywhere.
+    pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
+        let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
+        let mut next = || numbers.next().unwrap_or(0.0);
+        let points = 20 + (300.0 * next()) as usize;
+        // γ for which the largest stretch of the whole profile is 1e−3 to 3 rms heights.
+        let reach = HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
+        let work = reach * reach * MODULUS / (PI * LENGTH);
+        let heights = match seed % 3 {
+            0 => {
+                let spectrum = SelfAffine {
+                    hurst: 0.1 + 0.8 * next(),
+                    first: 1,
+                    last: points as u64 / 2,
+                    roll_off: 0.0,
+                };
+                Profile::self_affine(spectrum, HEIGHT, LENGTH, points, seed)?.heights().collect()
+            }
+            1 => (0..points).map(|_| HEIGHT * next()).collect(),
+            _ => (0..points).map(|_| 0.25 * HEIGHT * (5.0 * next()).floor()).collect(),
+        };
+        Ok(Body { heights, length: LENGTH, modulus: MODULUS, work, edges })
+    }
+
+    /// Returns the height of the profile, m: its largest gap.
+    pub fn depth(&self) -> f64 {
+        let (least, most) =
+            self.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
+                (height.min(least), height.max(most))
+            });
+        most - least
+    }
+
+    /// Returns the largest stretch under the whole profile, eq. (10), m.
+    pub fn stretch(&self) -> f64 {
+        (PI * self.length * self.work / self.modulus).sqrt()
+    }
+
+    /// Returns a force of the order of the acting ones, N.
+    pub fn force_unit(&self) -> f64 {
+        self.modulus * self.length * (self.depth() + self.stretch())
+    }
+
+    /// Returns irregular indentations from just before separation to full contact, m.
+    pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
+        let (low, high) = (-0.9 * self.stretch(), 1.1 * self.depth() + 1e-3 * self.stretch());
+        let mut turns = phases(seed, 1).map(|phase| low + (high - low) * phase / TAU);
+        std::array::from_fn(|_| turns.next().unwrap_or(low))
+    }
+
+    /// Loads the separated body from indentation to indentation, and off it where it `separates`, with this number of
+    /// samples.
+    pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
+        let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
+        let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();
+        let profile = Profile::from_heights(&self.heights, self.length / self.heights.len() as f64)?;
+        let contact = Contact::builder(&profile, Material::effective(self.modulus));
+        let contact = contact.work_of_adhesion(self.work).edges(self.edges).samples(samples);
+        Ok(contact.build()?.load(&legs)?)
+    }
 }

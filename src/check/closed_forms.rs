@@ -1,8 +1,7 @@
 //! Bodies whose loop has a closed form.
 
-use super::body::Measured;
 use super::case::Subject::Scene as OfScene;
-use super::case::{CLOSED_FORM, Case, both, largest, outcome, relative_error, relative_errors};
+use super::case::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_error, relative_errors};
 use crate::reference::PowerLaw;
 use crate::scene::{Form, Scene};
 use std::f64::consts::PI;

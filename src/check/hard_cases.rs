@@ -1,11 +1,10 @@
 //! Input at the limits: far too much adhesion, ties, heights of any size, loads far beyond the
 //! roughness, and very many springs.
 
-use super::body::{Body, Measured};
 use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
-    CLOSED_FORM, Case, SELF_CONSISTENCY, both, ensure, largest, outcome, relative_error, relative_errors,
-    with,
+    Body, CLOSED_FORM, Case, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, relative_error,
+    relative_errors, with,
 };
 use super::laws::{end, only_scales};
 use crate::scene::{Edges, Move, Scene};

@@ -1,9 +1,10 @@
 //! Laws valid for every body: reversibility without adhesion, memory, energy, mirrors, scales, and the agreement of
 //! both solvers.
 
-use super::body::{Body, Measured};
 use super::case::Subject::{Bodies, Scene as OfScene};
-use super::case::{Case, INDEPENDENT, SELF_CONSISTENCY, both, ensure, largest, outcome, with};
+use super::case::{
+    Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with,
+};
 use crate::Cycle;
 use crate::contact::{CurvePoint, LegRecord, Patch};
 use crate::scene::{Edges, Scene, Solver};

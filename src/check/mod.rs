@@ -5,16 +5,14 @@
 //! stepwise solver, which applies the rules without tree and thresholds, or a law of every body. A row that cannot be
 //! computed fails with a sentence about the place.
 
-mod body;
 mod case;
 mod closed_forms;
 mod hard_cases;
 mod laws;
 
 use crate::scene::{Document, Edges, Scene};
-use body::{Body, Measured};
 pub use case::Case;
-use case::{Subject, largest};
+use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +27,10 @@ pub struct Verdict {
     pub check: Check,
     /// The error, or the reason why there is none.
     pub error: Result<f64, String>,
-    /// Time, s.
     pub seconds: f64,
 }
 
 impl Verdict {
-    /// Returns true if the case holds.
     pub fn passes(&self) -> bool {
         // NaN is not within any bound.
         self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
@@ -46,7 +42,6 @@ pub fn catalogue() -> Vec<Case> {
     [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
 }
 
-/// Returns all checks of the cases selected by `choose`.
 pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
     catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()
@@ -57,7 +52,7 @@ pub fn judge(check: Check) -> Verdict {
     let error = match check.case.subject {
         Subject::Scene(text, measure) => scene(text, edges).and_then(|scene| measure(&scene)),
         Subject::Bodies(measure) => {
-            largest((0..body::RANDOM).map(|seed| measure(&Body::random(seed, edges)?)))
+            largest((0..case::RANDOM).map(|seed| measure(&Body::random(seed, edges)?)))
         }
     };
     Verdict { check, error: error.map_err(|error| error.to_string()), seconds: clock.elapsed().as_secs_f64() }

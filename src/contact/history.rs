@@ -1,7 +1,9 @@
-//! Result of a loading history: its legs, their curves and the work counts.
+//! Loading histories: targets, the motion to a target, legs with their curves, patches and work counts.
 
-use super::{CurvePoint, Direction, Move, Patch};
-use serde::Serialize;
+use super::ContactError;
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+use std::ops::Range;
 
 /// Record of one leg.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +46,7 @@ impl LegRecord {
 
     /// A leg of a separated body that does not touch.
     pub(crate) fn free(target: Move, from: f64, to: f64) -> Self {
-        let [start, end] = [from, to].map(|indentation| CurvePoint { indentation, ..CurvePoint::default() });
+        let [start, end] = [from, to].map(CurvePoint::free);
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
@@ -72,18 +74,22 @@ impl LegRecord {
             LegRecord::insert(&mut curve, smallest);
             curve.reverse();
         }
-        let free = |indentation| CurvePoint { indentation, ..CurvePoint::default() };
         let [start, end] = [curve[0], curve[curve.len() - 1]];
         if before.springs == 0 && start.springs > 0 {
-            let points = [before, free(start.indentation)];
+            let points = [before, CurvePoint::free(start.indentation)];
             curve.splice(0..0, points.into_iter().skip(usize::from(before.indentation >= start.indentation)));
         }
         if after.springs == 0 && end.springs > 0 {
-            curve.push(free(end.indentation));
+            curve.push(CurvePoint::free(end.indentation));
             // The instrument, no longer deflected, moves the free body on.
             curve.extend(Some(after).filter(|after| after.indentation < end.indentation));
         }
         LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
+    }
+
+    /// The last point, unless the body is separated there.
+    pub(crate) fn end_in_contact(&self) -> Option<CurvePoint> {
+        self.curve.last().copied().filter(|point| point.springs > 0)
     }
 
     /// Indentation at the beginning, m.
@@ -146,9 +152,168 @@ pub struct Work {
 }
 
 impl Work {
-    /// Counts the springs of a leg of the loading.
     pub(crate) fn count(&mut self, leg: &LegRecord) {
         self.attached += leg.attached;
         self.detached += leg.detached;
     }
+}
+
+/// Direction of a leg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// The indentation grows.
+    Loading,
+    /// The indentation falls.
+    Unloading,
+}
+
+/// One point of a force curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurvePoint {
+    /// Indentation d, m; 0 at first touch.
+    pub indentation: f64,
+    /// Force F, N; compression positive.
+    pub force: f64,
+    /// Length in contact, m.
+    pub contact_length: f64,
+    /// Springs in contact.
+    pub springs: u64,
+    /// Contact fragments.
+    pub fragments: u64,
+    /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
+    pub stored_energy: f64,
+}
+
+impl CurvePoint {
+    /// A body that touches nothing at an indentation, m.
+    pub(crate) fn free(indentation: f64) -> Self {
+        CurvePoint { indentation, ..CurvePoint::default() }
+    }
+
+    /// Displacement D = d + F/k, m, of an instrument of this stiffness k, N/m, that holds the body here.
+    pub fn displacement(&self, stiffness: f64) -> f64 {
+        self.indentation + self.force / stiffness
+    }
+}
+
+/// A contact patch: springs in contact without a gap between them. In JSON the array `[first, last]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(into = "(usize, usize)")]
+pub struct Patch {
+    /// Index of the leftmost spring.
+    pub first: usize,
+    /// Index of the rightmost spring.
+    pub last: usize,
+}
+
+impl Patch {
+    /// Returns the indices of the springs.
+    pub fn springs(self) -> Range<usize> {
+        self.first..self.last + 1
+    }
+
+    /// Returns the spring in the middle.
+    pub fn middle(self) -> usize {
+        self.first + (self.last - self.first) / 2
+    }
+
+    /// Returns the patches of a line that is in contact or not spring by spring, from left to right.
+    pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
+        let mut patches: Vec<Patch> = Vec::new();
+        for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {
+            match patches.last_mut() {
+                Some(patch) if patch.last + 1 == spring => patch.last = spring,
+                _ => patches.push(Patch { first: spring, last: spring }),
+            }
+        }
+        patches
+    }
+}
+
+impl From<Patch> for (usize, usize) {
+    fn from(patch: Patch) -> (usize, usize) {
+        (patch.first, patch.last)
+    }
+}
+
+/// Target of a body: one loading stage.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Move {
+    /// Until the force first reaches this value, N (compression positive).
+    ToForce(f64),
+    /// To this indentation, m (0 at first touch).
+    ToIndentation(f64),
+    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, k the loading stiffness of the
+    /// contact. Of a rigid instrument D is the indentation.
+    ToDisplacement(f64),
+    /// To the indentation of first touch, d = 0.
+    ToTouch,
+    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
+    ToZeroForce,
+    /// To separation.
+    ToSeparation,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Goal {
+    Indentation(f64),
+    Force(f64),
+    /// A displacement of an instrument that is not rigid, m.
+    Displacement(f64),
+    /// The loss of the last contact, and the indentation of the body after it where it is given, m.
+    Separation(Option<f64>),
+}
+
+impl From<Move> for Goal {
+    fn from(target: Move) -> Self {
+        match target {
+            Move::ToIndentation(indentation) => Goal::Indentation(indentation),
+            Move::ToDisplacement(displacement) => Goal::Displacement(displacement),
+            Move::ToTouch => Goal::Indentation(0.0),
+            Move::ToForce(force) => Goal::Force(force),
+            Move::ToZeroForce => Goal::Force(0.0),
+            Move::ToSeparation => Goal::Separation(None),
+        }
+    }
+}
+
+/// Returns the direction and the end of the motion of a body at `here` to a target, with an instrument of this stiffness,
+/// N/m; `None` for a body that is there.
+pub(super) fn plan(
+    target: Move,
+    here: CurvePoint,
+    stiffness: f64,
+) -> Result<Option<(Direction, Goal)>, ContactError> {
+    let separated = here.springs == 0;
+    let goal = match Goal::from(target) {
+        // Nothing deflects a rigid instrument, nor any other before the touch.
+        Goal::Displacement(at) if stiffness.is_infinite() || separated && at < 0.0 => Goal::Indentation(at),
+        goal => goal,
+    };
+    let order = match goal {
+        Goal::Force(value) | Goal::Indentation(value) | Goal::Displacement(value) if !value.is_finite() => {
+            return Err(ContactError::NotFinite(value));
+        }
+        Goal::Force(force) if separated && force < 0.0 => return Err(ContactError::NothingToPull),
+        Goal::Force(_) if separated => Ordering::Greater,
+        Goal::Force(force) => order(force, here.force),
+        // A separated body at d = 0 has not touched yet.
+        Goal::Indentation(end) if separated && end >= 0.0 => Ordering::Greater,
+        Goal::Indentation(end) => order(end, here.indentation),
+        Goal::Displacement(_) if separated => Ordering::Greater,
+        Goal::Displacement(end) => order(end, here.displacement(stiffness)),
+        Goal::Separation(_) if separated => Ordering::Equal,
+        Goal::Separation(_) => Ordering::Less,
+    };
+    Ok(match order {
+        Ordering::Greater => Some((Direction::Loading, goal)),
+        Ordering::Less => Some((Direction::Unloading, goal)),
+        Ordering::Equal => None,
+    })
+}
+
+/// Order of finite numbers, in which −0 equals 0.
+fn order(a: f64, b: f64) -> Ordering {
+    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
 }

@@ -4,7 +4,6 @@
 
 use super::adhesive::{EdgeSum, Slider};
 use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
-use super::crossing::{bisect, crossing, last_before};
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 use std::rc::Rc;
@@ -51,22 +50,16 @@ impl Intervals {
         Intervals(ends.iter().map(of).collect())
     }
 
-    /// Lowest and highest indentation, m.
     pub fn ends(&self) -> (f64, f64) {
         (self.0[0].low.indentation, self.0[self.0.len() - 1].high.indentation)
     }
 
     /// Range of the intervals that reach up to `from` and begin below `to`, m.
-    fn between(&self, from: f64, to: f64) -> Range<usize> {
+    pub fn between(&self, from: f64, to: f64) -> Range<usize> {
         let first = self.0.partition_point(|interval| interval.high.indentation < from);
         let end = self.0.partition_point(|interval| interval.low.indentation < to);
         // A part without extent may end a rounding before it begins.
         first..end.max(first)
-    }
-
-    /// Returns true if an interval overlaps with the indentations from one up to another, m.
-    pub fn overlap(&self, from: f64, to: f64) -> bool {
-        !self.between(from, to).is_empty()
     }
 
     /// Adds springs or cells that carry from one indentation up to another, m.
@@ -80,7 +73,6 @@ impl Intervals {
         }
     }
 
-    /// Adds edge cells.
     pub fn add_piece(&mut self, piece: Piece) {
         let range = self.between(piece.from, piece.to);
         self.0[range].iter_mut().for_each(|interval| interval.pieces.push(piece));
@@ -115,7 +107,6 @@ impl Interval {
         }
     }
 
-    /// Lowest and highest indentation, m.
     fn ends(&self) -> (f64, f64) {
         (self.low.indentation, self.high.indentation)
     }
@@ -165,7 +156,6 @@ impl Interval {
             .map(|event| self.steady(event, event))
     }
 
-    /// The part between two contacts.
     fn between(&self, low: ContactState, high: ContactState) -> Self {
         let overlaps = |piece: &&Piece| piece.from <= high.indentation && piece.to > low.indentation;
         let pieces = self.pieces.iter().filter(overlaps).copied().collect();
@@ -242,5 +232,100 @@ impl Interval {
 impl Piece {
     fn is_at(&self, indentation: f64) -> bool {
         self.from <= indentation && indentation < self.to
+    }
+}
+
+/// Halvings of an interval in which a crossing or a flat place is searched: enough for any two numbers.
+const HALVINGS: usize = 2200;
+/// Guesses by interpolation before a crossing is halved down to neighbouring numbers.
+const GUESSES: usize = 20;
+
+/// The smallest number above `low`, up to `high`, for which `is_past` is true; `is_past(high)` is true.
+pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = low + 0.5 * (high - low);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if is_past(middle) { high = middle } else { low = middle }
+    }
+    high
+}
+
+/// The smallest number above `low`, up to `high`, at which `value`, which rises through zero once, is at least
+/// zero; at `low` it is below.
+pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let (low, high) = enclose(low, high, &value, |value| value >= 0.0);
+    bisect(low, high, |at| value(at) >= 0.0)
+}
+
+/// The largest number in `low..high` at which `value`, which rises through zero once, is at most zero; at `high` it is
+/// above.
+pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let (from, to) = enclose(low, high, &value, |value| value > 0.0);
+    bisect(from, to, |at| value(at) > 0.0).next_down().max(low)
+}
+
+/// Narrows an interval by interpolation: its lower end remains before the crossing and its upper end past it.
+///
+/// The value at an end that has stayed is halved (the Illinois rule), so that both ends move; an interval that narrows
+/// slowly is halved as well.
+fn enclose(
+    mut low: f64,
+    mut high: f64,
+    value: &impl Fn(f64) -> f64,
+    is_past: impl Fn(f64) -> bool,
+) -> (f64, f64) {
+    let (mut below, mut above) = (value(low), value(high));
+    let mut stayed = 0_i32;
+    for guess in 0..GUESSES {
+        let middle = low + 0.5 * (high - low);
+        let between = high - above * ((high - low) / (above - below));
+        let at = if guess % 4 != 3 && between > low && between < high { between } else { middle };
+        if at <= low || at >= high {
+            break;
+        }
+        let found = value(at);
+        if is_past(found) {
+            (high, above) = (at, found);
+            if stayed > 0 {
+                below *= 0.5;
+            }
+            stayed = 1;
+        } else {
+            (low, below) = (at, found);
+            if stayed < 0 {
+                above *= 0.5;
+            }
+            stayed = -1;
+        }
+    }
+    (low, high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    /// Zeros are found to the last place, in far fewer evaluations in total than the fifty-odd of halving.
+    #[test]
+    fn a_rising_zero_is_found_in_few_evaluations() {
+        let evaluations = Cell::new(0);
+        let mut zeros = 0;
+        for root in (1..100).map(|k| f64::from(k) / 100.0) {
+            for bend in [0.0, 1.0, 10.0] {
+                let value = |at: f64| {
+                    evaluations.set(evaluations.get() + 1);
+                    (at - root) * (1.0 + bend * (at + 0.5))
+                };
+                let found = crossing(-0.5, 1.0, value);
+                assert!(value(found) >= 0.0 && value(found.next_down()) < 0.0);
+                let before = last_before(-0.5, 1.0, value);
+                assert!(value(before) <= 0.0 && value(before.next_up()) > 0.0);
+                zeros += 2;
+            }
+        }
+        assert!(evaluations.get() <= 40 * zeros, "{} evaluations for {zeros} zeros", evaluations.get());
     }
 }

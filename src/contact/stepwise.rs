@@ -4,24 +4,26 @@
 //! the sums with the exact solver.
 
 use super::adhesive::EdgeCells;
-use super::contact_state::ContactState;
-use super::goal::{Goal, plan};
-use super::grid::Grid;
+use super::contact_state::{ContactState, Grid};
+use super::history::{Goal, plan};
 use super::{
-    Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Solver, Work, resized,
+    Contact, ContactError, ContactTotals, CurvePoint, Direction, Leg, LegRecord, Move, STEP_LIMIT, Solver,
+    Work,
 };
-use crate::contact::Move;
-
-/// Most steps of one motion.
-pub const STEP_LIMIT: u64 = 10_000_000;
+use crate::memory::resized;
 
 /// A body moved by small steps and relaxed after each.
+#[derive(Clone)]
 pub struct Stepwise<'a> {
     contact: &'a Contact,
     step: f64,
     samples: usize,
     stop: &'a dyn Fn() -> bool,
-    state: State,
+    direction: Direction,
+    indentation: f64,
+    totals: ContactTotals,
+    /// Σ e² over the springs detached, less that over the springs attached, on the present leg, m².
+    squared_stretch: f64,
     /// True for each spring in contact.
     holds: Vec<bool>,
     /// Indentation at which each spring attached or detached on the present leg, m.
@@ -29,21 +31,9 @@ pub struct Stepwise<'a> {
     work: Work,
 }
 
-#[derive(Clone, Copy)]
-struct State {
-    direction: Direction,
-    indentation: f64,
-    totals: ContactTotals,
-    /// Σ e² over the springs detached, less that over the springs attached, on the present leg, m².
-    squared_stretch: f64,
-}
-
 impl<'a> Stepwise<'a> {
     /// Creates a separated body of whole springs, moved by steps of `step` m. `stop` returns true after a step to end
     /// the run.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub fn new(
         contact: &'a Contact,
         step: f64,
@@ -51,13 +41,15 @@ impl<'a> Stepwise<'a> {
         stop: &'a dyn Fn() -> bool,
     ) -> Result<Self, ContactError> {
         let springs = contact.gaps().len();
-        let totals = ContactTotals::default();
         Ok(Stepwise {
             contact,
             step,
             samples: samples.max(2),
             stop,
-            state: State { direction: Direction::Loading, indentation: 0.0, totals, squared_stretch: 0.0 },
+            direction: Direction::Loading,
+            indentation: 0.0,
+            totals: ContactTotals::default(),
+            squared_stretch: 0.0,
             holds: resized(Vec::new(), springs, false)?,
             thresholds: resized(Vec::new(), springs, f64::INFINITY)?,
             work: Work { springs: springs as u64, ..Work::default() },
@@ -72,15 +64,15 @@ impl<'a> Stepwise<'a> {
         self.thresholds[index] = at;
         let spring = ContactTotals::of_patch(&[gap], false, self.contact.springs.scale());
         let squared_stretch = (gap - at).max(0.0).powi(2);
-        self.state.totals += if attaches { spring } else { -spring };
-        self.state.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };
+        self.totals += if attaches { spring } else { -spring };
+        self.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };
     }
 
     /// Sweeps until no spring touches and no fragment grows.
     fn relax_loading(&mut self) {
-        let (gaps, at) = (self.contact.gaps(), self.state.indentation);
+        let (gaps, at) = (self.contact.gaps(), self.indentation);
         loop {
-            let before = self.state.totals.springs;
+            let before = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             self.work.spring_updates += gaps.len() as u64;
             for (index, &gap) in gaps.iter().enumerate() {
@@ -91,7 +83,7 @@ impl<'a> Stepwise<'a> {
             if self.contact.hess.is_some() {
                 self.grow_fragments();
             }
-            if self.state.totals.springs == before {
+            if self.totals.springs == before {
                 return;
             }
         }
@@ -99,7 +91,7 @@ impl<'a> Stepwise<'a> {
 
     /// Extends each fragment over its neighbours as long as the rule allows.
     fn grow_fragments(&mut self) {
-        let (gaps, at) = (self.contact.gaps(), self.state.indentation);
+        let (gaps, at) = (self.contact.gaps(), self.indentation);
         let mut first = 0;
         while let Some(start) = (first..gaps.len()).find(|&index| self.holds[index]) {
             let (mut start, mut end) = (start, start + 1);
@@ -119,9 +111,9 @@ impl<'a> Stepwise<'a> {
 
     /// Sweeps until every fragment holds its most stretched spring.
     fn relax_unloading(&mut self, held_until: f64) {
-        let (gaps, at) = (self.contact.gaps(), self.state.indentation);
+        let (gaps, at) = (self.contact.gaps(), self.indentation);
         loop {
-            let held = self.state.totals.springs;
+            let held = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             let mut first = 0;
             while first < gaps.len() {
@@ -136,24 +128,23 @@ impl<'a> Stepwise<'a> {
                 }
                 first = end + 1;
             }
-            if self.state.totals.springs == held {
+            if self.totals.springs == held {
                 return;
             }
         }
     }
 
     fn point(&self) -> CurvePoint {
-        let State { indentation, totals, .. } = self.state;
         let fragments = self.holds.chunk_by(PartialEq::eq).filter(|run| run[0]).count();
-        let totals = ContactTotals { fragments: fragments as i64, ..totals };
+        let totals = ContactTotals { fragments: fragments as i64, ..self.totals };
         let edges = EdgeCells::default();
-        let state = ContactState::new(false, indentation, totals, edges, &self.contact.springs.scale());
+        let state = ContactState::new(false, self.indentation, totals, edges, &self.contact.springs.scale());
         state.point(self.contact.foundation)
     }
 
     /// Refuses a motion that certainly takes more steps than allowed, before its first step.
     fn check_steps(&self, direction: Direction, goal: Goal) -> Result<(), ContactError> {
-        let start = self.state.indentation;
+        let start = self.indentation;
         let end = match goal {
             Goal::Indentation(end) => end,
             // No spring is compressed by more than the indentation, and any patch holds the highest point to the stretch
@@ -168,21 +159,16 @@ impl<'a> Stepwise<'a> {
             return Err(ContactError::OutOfReach);
         }
         // From separation the first step is the touch.
-        let start = if self.state.totals.springs == 0 { start.max(0.0) } else { start };
+        let start = if self.totals.springs == 0 { start.max(0.0) } else { start };
         let way = if direction == Direction::Loading { end - start } else { start - end };
-        if way / self.step > STEP_LIMIT as f64 { Err(self.too_many_steps()) } else { Ok(()) }
+        if way / self.step > STEP_LIMIT as f64 { Err(ContactError::TooManySteps(self.step)) } else { Ok(()) }
     }
 
-    fn too_many_steps(&self) -> ContactError {
-        ContactError::TooManySteps { step: self.step, limit: STEP_LIMIT }
-    }
-
-    /// Steps to the goal.
     fn walk(&mut self, target: Move, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
         for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
             *threshold = if holds { f64::NEG_INFINITY } else { f64::INFINITY };
         }
-        (self.state.direction, self.state.squared_stretch) = (direction, 0.0);
+        (self.direction, self.squared_stretch) = (direction, 0.0);
         let here = self.point();
         let [mut smallest, mut largest] = [here; 2];
         let loads = direction == Direction::Loading;
@@ -194,12 +180,12 @@ impl<'a> Stepwise<'a> {
                 return Err(ContactError::Interrupted);
             }
             if steps > STEP_LIMIT {
-                return Err(self.too_many_steps());
+                return Err(ContactError::TooManySteps(self.step));
             }
-            let held_until = self.state.indentation;
+            let held_until = self.indentation;
             let moved = steps as f64 * self.step;
             let wanted = if loads { origin + moved } else { origin - moved };
-            self.state.indentation = match goal {
+            self.indentation = match goal {
                 Goal::Indentation(end) if loads => wanted.min(end),
                 Goal::Indentation(end) => wanted.max(end),
                 _ => wanted,
@@ -228,10 +214,10 @@ impl<'a> Stepwise<'a> {
             }
         }
         // The sum counts detachments.
-        let squared = if loads { -self.state.squared_stretch } else { self.state.squared_stretch };
+        let squared = if loads { -self.squared_stretch } else { self.squared_stretch };
         let (leg, end) = (self.leg(), self.point());
         let (low, high) = (origin.min(end.indentation), origin.max(end.indentation));
-        let curve = leg.curve(Grid::new(low, high, self.samples - 1).points())?;
+        let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
         let record = LegRecord::moved(
             (target, leg.direction()),
             curve,
@@ -251,22 +237,20 @@ impl Solver for Stepwise<'_> {
         match plan(target, here, f64::INFINITY)? {
             None => Ok(LegRecord::still(target, here)),
             Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
-                self.state.indentation = end;
+                self.indentation = end;
                 Ok(LegRecord::free(target, here.indentation, end))
             }
             Some((direction, goal)) => {
                 self.check_steps(direction, goal)?;
-                let before = (self.state, self.holds.clone(), self.thresholds.clone());
-                self.walk(target, direction, goal).inspect_err(|_| {
-                    (self.state, self.holds, self.thresholds) = before;
-                })
+                let before = self.clone();
+                let walked = self.walk(target, direction, goal);
+                walked.inspect_err(|_| *self = Stepwise { work: self.work, ..before })
             }
         }
     }
 
     fn leg(&self) -> Leg {
-        let State { direction, indentation, .. } = self.state;
-        Leg::of_thresholds(self.contact, direction, indentation, self.thresholds.clone())
+        Leg::of_thresholds(self.contact, self.direction, self.indentation, self.thresholds.clone())
     }
 
     fn work(&self) -> Work {

@@ -7,8 +7,7 @@
 //! inside it, which keeps every digit for any slope and any indentation.
 
 use super::adhesive::Slider;
-use super::contact_state::{ContactState, Tally};
-use super::grid::Grid;
+use super::contact_state::{ContactState, Grid, Tally};
 use super::interval::{Intervals, Piece};
 use super::totals::{ContactTotals, GapScale};
 use super::{Contact, ContactError, Edges};
@@ -26,16 +25,14 @@ pub struct Thresholds<'a> {
 }
 
 impl<'a> Thresholds<'a> {
-    /// Creates the contact of these springs, whose thresholds are in m.
     pub fn new(contact: &'a Contact, thresholds: &'a [f64]) -> Self {
         let slides = contact.edges == Edges::SubCell;
         Thresholds { gaps: contact.gaps(), thresholds, slides, scale: contact.springs.scale() }
     }
 
-    /// Contact along a grid.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut tally = Tally::new(grid, self.slides)?;
-        let never = tally.grid.points().len();
+        let never = tally.grid.points.len();
         let (mut first, mut place_before) = (0, never);
         // Neighbouring springs that touch between the same two points are summed together.
         while let Some(&threshold) = self.thresholds.get(first) {

@@ -20,19 +20,16 @@ impl Default for GapScale {
 /// Gaps below 2^62 quanta fit an `i64`, and 2^28 of them an `i128`.
 const GAP_BITS: i32 = 62;
 
-/// 2^GAP_BITS.
-const GAP_RANGE: f64 = (1_u64 << GAP_BITS) as f64;
-
 /// Largest exponent of the scale, so that scale and quantum are both normal numbers.
 const LARGEST_SCALE_EXPONENT: i32 = 1000;
 
 impl GapScale {
     /// Scale for gaps up to `largest` (m, finite, at least zero).
     pub fn for_gaps_up_to(largest: f64) -> Self {
-        let exponent =
-            if largest > 0.0 { GAP_BITS - exponent_above(largest) } else { LARGEST_SCALE_EXPONENT };
-        let exponent = exponent.min(LARGEST_SCALE_EXPONENT);
-        GapScale { quanta_per_metre: power_of_two(exponent), quantum: power_of_two(-exponent) }
+        // The smallest power of two above the largest gap, which may be zero.
+        let (_, above) = libm::frexp(largest.max(f64::MIN_POSITIVE));
+        let exponent = (GAP_BITS - above).min(LARGEST_SCALE_EXPONENT);
+        GapScale { quanta_per_metre: libm::ldexp(1.0, exponent), quantum: libm::ldexp(1.0, -exponent) }
     }
 
     /// A gap in quanta, rounded down.
@@ -45,17 +42,6 @@ impl GapScale {
     pub fn quantum(&self) -> f64 {
         self.quantum
     }
-}
-
-/// Smallest e with 2^e > `value`, for a positive finite value.
-fn exponent_above(value: f64) -> i32 {
-    let biased = ((value.to_bits() >> 52) & 0x7ff) as i32;
-    // Subnormal numbers all lie below 2^-1022.
-    biased.max(1) - 1022
-}
-
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
 /// Bits of squared quanta that a sum of squares leaves out: 2^28 squares then fit an `i128`.
@@ -195,7 +181,7 @@ impl SquareScale {
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let GapScale { mut quanta_per_metre, mut quantum } = scale;
         let mut coarser = 0;
-        while largest * quanta_per_metre >= 2.0 * GAP_RANGE {
+        while largest * quanta_per_metre >= (1_u64 << (GAP_BITS + 1)) as f64 {
             (quanta_per_metre, quantum, coarser) = (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
         }
         SquareScale { quanta_per_metre, quantum, coarser }
@@ -221,5 +207,44 @@ impl SquareScale {
     /// Sum of squares, m².
     pub fn in_metres(&self, squares: i128) -> f64 {
         squares as f64 * self.quantum * self.quantum * f64::from(1 << SQUARE_BITS)
+    }
+}
+
+/// Sum that keeps its rounding errors (Neumaier): error below 2u |Σ t| + O(n u²) Σ |t|.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CompensatedSum {
+    value: f64,
+    error: f64,
+}
+
+impl CompensatedSum {
+    #[inline]
+    pub fn add(&mut self, term: f64) {
+        let sum = self.value + term;
+        let added = sum - self.value;
+        self.error += (self.value - (sum - added)) + (term - added);
+        self.value = sum;
+    }
+
+    pub fn total(self) -> f64 {
+        self.value + self.error
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Small numbers added to a large one, which is then subtracted, are kept.
+        #[test]
+        fn a_sum_keeps_its_rounding_errors(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
+            let large = 2.0_f64.powi(power);
+            let mut sum = CompensatedSum::default();
+            (0..count).for_each(|_| [small, large, small].into_iter().for_each(|term| sum.add(term)));
+            sum.add(-large * f64::from(count));
+            prop_assert!((sum.total() / (2.0 * f64::from(count) * small) - 1.0).abs() < 1e-9, "{:?}", sum);
+        }
     }
 }

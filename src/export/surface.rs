@@ -45,11 +45,11 @@ pub struct SurfaceFile {
 impl SurfaceFile {
     /// Facts of a surface with evenly spaced points; lengths of others are 0.
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
-        let points = [surface.columns(), surface.rows()];
+        let points = [surface.columns, surface.rows()];
         let spacing = surface.spacing().unwrap_or_default();
         let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
-        let (name, interpolated) = (surface.name().to_owned(), surface.interpolated());
-        SurfaceFile { path, name, format: surface.format(), points, lengths, interpolated }
+        let (name, interpolated) = (surface.name.clone(), surface.interpolated());
+        SurfaceFile { path, name, format: surface.format, points, lengths, interpolated }
     }
 }
 

@@ -1,7 +1,5 @@
 //! From a scene to its force curve: the stages, their selection by the scene, and their results.
 
-mod error;
-mod loading;
 mod outcome;
 mod plan;
 pub(crate) mod reach;
@@ -9,8 +7,7 @@ mod reversals;
 mod roughness;
 mod stages;
 
-pub use error::RunError;
-pub use outcome::{LineFacts, Outcome, Timings};
+pub use outcome::{LineFacts, Outcome, RunError, Timings};
 pub use plan::{Plan, PlannedStage, Stage};
 pub(crate) use reversals::FEW_SAMPLES;
 pub use reversals::{SeeReversal, TURNING_POINTS};

@@ -187,10 +187,8 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
     };
     let hess = when(adhesive, "adhesion", "no adhesion: nothing is stretched");
     let observed = |effect: Effect, field| when(effect.is_on(scene), field, "not in observe");
-    let (fragments, histogram) = (
-        observed(Effect::Fragments, "observe: Fragments"),
-        observed(Effect::HeightHistogram, "observe: HeightHistogram"),
-    );
+    let fragments = observed(Effect::Fragments, "observe: Fragments");
+    let histogram = observed(Effect::HeightHistogram, "observe: HeightHistogram");
     let (touch, touch_bytes) = if exact { ((Some(2), springs), 0) } else { (each_stage, RELAXED * springs) };
     vec![
         row(Stage::Form, form, once, 0),

@@ -99,9 +99,6 @@ impl Simulation {
 
     /// Compares minor loops between the same two indentations, one on the way back from the first loading there and one
     /// on the way back from the deepest turning point of a map, for `levels` upper and as many lower indentations.
-    ///
-    /// # Errors
-    /// Errors of [`Simulation::run`].
     pub fn minor_loops(
         &mut self,
         scene: &Scene,
@@ -130,8 +127,7 @@ impl Simulation {
         let loss = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
         let loops = outcome.history.legs.chunks_exact(9);
         // A loop with separation is no minor loop.
-        let holds = |leg: &LegRecord| leg.curve.last().is_some_and(|point| point.springs > 0);
-        let minor = loops.filter(|legs| holds(&legs[1]));
+        let minor = loops.filter(|legs| legs[1].end_in_contact().is_some());
         let pairs: Vec<_> = minor.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect();
         Ok(MinorLoops::new(&pairs, deepest.dissipated_energy))
     }

@@ -48,32 +48,18 @@ pub(super) struct Rough {
 /// Maker of heights, with what serves several of them.
 #[derive(Default)]
 pub(super) struct RoughnessMaker {
-    folder: PathBuf,
+    /// Folder of the files of the scenes.
+    pub folder: PathBuf,
     /// A measured surface in place of the scenes' files.
     pub measured: Option<Arc<MeasuredRoughness>>,
     /// The equivalent line of the last files: it is small, and serves all seeds.
-    equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, Arc<MeasuredRoughness>)>,
+    pub equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, Arc<MeasuredRoughness>)>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
     pub phases_drawn: u64,
 }
 
 impl RoughnessMaker {
-    /// Creates a maker for files in a folder, or for a measured surface in memory.
-    pub fn new(folder: PathBuf, measured: Option<Arc<MeasuredRoughness>>) -> Self {
-        RoughnessMaker { folder, measured, ..RoughnessMaker::default() }
-    }
-
-    /// Folder of the files of the scenes.
-    pub fn folder(&self) -> &Path {
-        &self.folder
-    }
-
-    /// Releases the memory of former roughness.
-    pub fn emptied(self) -> Self {
-        RoughnessMaker::new(self.folder, self.measured)
-    }
-
     /// Returns the parameters of the roughness of a scene; `None` without roughness.
     pub fn key(&self, scene: &Scene) -> Option<RoughnessKey> {
         let points = scene.numerics.points as usize;
@@ -90,9 +76,6 @@ impl RoughnessMaker {
     }
 
     /// Makes heights and their known values; synthesised ones in this memory.
-    ///
-    /// # Errors
-    /// An unreadable measured surface, waves that do not fit the points, insufficient memory.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         let RoughnessKey { ref source, seed, points, shift } = key;
         let (faces, options, length) = match source {

@@ -1,25 +1,24 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
-use super::loading::load;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{
     Figures, Governing, InstrumentFigures, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number,
 };
-use crate::contact::{Contact, ContactError, ContactTree, Foundation, Leg, LegRecord, Patch, Springs, Work};
-use crate::memory::check_room;
+use crate::contact::{
+    Body, Contact, ContactError, ContactTree, Foundation, History, Leg, LegRecord, Patch, Solver, Springs,
+    Stepwise, Work, run,
+};
+use crate::memory::{check_room, emptied};
 use crate::reference::smooth_adhesion_force;
-use crate::scene::{Edges, Form, Scene};
+use crate::scene::{Edges, Form, Move, Scene, Solver as SolverChoice};
 use crate::surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
 use std::mem::take;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Bins of the height histogram.
 const HISTOGRAM_BINS: usize = 64;
-/// Error of a stage before its profile.
-const NO_PROFILE: ContactError = ContactError::Internal("the profile of the scene has not been made");
 /// Factor of the memory of the next run above which that of former ones is released.
 const MOST_SPARE: u64 = 4;
 /// Bytes that are always kept.
@@ -40,7 +39,6 @@ pub struct Simulation {
     line: Option<(LineKey, Line)>,
     /// Histogram of the heights of the profile, once observed.
     histogram: Option<Histogram>,
-    /// Springs of the profile.
     springs: Arc<Springs>,
     /// Memory of the tree of a former profile.
     former_tree: ContactTree,
@@ -48,7 +46,6 @@ pub struct Simulation {
     kept: u64,
 }
 
-/// Parameters of the profile.
 #[derive(Clone, PartialEq)]
 struct LineKey {
     roughness: Option<RoughnessKey>,
@@ -75,7 +72,7 @@ pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), Contact
 impl Simulation {
     /// A simulation with measured profiles in `folder`.
     pub fn new(folder: PathBuf) -> Self {
-        Simulation { maker: RoughnessMaker::new(folder, None), ..Simulation::default() }
+        Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
     }
 
     /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the profile in
@@ -117,7 +114,7 @@ impl Simulation {
         let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough.and_then(|rough| rough.modes);
         if let Some(form) = &scene.form {
-            form.load(self.maker.folder(), length)?;
+            form.load(&self.maker.folder, length)?;
         }
         let key = LineKey { roughness, scale, length, points, form: scene.form.clone() };
         if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
@@ -125,7 +122,9 @@ impl Simulation {
             self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
             self.line = Some((key, line));
         }
-        let Some((_, line)) = &self.line else { return Err(NO_PROFILE.into()) };
+        let Some((_, line)) = &self.line else {
+            return Err(ContactError::Internal("the profile of the scene has not been made").into());
+        };
         let facts = LineFacts {
             points,
             length,
@@ -157,22 +156,21 @@ impl Simulation {
         {
             self.roughen(scene, of, take(&mut memory))?;
         }
-        let form = scene.form.as_ref();
-        let line = match &mut self.roughness {
-            Some(rough) if self.single => Line::from_roughness(take(&mut rough.heights), length, form, scale),
-            rough => {
-                let heights = rough.as_ref().map(|rough| rough.heights.as_slice());
-                Line::new_in(memory, length, points, form, heights, scale)
-            }
-        };
-        Ok(line?)
+        if let Some(rough) = self.roughness.as_mut().filter(|_| self.single) {
+            memory = take(&mut rough.heights);
+        } else {
+            memory = emptied(memory, points).map_err(SurfaceError::from)?;
+            let heights = self.roughness.as_ref().map_or(&[][..], |rough| &rough.heights);
+            memory.extend_from_slice(heights);
+            memory.resize(points, 0.0);
+        }
+        Ok(Line::from_roughness(memory, length, scene.form.as_ref(), scale)?)
     }
 
     /// Makes the heights of a roughness; synthesised ones in this memory.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
-        let points = scene.numerics.points as usize;
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Plan::of(scene).line_bytes()).map_err(|_| SurfaceError::OutOfMemory(points))?;
+        check_room(Plan::of(scene).line_bytes()).map_err(SurfaceError::from)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
             self.maker.synthesizer = Synthesizer::default();
@@ -183,16 +181,15 @@ impl Simulation {
     /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
     /// of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
-        let Some((_, line)) = &self.line else { return Err(NO_PROFILE) };
         let memory = take(&mut self.former_tree);
         if plan.runs(Stage::Tree) {
             self.springs.tree_in(memory, edges)?;
         }
-        if !plan.runs(Stage::HeightHistogram) || self.histogram.is_some() {
-            return Ok(0);
-        }
+        let line = self.line().filter(|_| plan.runs(Stage::HeightHistogram) && self.histogram.is_none());
+        let Some(line) = line else { return Ok(0) };
+        let binned = line.gaps.len() as u64;
         self.histogram = Some(Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS));
-        Ok(line.gaps.len() as u64)
+        Ok(binned)
     }
 
     /// Checks the memory of a run before any allocation: kept memory counts, and is released if it is far too large
@@ -209,9 +206,9 @@ impl Simulation {
         Ok(())
     }
 
-    /// Releases the memory of earlier runs.
     fn give_back(&mut self) {
-        let maker = take(&mut self.maker).emptied();
+        let RoughnessMaker { folder, measured, .. } = take(&mut self.maker);
+        let maker = RoughnessMaker { folder, measured, ..RoughnessMaker::default() };
         *self = Simulation { single: self.single, maker, ..Simulation::default() };
     }
 
@@ -247,9 +244,6 @@ impl Simulation {
     }
 
     /// Contact of a checked scene before its loading, and its governing parameters.
-    ///
-    /// # Errors
-    /// Insufficient memory or an unreadable measured profile.
     pub(crate) fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Plan::of(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
@@ -278,8 +272,8 @@ impl Simulation {
                 return Err(ContactError::Interrupted);
             }
             if plan.runs(Stage::Fragments) {
-                let end = record.curve.last().filter(|point| point.springs > 0);
-                let patches = end.map_or_else(Vec::new, |end| leg.patches(end.indentation));
+                let patches =
+                    record.end_in_contact().map_or_else(Vec::new, |end| leg.patches(end.indentation));
                 fragments.push(patches.into_iter().map(on_foundation).collect());
             }
             stage += 1;
@@ -315,5 +309,57 @@ impl Simulation {
             histogram: self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned(),
             timings,
         })
+    }
+}
+
+/// Loads a contact with the solver of the scene and, if F_a(0) is requested, turned at first touch and at zero force.
+/// Returns the history, and F_a(0) by both protocols, N, where the contact pulls.
+fn load(
+    scene: &Scene,
+    contact: &Contact,
+    zero_load: bool,
+    timings: &mut Timings,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<(History, [Option<f64>; 2]), ContactError> {
+    let samples = scene.numerics.samples as usize;
+    let mut forces = [None; 2];
+    match scene.numerics.solver {
+        SolverChoice::Stepwise { step } => {
+            let body = |samples| Stepwise::new(contact, step, samples, stop);
+            let mut solver = body(samples)?;
+            let mut history = run(&mut solver, &scene.loading, see)?;
+            timings.curve = solver.curve_seconds();
+            if zero_load {
+                let clock = Instant::now();
+                for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
+                    let turned = match run(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
+                        Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
+                        // A turn out of reach of the steps has no F_a(0).
+                        Err(_) => continue,
+                        Ok(turned) => turned,
+                    };
+                    *force = Figures::of(&turned).adhesion_force;
+                    let work = &mut history.work;
+                    work.steps += turned.work.steps;
+                    work.relaxation_sweeps += turned.work.relaxation_sweeps;
+                    work.spring_updates += turned.work.spring_updates;
+                }
+                timings.zero_load = clock.elapsed().as_secs_f64();
+            }
+            Ok((history, forces))
+        }
+        SolverChoice::Exact => {
+            let mut body = Body::new(contact, samples);
+            let mut history = run(&mut body, &scene.loading, see)?;
+            timings.curve = body.curve_seconds();
+            if zero_load && contact.has_adhesion() {
+                let clock = Instant::now();
+                forces = body.zero_load_adhesion()?;
+                history.work = body.work();
+                timings.zero_load = clock.elapsed().as_secs_f64();
+            }
+            Ok((history, forces))
+        }
     }
 }

@@ -1,15 +1,12 @@
 //! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
-use super::Detrend;
-use super::error::SpectrumError;
-use super::fit::Model;
-use super::isotropic::{End, IsotropicSpectrum, LineMoments};
+use super::fit::{Model, PowerLaw, fit_power_law};
+use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
 use super::observation::{self, Observation};
 use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
-use super::power_law::{self, PowerLaw};
-use super::reliability::reliability_cutoff;
-use super::statistics::{Statistics, Sums};
-use crate::topography::{self, Place, Topography};
+use super::statistics::{Statistics, Sums, reliability_cutoff};
+use super::{Detrend, SpectrumError};
+use crate::topography::{self, Place, Topography, TopographyError};
 use std::f64::consts::{PI, TAU};
 
 /// Fewest points along a row, and rows of a map.
@@ -102,15 +99,15 @@ struct Powers {
 /// [`SpectrumError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
 pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, SpectrumError> {
     if surfaces.is_empty() {
-        return Err(SpectrumError::Nothing);
+        return Err(SpectrumError::new("no surface; allowed: at least one"));
     }
     let mut sums = Sums::default();
     // Only the longest scans hold the height of the line, and only the finest ones its gradient.
     let (mut of_longest, mut of_finest) = ((0.0, Sums::default()), (0.0, Sums::default()));
     let mut reliability: Option<f64> = None;
     let powers = Powers::of(surfaces, options, 0, |surface, heights, distances| {
-        let columns = surface.columns();
-        check_rough(surface.heights(), heights)?;
+        let columns = surface.columns;
+        check_rough(&surface.heights, heights)?;
         sums.add(heights, columns, distances);
         let scan = columns as f64 * distances[0];
         for ((most, sums), size) in [(&mut of_longest, scan), (&mut of_finest, 1.0 / distances[0])] {
@@ -135,16 +132,19 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
     {
-        return Err(SpectrumError::End { to, last: range[1] });
+        return Err(SpectrumError::new(format!(
+            "the spectrum continues up to q = {to:e} rad/m; allowed: above the last resolved wave, q = {:e} rad/m",
+            range[1]
+        )));
     }
     let fitted = |observations: &[Observation], end: End| {
-        Model::new(observations, range, end).fit().ok_or(SpectrumError::NoMaximum)
+        Model::new(observations, range, end).fit().ok_or_else(SpectrumError::no_maximum)
     };
     let self_affine = |observations: &[Observation], spectrum: &IsotropicSpectrum| {
         // The powers of the last waves depend on how the spectrum ends.
         let last = if ends_inside { range[1] - BEFORE_END * range[0] } else { f64::INFINITY };
         let before: Vec<_> = observations.iter().filter(|one| one.wave_number < last).cloned().collect();
-        power_law::fit(&Model::new(&before, range, options.end), spectrum)
+        fit_power_law(&Model::new(&before, range, options.end), spectrum)
     };
     let mut isotropic = fitted(&observations, options.end)?;
     let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
@@ -169,7 +169,9 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     if options.end == End::Ends && !ends_inside {
         // Without such a fit nothing is known of the missing waves.
         let change = |longer: IsotropicSpectrum| {
-            let (within, all) = (isotropic.changes(&longer.until(range[1])), isotropic.changes(&longer));
+            let within = Nodes { end: range[1], ..longer.nodes };
+            let within = IsotropicSpectrum { nodes: within, ..longer.clone() };
+            let (within, all) = (isotropic.changes(&within), isotropic.changes(&longer));
             [0, 1, 2].map(|index| within[index].abs().max(all[index].abs()))
         };
         let longer = fitted(&observations, End::Continues(CONTINUED * range[1]));
@@ -181,10 +183,10 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         let height = Some(of_longest.1.statistics().rms_height).filter(|_| !is_levelled);
         isotropic.check_identities(height, &of_finest.1.statistics());
     }
-    let line = isotropic.line_moments();
+    let line = line_moments(std::slice::from_ref(&isotropic));
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
-        return Err(SpectrumError::NoMaximum);
+        return Err(SpectrumError::no_maximum());
     }
     Ok(Analysis {
         statistics: sums.statistics(),
@@ -207,7 +209,10 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
     let left = largest(after);
-    if left > 1e-12 * largest(before) && left > 1e-100 { Ok(()) } else { Err(SpectrumError::Smooth) }
+    if left > 1e-12 * largest(before) && left > 1e-100 {
+        return Ok(());
+    }
+    Err(SpectrumError::new("no roughness is left after detrending; allowed: heights that differ"))
 }
 
 impl Powers {
@@ -221,17 +226,15 @@ impl Powers {
     ) -> Result<Powers, SpectrumError> {
         let mut powers = Powers::default();
         for (index, surface) in surfaces.iter().enumerate() {
-            let refused = |error| SpectrumError::Surface { index, error };
-            let (columns, rows) = (surface.columns(), surface.rows());
+            let refused =
+                |error: TopographyError| SpectrumError { surface: Some(index), ..SpectrumError::new(error) };
+            let (columns, rows) = (surface.columns, surface.rows());
             let distances = surface.spacing().map_err(refused)?;
             let points = if rows > 1 { columns.min(rows) } else { columns };
             if points < LEAST_POINTS {
                 let fault = format!("{points} points along an axis");
-                return Err(refused(topography::refused(
-                    Place::File,
-                    fault,
-                    format!("at least {LEAST_POINTS}"),
-                )));
+                let allowed = format!("at least {LEAST_POINTS}");
+                return Err(refused(topography::refused(Place::File, fault, allowed)));
             }
             let mut heights = surface.copied_heights(quarters).map_err(refused)?;
             let periodic = options.periodic || surface.periodic;

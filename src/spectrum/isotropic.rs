@@ -204,13 +204,11 @@ pub struct IsotropicSpectrum {
 
 impl IsotropicSpectrum {
     /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
-    #[must_use]
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }
 
     /// PSD of the equivalent line, m³, at a wave number, rad/m: q C2D/2.
-    #[must_use]
     pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
@@ -226,7 +224,6 @@ impl IsotropicSpectrum {
     }
 
     /// First and last wave number, rad/m.
-    #[must_use]
     pub fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
     }
@@ -290,7 +287,7 @@ impl IsotropicSpectrum {
     /// Adds to the errors of the method what the rms height and gradient of the line depart from a height, if it is known, and
     /// the gradient of the measured points by more than three standard errors, as for a spike under the window.
     pub(super) fn check_identities(&mut self, height: Option<f64>, measured: &Statistics) {
-        let resolved = self.line_moments();
+        let resolved = line_moments(std::slice::from_ref(self));
         let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
         let departure = |moment: Moment, least: f64, most: f64| {
             let beyond = (least - moment.value).max(moment.value - most);
@@ -303,16 +300,6 @@ impl IsotropicSpectrum {
         for (error, departure) in self.method.iter_mut().zip([height, height.max(gradient), gradient]) {
             *error = error.hypot(departure);
         }
-    }
-
-    /// The spectrum up to a wave number, rad/m.
-    pub(super) fn until(&self, end: f64) -> IsotropicSpectrum {
-        IsotropicSpectrum { nodes: Nodes { end, ..self.nodes }, ..self.clone() }
-    }
-
-    /// Moments of the equivalent line, with waves from half the first wave number on.
-    pub(crate) fn line_moments(&self) -> LineMoments {
-        line_moments(std::slice::from_ref(self))
     }
 }
 
@@ -371,7 +358,7 @@ mod tests {
     fn moments_of_a_power_law_are_those_of_its_integrals() {
         // C2D = q⁻³ from 1 on, constant below.
         let spectrum = known(Nodes::new(1.0, 100.0, 6.0, End::Ends), |q| q.powi(-3));
-        let moments = spectrum.line_moments();
+        let moments = line_moments(std::slice::from_ref(&spectrum));
         // ∫ q C2D from ½ to 1 is 3/8, from 1 to 100 it is 1 − 1/100.
         let expected = ((0.375 + 0.99) / (2.0 * PI)).sqrt();
         assert!((moments.rms_height.value / expected - 1.0).abs() < 1e-8, "{moments:?}");
@@ -409,11 +396,11 @@ mod tests {
         assert_eq!(spectrum.drawn(7, 1.0), spectrum.drawn(7, 1.0));
         assert_eq!(spectrum.drawn(7, 0.0), spectrum);
         assert_ne!(spectrum.drawn(7, 1.0).values, spectrum.drawn(8, 1.0).values);
-        let stated = spectrum.line_moments();
+        let stated = line_moments(std::slice::from_ref(&spectrum));
         let draws = 4000;
         let (mut mean, mut square) = ([0.0; 3], [0.0; 3]);
         for number in 0..draws {
-            let drawn = spectrum.drawn(number, 1.0).line_moments();
+            let drawn = line_moments(&[spectrum.drawn(number, 1.0)]);
             let logarithms = [
                 drawn.rms_gradient.value / stated.rms_gradient.value,
                 drawn.height_gradient.value / stated.height_gradient.value,

@@ -14,23 +14,47 @@
 //! h² = (1/2π) ∫₀^∞ q C2D dq. Steps are described in `docs/surfaces.md`.
 
 mod analysis;
-mod detrend;
-mod error;
 mod fit;
 mod isotropic;
 mod linear;
 mod observation;
 mod periodogram;
-mod power_law;
-mod reliability;
 mod statistics;
 
+pub use crate::topography::Detrend;
 pub use analysis::{Analysis, Options, analyse};
-pub use detrend::Detrend;
-pub use error::SpectrumError;
+pub use fit::PowerLaw;
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
 pub(crate) use linear::slope;
 pub use periodogram::{Bin, Direction, line_spectrum};
-pub use power_law::PowerLaw;
 pub use statistics::Statistics;
+
+use crate::memory::OutOfMemory;
+use thiserror::Error;
+
+/// Reason why surfaces are not analysed.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{reason}")]
+pub struct SpectrumError {
+    /// Index of the refused surface, from 0, if it is one.
+    pub(crate) surface: Option<usize>,
+    reason: String,
+}
+
+impl SpectrumError {
+    fn new(reason: impl ToString) -> Self {
+        SpectrumError { surface: None, reason: reason.to_string() }
+    }
+
+    fn no_maximum() -> Self {
+        let fault = "the likelihood has no maximum: heights without noise or with few digits";
+        SpectrumError::new(format!("{fault}; allowed: measured heights"))
+    }
+}
+
+impl From<OutOfMemory> for SpectrumError {
+    fn from(error: OutOfMemory) -> Self {
+        SpectrumError::new(error)
+    }
+}

@@ -23,11 +23,9 @@ const MOST_ALIASES: u32 = 4;
 /// Mean power of the waves of a band.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Observation {
-    /// Wave number, rad/m.
     pub wave_number: f64,
     /// Mean power: C1D in m³ or C2D in m⁴.
     pub power: f64,
-    /// Number of independent waves.
     pub waves: f64,
     /// Range of wave numbers: the power times this range times q^p is a share of the moment of the equivalent line.
     pub range: f64,
@@ -204,7 +202,7 @@ fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::isotropic::{End, known};
+    use super::super::isotropic::{End, known, line_moments};
     use super::*;
 
     fn mean(terms: &[Term], values: &[f64]) -> f64 {
@@ -275,7 +273,7 @@ mod tests {
                     }
                 }
             }
-            let moments = spectrum.line_moments();
+            let moments = line_moments(std::slice::from_ref(&spectrum));
             let ratios = [
                 moments.rms_height.value / (sums[0] / PI).sqrt(),
                 moments.rms_gradient.value / (sums[1] / PI).sqrt(),

@@ -1,6 +1,6 @@
 //! Periodograms: power of each wave of a profile or a map.
 
-use super::error::SpectrumError;
+use super::SpectrumError;
 use crate::memory::{check_room, emptied};
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
@@ -159,9 +159,8 @@ impl MapPower {
         let rows = heights.len() / columns;
         let half = columns / 2 + 1;
         let points = heights.len();
-        let out_of_memory = |_| SpectrumError::OutOfMemory(points);
-        check_room(48 * points as u64).map_err(out_of_memory)?;
-        let mut coefficients: Vec<Complex64> = emptied(Vec::new(), half * rows).map_err(out_of_memory)?;
+        check_room(48 * points as u64)?;
+        let mut coefficients: Vec<Complex64> = emptied(Vec::new(), half * rows)?;
         let in_rows = heights.chunks_exact(columns).map(|row| row.iter().copied());
         transform(in_rows, columns, windowed, |row| coefficients.extend_from_slice(row))?;
         let steps = [TAU / (columns as f64 * along), TAU / (rows as f64 * between)];
@@ -171,8 +170,7 @@ impl MapPower {
         let mut scratch = vec![Complex64::ZERO; plan.get_inplace_scratch_len()];
         let mut column = vec![Complex64::ZERO; rows];
         let row_window = window(rows, windowed);
-        let mut waves = Vec::new();
-        waves.try_reserve_exact(half * rows).map_err(out_of_memory)?;
+        let mut waves = emptied(Vec::new(), half * rows)?;
         let mut axes = [0, 1].map(|_| AxisPower::default());
         let reach = if windowed { 1.0 } else { 0.0 };
         let levelled = if aligned { reach as usize + 1 } else { 0 };
@@ -237,7 +235,7 @@ fn transform(
             *value = height * weight;
         }
         plan.process_with_scratch(&mut input, &mut output, &mut scratch)
-            .map_err(|error| SpectrumError::Transform(error.to_string()))?;
+            .map_err(|error| SpectrumError::new(format!("the Fourier transform failed: {error}")))?;
         each(&output);
     }
     Ok(())

@@ -137,7 +137,7 @@ impl<'p> Recorder<'p> {
         if heights {
             // Without the form, which is the same on all profiles.
             let (line, ..) = self.simulation.make_line(&Scene { form: None, ..nonadhesive.clone() })?;
-            record = ProfileRecord::of_gaps(&line.gaps, line.deepest());
+            record = ProfileRecord::of_gaps(&line.gaps, line.deepest);
         }
         if stiffness {
             record.exponents = self.exponents(&nonadhesive)?;

@@ -1,8 +1,7 @@
 //! The rigid profile as the input of the contact: gaps below its highest point.
 
 use super::{Form, SurfaceError};
-use crate::memory;
-use std::ops::Range;
+use crate::memory::{gathered, resized};
 use std::sync::Arc;
 
 /// The rigid profile above springs at x = (i + ½)Δx.
@@ -20,7 +19,8 @@ pub struct Line {
     pub spacing: f64,
     /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
     pub summit: f64,
-    deepest: f64,
+    /// Largest gap, m.
+    pub deepest: f64,
 }
 
 impl Line {
@@ -38,62 +38,34 @@ impl Line {
         roughness: Option<&[f64]>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        Line::new_in(Vec::new(), length, points, form, roughness, scale)
-    }
-
-    /// The same profile with the gaps in this memory.
-    ///
-    /// # Errors
-    /// Errors of [`Line::new`].
-    pub fn new_in(
-        memory: Vec<f64>,
-        length: f64,
-        points: usize,
-        form: Option<&Form>,
-        roughness: Option<&[f64]>,
-        scale: f64,
-    ) -> Result<Self, SurfaceError> {
-        let under = springs_under(form, length, points)?;
-        let mut heights =
-            memory::emptied(memory, under.len()).map_err(|_| SurfaceError::OutOfMemory(points))?;
-        match roughness {
-            Some(rough) => heights.extend_from_slice(&rough[under.clone()]),
-            None => heights.resize(under.len(), 0.0),
-        }
-        Line::over(heights, under.start, length, points, form, scale)
+        let heights = match roughness {
+            Some(rough) => gathered(points, rough.iter().copied())?,
+            None => resized(Vec::new(), points, 0.0)?,
+        };
+        Line::from_roughness(heights, length, form, scale)
     }
 
     /// The same for a form and roughness, whose memory becomes that of the gaps.
-    pub(crate) fn from_roughness(
-        mut heights: Vec<f64>,
-        length: f64,
-        form: Option<&Form>,
-        scale: f64,
-    ) -> Result<Self, SurfaceError> {
-        let points = heights.len();
-        let under = springs_under(form, length, points)?;
-        heights.truncate(under.end);
-        heights.drain(..under.start);
-        Line::over(heights, under.start, length, points, form, scale)
-    }
-
-    /// The profile of a form and of roughness, `gaps` before, of the springs from a first one on.
-    fn over(
+    pub fn from_roughness(
         mut gaps: Vec<f64>,
-        first: usize,
         length: f64,
-        points: usize,
         form: Option<&Form>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let spacing = length / points as f64;
+        let (points, spacing) = (gaps.len(), length / gaps.len() as f64);
+        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        if under.is_empty() {
+            return Err(SurfaceError::NoSprings(spacing / 4.0));
+        }
+        let first = under.start as usize;
+        gaps.truncate(under.end as usize);
+        gaps.drain(..first);
         match form {
             None => gaps.iter_mut().for_each(|z| *z *= scale),
             Some(form) => {
                 // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
                 let axis = Form::spring_on_axis(points as u64) as f64;
-                let depths = form.table().map(|table| table.depths(spacing, points / 2 + 1)).transpose();
-                let depths = depths.map_err(|_| SurfaceError::OutOfMemory(points))?;
+                let depths = form.table().map(|table| table.depths(spacing, points / 2 + 1)).transpose()?;
                 let depth = |index: usize| match &depths {
                     Some(depths) => depths[index.abs_diff(points / 2)],
                     None => form.mdr_profile((index as f64 - axis) * spacing),
@@ -122,31 +94,14 @@ impl Line {
     }
 
     /// Position x, m, of the `index`-th spring under the body.
-    #[must_use]
     pub fn position(&self, index: usize) -> f64 {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
     /// Height of the lowest point, m.
-    #[must_use]
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
     }
-
-    /// Largest gap, m.
-    #[must_use]
-    pub fn deepest(&self) -> f64 {
-        self.deepest
-    }
-}
-
-/// Springs under a form, at least one.
-fn springs_under(form: Option<&Form>, length: f64, points: usize) -> Result<Range<usize>, SurfaceError> {
-    let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
-    if under.is_empty() {
-        return Err(SurfaceError::NoSprings(length / points as f64 / 4.0));
-    }
-    Ok(under.start as usize..under.end as usize)
 }
 
 /// Largest value; `Err(index)` of the first non-finite value.
@@ -167,6 +122,32 @@ fn largest(values: &[f64]) -> Result<f64, usize> {
         return Err(values.iter().position(|value| !value.is_finite()).unwrap_or(0));
     }
     Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
+}
+
+/// Counts of heights in equal bins from the lowest to the highest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Histogram {
+    /// Lower end of the first bin, m.
+    pub low: f64,
+    /// Upper end of the last bin, m.
+    pub high: f64,
+    /// Number of heights in each bin.
+    pub counts: Vec<u64>,
+}
+
+impl Histogram {
+    /// Counts `heights` (m, finite) into `bins` bins between `low` and `high`, ends included; heights outside are
+    /// omitted. For a range of zero width all are in the first bin.
+    pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {
+        let mut counts = vec![0; bins.max(1)];
+        let last = counts.len() - 1;
+        let scale = counts.len() as f64 / (high - low);
+        for height in heights.filter(|height| (low..=high).contains(height)) {
+            // The conversion to an integer maps NaN, 0/0 here, to zero.
+            counts[(((height - low) * scale) as usize).min(last)] += 1;
+        }
+        Histogram { low, high, counts }
+    }
 }
 
 #[cfg(test)]
@@ -262,11 +243,20 @@ mod tests {
                 let expected = rough.iter().copied().fold(0.0, f64::max);
                 let line = Line::new(1.0, points, None, Some(&rough), 1.0).unwrap();
                 assert_eq!((line.summit, line.gaps[bad]), (expected, expected - rough[bad]));
-                assert_eq!(line.deepest(), line.gaps.iter().copied().fold(0.0, f64::max));
+                assert_eq!(line.deepest, line.gaps.iter().copied().fold(0.0, f64::max));
                 rough[bad..].fill(f64::NAN);
                 let result = Line::new(1.0, points, None, Some(&rough), 1.0);
                 assert_eq!(result, Err(SurfaceError::NotFinite(bad)));
             }
         }
+    }
+
+    #[test]
+    fn counts_every_height_once() {
+        let heights = [0.0, 0.1, 0.49, 0.5, 0.99, 1.0];
+        let histogram = Histogram::new(heights.into_iter(), 0.0, 1.0, 2);
+        assert_eq!(histogram.counts, [3, 3]);
+        assert_eq!(Histogram::new([2.0; 5].into_iter(), 2.0, 2.0, 3).counts, [5, 0, 0]);
+        assert_eq!(Histogram::new([f64::NAN, -1.0].into_iter(), 0.0, 1.0, 3).counts, [0; 3]);
     }
 }

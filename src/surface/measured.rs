@@ -1,10 +1,14 @@
-//! Measured profiles used as the line themselves.
+//! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
 
 use super::{Amplitude, SurfaceError};
-use crate::memory::{check_room, emptied};
-use crate::spectrum::{Detrend, Options};
-use crate::topography::{ReadOptions, TopographyError, UNEVEN, first_uneven, interpolated, parse};
+use crate::memory::{OutOfMemory, check_room, gathered};
+use crate::spectrum::{Analysis, Detrend, IsotropicSpectrum, LineMoments, Options, analyse, line_moments};
+use crate::topography::{
+    ReadOptions, TopographyError, UNEVEN, content, first_uneven, interpolated, parse, parse_all,
+};
 use realfft::RealFftPlanner;
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
 const TRANSFORM_BYTES: u64 = 96;
@@ -27,16 +31,15 @@ pub struct MeasuredOptions {
 /// from its first to its last point, and on request, if equally spaced, half a distance more at both ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
-    positions: Vec<f64>,
-    heights: Vec<f64>,
+    /// Positions x, m, ascending; at least two.
+    pub positions: Vec<f64>,
+    /// Heights z, m, as measured: one for each position.
+    pub heights: Vec<f64>,
 }
 
 impl MeasuredProfile {
     /// Reads a profile, or a row or column of a map, from the content of a file. Detrending requires equally spaced
     /// points.
-    ///
-    /// # Errors
-    /// [`TopographyError`] if the content is no profile.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -47,25 +50,11 @@ impl MeasuredProfile {
         Ok(MeasuredProfile { positions, heights })
     }
 
-    /// Positions x, m, ascending; at least two.
-    #[must_use]
-    pub fn positions(&self) -> &[f64] {
-        &self.positions
-    }
-
-    /// Heights z, m, as measured: one for each position.
-    #[must_use]
-    pub fn heights(&self) -> &[f64] {
-        &self.heights
-    }
-
     /// Length covered, m.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.cell().map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
     }
 
-    /// Distance from the first to the last point, m.
     fn span(&self) -> f64 {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
@@ -98,15 +87,12 @@ impl MeasuredProfile {
     /// Amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the profile on its own
     /// length with its end joined to its beginning: if the ends do not meet, the straight line between them is
     /// subtracted first, because a step has energy in every wave and a tilt has none.
-    ///
-    /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
-        let out_of_memory = || SurfaceError::OutOfMemory(points);
-        check_room(TRANSFORM_BYTES * points as u64).map_err(|_| out_of_memory())?;
-        let mut heights = self.sample(self.length(), points, 0.0).map_err(|_| out_of_memory())?;
+        check_room(TRANSFORM_BYTES * points as u64)?;
+        let begins = self.begins(self.length()).unwrap_or(self.positions[0]);
+        let mut heights = self.heights_from(begins, self.length() / points as f64, points, 0.0)?;
         let curvature = rms_curvature(&heights, self.length() / points as f64);
         join_ends(&mut heights);
         let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
@@ -118,10 +104,8 @@ impl MeasuredProfile {
             (mode, exponentials * (coefficient / points as f64).norm_sqr())
         });
         let of_modes = Amplitude::from_modes(squares, self.length());
-        let mean_wave_number = match of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2) {
-            mean if mean.is_finite() => mean,
-            _ => 0.0,
-        };
+        let mean = of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2);
+        let mean_wave_number = if mean.is_finite() { mean } else { 0.0 };
         Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 
@@ -135,12 +119,20 @@ impl MeasuredProfile {
         let begins = self.begins(length).map_err(|covers| {
             format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
         })?;
-        let mut heights =
-            emptied(Vec::new(), points).map_err(|_| format!("not enough memory for {points} points"))?;
-        let places =
-            (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * (length / points as f64));
-        heights.extend(interpolated(&self.positions, &self.heights, self.level(), places));
-        Ok(heights)
+        let heights = self.heights_from(begins, length / points as f64, points, shift);
+        heights.map_err(|error| error.to_string())
+    }
+
+    /// Heights, m, at the centres of cells of this width from a position on, m, displaced by `shift` cells.
+    fn heights_from(
+        &self,
+        begins: f64,
+        cell: f64,
+        points: usize,
+        shift: f64,
+    ) -> Result<Vec<f64>, OutOfMemory> {
+        let places = (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * cell);
+        gathered(points, interpolated(&self.positions, &self.heights, self.level(), places))
     }
 
     /// Position, m, of the beginning of a line of a length, m; the error is the covered length, m.
@@ -187,9 +179,143 @@ fn join_ends(heights: &mut [f64]) {
     (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
+/// Relative excess of a wavelength over the scan that counts as rounding.
+const ROUNDING: f64 = 1.0e-9;
+
+/// Files of a face with their content: samples of one roughness.
+pub type Face = Vec<(PathBuf, Vec<u8>)>;
+
+/// Reads the files of one or both faces.
+pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
+    let read = |path: &PathBuf| match content(path) {
+        Ok(content) => Ok((path.clone(), content)),
+        Err(error) => Err(SurfaceError::measured(path, &error)),
+    };
+    faces.iter().map(|face| face.iter().map(read).collect()).collect()
+}
+
+impl MeasuredOptions {
+    pub(crate) fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
+        let (mut surfaces, mut files) = (Vec::new(), Vec::new());
+        for (path, content) in face {
+            let read =
+                parse_all(content, &self.reading).map_err(|error| SurfaceError::measured(path, &error))?;
+            files.resize(files.len() + read.len(), path);
+            surfaces.extend(read);
+        }
+        analyse(&surfaces, &self.spectrum).map_err(|error| {
+            let file = files.get(error.surface.unwrap_or(0));
+            SurfaceError::measured(file.map_or(Path::new(""), |path| path), &error)
+        })
+    }
+}
+
+/// A measured surface as the roughness of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeasuredRoughness {
+    /// The profile itself.
+    Profile(MeasuredProfile),
+    /// The equivalent line.
+    Equivalent(EquivalentLine),
+}
+
+impl MeasuredRoughness {
+    pub(crate) fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+        match faces {
+            [face] if options.as_line.is_some() && face.len() == 1 => {
+                let (path, content) = &face[0];
+                let profile = MeasuredProfile::new(content, options);
+                let profile = profile.map_err(|error| SurfaceError::measured(path, &error))?;
+                Ok(MeasuredRoughness::Profile(profile))
+            }
+            _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
+        }
+    }
+}
+
+/// Equivalent line of the measured surfaces of one or both faces: the spectra of the faces add.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquivalentLine {
+    pub(crate) faces: Vec<IsotropicSpectrum>,
+}
+
+impl EquivalentLine {
+    /// Analyses the surfaces in the files of all faces.
+    ///
+    /// # Errors
+    /// [`SurfaceError::File`] for a face without a file, and for a file that holds no surface or has no spectrum.
+    pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+        let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
+        Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
+    }
+
+    /// Equivalent line of spectra moved by a share of steps drawn from the uncertainty of their fits; equal numbers
+    /// have equal steps.
+    pub(crate) fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
+        let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
+            // Faces are independent of each other.
+            spectrum.drawn(number ^ face.rotate_right(1), share)
+        };
+        EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
+    }
+
+    /// Moments of the line, over the waves known of all faces, with their standard errors.
+    pub fn moments(&self) -> LineMoments {
+        line_moments(&self.faces)
+    }
+
+    /// PSD of the line, m³, at a wave number, rad/m: the sum of those of the faces.
+    pub(crate) fn power(&self, wave_number: f64) -> f64 {
+        self.faces.iter().map(|face| face.line(wave_number)).sum()
+    }
+
+    /// First and last wave number, rad/m, known of all faces. Each spectrum ends at its own limit.
+    pub(crate) fn range(&self) -> [f64; 2] {
+        let ranges = self.faces.iter().map(IsotropicSpectrum::range);
+        ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
+    }
+
+    /// First and last mode k, q = 2πk/L, of a line of a length (m) on `points` springs: the waves of the spectrum
+    /// that fit the line and are resolved by the springs. Waves longer than the scan are unknown and omitted.
+    pub(crate) fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
+        let [low, high] = self.range();
+        let waves = length / TAU;
+        let first = (low * waves * (1.0 - ROUNDING)).ceil().max(1.0);
+        let last = (high * waves * (1.0 + ROUNDING)).floor().min((points / 2) as f64);
+        if first > last {
+            return Err(format!(
+                "no wave of the spectrum, from {:e} to {:e} m, fits on length = {length:e} m with numerics.points = \
+                 {points}; allowed: at least 2 springs for each of at least one wave",
+                TAU / high,
+                TAU / low
+            ));
+        }
+        Ok((first as u64, last as u64))
+    }
+
+    /// Amplitude A_k, m, of a mode of a line of a length (m): A_k² = 4 C_line(q_k)/L.
+    pub(crate) fn amplitude(&self, mode: u64, length: f64) -> f64 {
+        let wave_number = TAU * mode as f64 / length;
+        let power = |face: &IsotropicSpectrum| {
+            // A wave may exceed the end by rounding.
+            let end = face.range()[1];
+            face.line(if wave_number <= end * (1.0 + ROUNDING) { wave_number.min(end) } else { wave_number })
+        };
+        2.0 * (self.faces.iter().map(power).sum::<f64>() / length).sqrt()
+    }
+
+    /// Amplitude of the modes from a first to a last one on a length (m).
+    pub(crate) fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
+        let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
+        // Starts with the smallest amplitudes.
+        Amplitude::from_modes((first..=last).rev().map(squares), length)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spectrum::{End, Moment, Options};
     use crate::topography::{ReadOptions, Unit};
     use std::f64::consts::TAU;
 
@@ -267,7 +393,7 @@ mod tests {
         // From the first point on.
         assert_eq!(profile.sample(2.0, 4, 0.0).unwrap(), [6.5, 5.5, 4.5, 3.5]);
         assert_eq!(
-            (profile.positions(), profile.heights()),
+            (&profile.positions[..], &profile.heights[..]),
             (&[-2.0, 0.0, 1.0, 4.0][..], &[7.0, 3.0, 6.0, 0.0][..])
         );
     }
@@ -308,6 +434,67 @@ mod tests {
             assert!(square > 0.0 || (height, gradient) == (0.0, 0.0), "{text}");
         }
         let level = parsed("0 1e9\n1 1e9").unwrap();
-        assert_eq!((level.heights(), level.length()), (&[1e9, 1e9][..], 1.0));
+        assert_eq!((&level.heights[..], level.length()), (&[1e9, 1e9][..], 1.0));
+    }
+
+    fn face() -> Face {
+        let height =
+            |i: u32| (0..120).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
+        let text: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
+        vec![(PathBuf::new(), format!("x [um] z [nm]\n{text}").into_bytes())]
+    }
+
+    fn continued() -> MeasuredOptions {
+        let spectrum = Options { end: End::Continues(TAU / 0.5e-6), ..Options::default() };
+        MeasuredOptions { spectrum, ..MeasuredOptions::default() }
+    }
+
+    fn line_with(options: &MeasuredOptions) -> EquivalentLine {
+        EquivalentLine::new(&[face()], options).unwrap()
+    }
+
+    #[test]
+    fn the_line_has_the_waves_that_scan_and_springs_resolve() {
+        let line = line_with(&MeasuredOptions::default());
+        let scan = 256e-6;
+        assert_eq!(line.modes(scan, 1024).unwrap(), (1, 127));
+        assert_eq!(line.modes(scan, 64).unwrap(), (1, 32));
+        assert_eq!(line.modes(4.0 * scan, 4096).unwrap().0, 4);
+        assert!(line.modes(scan, 1).unwrap_err().contains("allowed: at least 2 springs"));
+        assert!(line.modes(1e-6, 64).unwrap_err().contains("no wave of the spectrum"));
+        let further = continued();
+        let longer = line_with(&further);
+        assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));
+    }
+
+    #[test]
+    fn spectra_of_two_faces_add() {
+        let further = continued();
+        let one = line_with(&MeasuredOptions::default());
+        let other = line_with(&further);
+        let faces = |one: &EquivalentLine, other: &EquivalentLine| EquivalentLine {
+            faces: [one.faces.as_slice(), &other.faces].concat(),
+        };
+        let both = faces(&one, &other);
+        let length = 256e-6;
+        assert_eq!(both.modes(length, 4096).unwrap(), (1, 512));
+        for mode in [1, 127, 128, 512] {
+            let [a, b, sum] = [&one, &other, &both].map(|line| line.amplitude(mode, length).powi(2));
+            assert!((sum - a - b).abs() <= 1e-12 * sum && sum > 0.0, "{mode}: {a} {b} {sum}");
+            assert_eq!(a == 0.0, mode > 127, "{mode}");
+        }
+        // Also moments, over the waves common to both scans.
+        let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
+        let squares = |a: Moment, b: Moment, sum: Moment| {
+            assert!((sum.value.powi(2) / (a.value.powi(2) + b.value.powi(2)) - 1.0).abs() < 1e-12, "{sum:?}");
+            let error = (a.value * a.error).hypot(b.value * b.error) / sum.value;
+            assert!((sum.error / error - 1.0).abs() < 1e-9, "{sum:?} {error}");
+        };
+        squares(one.rms_height, other.rms_height, both.rms_height);
+        squares(one.rms_gradient, other.rms_gradient, both.rms_gradient);
+        let energies = [one, other, both].map(|moments| moments.energy_per_modulus);
+        assert!((energies[2].value / (energies[0].value + energies[1].value) - 1.0).abs() < 1e-12);
+        assert!((energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9);
+        assert!(EquivalentLine::new(&[Vec::new()], &further).is_err());
     }
 }

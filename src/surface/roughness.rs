@@ -1,7 +1,6 @@
 //! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse real Fourier transform.
 
-use super::modes::Modes;
-use super::phases::phases;
+use super::modes::{Modes, phases};
 use super::{SelfAffine, SurfaceError};
 use crate::memory;
 use crate::parallel::in_parallel;
@@ -35,9 +34,8 @@ impl Transform {
     fn planned(points: usize) -> Result<Self, SurfaceError> {
         let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
         let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
-        let out_of_memory = |_| SurfaceError::OutOfMemory(points);
-        let coefficients = zeros(points / 2 + 1).map_err(out_of_memory)?;
-        let scratch = zeros(plan.get_scratch_len()).map_err(out_of_memory)?;
+        let coefficients = zeros(points / 2 + 1)?;
+        let scratch = zeros(plan.get_scratch_len())?;
         Ok(Transform { points, plan, coefficients, scratch })
     }
 }
@@ -45,9 +43,6 @@ impl Transform {
 impl Synthesizer {
     /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs, in `memory`:
     /// heights at x = (i + ½ − `shift`)L/N.
-    ///
-    /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -99,10 +94,9 @@ impl Synthesizer {
         memory: Vec<f64>,
         draw: impl FnOnce(usize, &mut [Complex64]),
     ) -> Result<Vec<f64>, SurfaceError> {
-        let out_of_memory = |_| SurfaceError::OutOfMemory(points);
         let kept = self.transform.take().filter(|kept| kept.points == points);
         let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
-        let mut heights = memory::resized(memory, points, 0.0).map_err(out_of_memory)?;
+        let mut heights = memory::resized(memory, points, 0.0)?;
 
         let coefficients = transform.coefficients.as_mut_slice();
         let nyquist = 2 * last == points as u64;
@@ -135,9 +129,6 @@ impl SelfAffine {
     ///
     /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same profile, to
     /// the rounding of the transform.
-    ///
-    /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::Transform`].
     pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {
         Synthesizer::default().synthesize(self, seed, points, 0.0, Vec::new())
     }

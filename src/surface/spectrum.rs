@@ -1,7 +1,7 @@
-//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), and its mean squares.
+//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), its mean squares, and amplitudes of profiles.
 
-use super::Amplitude;
 use crate::contact::CompensatedSum;
+use std::f64::consts::TAU;
 
 /// Terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the others.
 const DIRECT_TERMS: u64 = 64;
@@ -27,7 +27,6 @@ pub struct SelfAffine {
 impl SelfAffine {
     /// Amplitude of mode k in units of that of mode 1 without a roll-off.
     #[inline]
-    #[must_use]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
         let decay = mode.max(self.roll_off).powf(self.amplitude_exponent());
@@ -49,7 +48,6 @@ impl SelfAffine {
     /// A_k²), the sums over the modes of the profile.
     ///
     /// Finite sums of positive terms: H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
-    #[must_use]
     pub fn gradient_per_height(&self, length: f64) -> f64 {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
@@ -152,6 +150,67 @@ fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
     }
     let growth = if s == 0.0 { ratio } else { (s * ratio).exp_m1() / s };
     low.powf(s) * growth
+}
+
+/// Roughness amplitude of a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amplitude {
+    /// Root mean square height h, m.
+    pub rms_height: f64,
+    /// Root mean square gradient ⟨∇z⟩.
+    pub rms_gradient: f64,
+    /// Root mean square curvature, 1/m.
+    pub rms_curvature: f64,
+    /// Mean wave number Σ q_k A_k²/Σ A_k², rad/m; 0 for a flat profile.
+    pub mean_wave_number: f64,
+}
+
+impl Amplitude {
+    /// Amplitude of heights times a factor.
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        Amplitude {
+            rms_height: factor * self.rms_height,
+            rms_gradient: factor * self.rms_gradient,
+            rms_curvature: factor * self.rms_curvature,
+            ..self
+        }
+    }
+
+    /// Amplitude of the same modes on a length `times` as large.
+    pub(crate) fn stretched(self, times: f64) -> Self {
+        Amplitude {
+            rms_height: self.rms_height,
+            rms_gradient: self.rms_gradient / times,
+            rms_curvature: self.rms_curvature / times.powi(2),
+            mean_wave_number: self.mean_wave_number / times,
+        }
+    }
+
+    /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); smallest first for accuracy.
+    pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
+        let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
+        for (mode, square) in squares {
+            let wave_number = TAU * mode as f64 / length;
+            height += square;
+            slope += square * wave_number;
+            gradient += square * wave_number.powi(2);
+            curvature += square * wave_number.powi(4);
+        }
+        let mean_wave_number = if height > 0.0 { slope / height } else { 0.0 };
+        Amplitude {
+            rms_height: height.sqrt(),
+            rms_gradient: gradient.sqrt(),
+            rms_curvature: curvature.sqrt(),
+            mean_wave_number,
+        }
+    }
+
+    /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of
+    /// effective modulus E* (Pa) in full contact with an isotropic surface with the rms height, rms gradient and
+    /// mean wave number of the profile (Persson and Tosatti, 2001).
+    pub(crate) fn elastic_energy(&self, effective_modulus: f64) -> f64 {
+        effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
+    }
 }
 
 #[cfg(test)]

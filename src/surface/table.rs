@@ -3,9 +3,8 @@
 //! Between two rows the depth is a cubic with the slopes of the parabolas through three neighbouring rows, so that f′ is
 //! a + b r + c r² there, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr a sum over the rows in closed form.
 
-use crate::memory::emptied;
+use crate::memory::{OutOfMemory, emptied};
 use crate::topography::{Place, ReadOptions, TopographyError, Unit, content, parse, refused};
-use std::collections::TryReserveError;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -39,7 +38,7 @@ impl FormTable {
         let convention = Some(Unit::METRE);
         let options = ReadOptions { unit, convention, interpolate: true, ..ReadOptions::default() };
         let surface = parse(&content(path)?, &options)?;
-        if let Some(row) = surface.first_interpolated() {
+        if let Some(row) = surface.interpolated.first() {
             return Err(refused(Place::Point(row + 1), "the depth is missing", "a number in each row"));
         }
         let (radii, depths) = surface.into_profile()?;
@@ -112,7 +111,7 @@ impl FormTable {
     ///
     /// One depth takes an arcsine for each row below. Between two rows with many of the points, rows at least that gap
     /// away are interpolated there by a polynomial.
-    pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, TryReserveError> {
+    pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {
             let (low, high) = (self.radii[gap], self.radii[gap + 1]);

@@ -1,6 +1,12 @@
-//! Numbers of binary files, each read only if the file has its bytes, and the limits of their decompression.
+//! Numbers of binary files, each read only if the file has its bytes, the limits of their decompression, and archives
+//! (ZIP) in memory, unpacked up to these limits.
 
-use super::error::{Place, TopographyError, gathered, refused};
+use super::{Place, TopographyError, refused, shown};
+use crate::io::read_limited;
+use crate::memory::gathered;
+use std::io::Cursor;
+use zip::ZipArchive;
+use zip::result::ZipError;
 
 /// Decompressed bytes allowed per byte of the file: texts of numbers expand by factors of three to six.
 pub(super) const MOST_EXPANSION: usize = 32;
@@ -13,7 +19,6 @@ pub(super) fn most_expanded(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
 }
 
-/// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     Little,
@@ -21,14 +26,21 @@ pub(super) enum Order {
 }
 
 macro_rules! numbers {
-    ($($name:ident: $type:ty),*) => {
+    ($($name:ident $code:literal: $type:ty),*) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Number {
             $($name),*
         }
 
         impl Number {
-            /// Returns the number of bytes.
+            /// Returns the type of a name of NumPy.
+            pub fn named(name: &str) -> Option<Number> {
+                match name {
+                    $($code => Some(Number::$name),)*
+                    _ => None,
+                }
+            }
+
             pub fn size(self) -> usize {
                 match self {
                     $(Number::$name => size_of::<$type>()),*
@@ -52,7 +64,8 @@ macro_rules! numbers {
     };
 }
 
-numbers!(U8: u8, I8: i8, U16: u16, I16: i16, U32: u32, I32: i32, U64: u64, I64: i64, F32: f32, F64: f64);
+numbers!(U8 "u1": u8, I8 "i1": i8, U16 "u2": u16, I16 "i2": i16, U32 "u4": u32, I32 "i4": i32, U64 "u8": u64,
+    I64 "i8": i64, F32 "f4": f32, F64 "f8": f64);
 
 /// Part of a binary file, read in sequence.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +89,6 @@ impl<'a> Bytes<'a> {
         self.bytes.len() - self.at
     }
 
-    /// Returns the next `count` bytes.
     pub fn take(&mut self, count: usize) -> Result<&'a [u8], TopographyError> {
         let left = &self.bytes[self.at..];
         let taken = left.get(..count).ok_or_else(|| {
@@ -94,12 +106,10 @@ impl<'a> Bytes<'a> {
         Ok(Bytes { bytes: &self.bytes[..self.at], at, order: self.order })
     }
 
-    /// Returns the next number.
     pub fn number(&mut self, of: Number) -> Result<f64, TopographyError> {
         Ok(of.value(self.take(of.size())?, self.order))
     }
 
-    /// Returns the next N numbers.
     pub fn array<const N: usize>(&mut self, of: Number) -> Result<[f64; N], TopographyError> {
         let mut array = [0.0; N];
         for value in &mut array {
@@ -113,10 +123,9 @@ impl<'a> Bytes<'a> {
         Ok(self.number(of)? as usize)
     }
 
-    /// Returns the next `count` numbers of a type.
     pub fn numbers(&mut self, count: usize, of: Number) -> Result<Vec<f64>, TopographyError> {
         let bytes = self.take(count.saturating_mul(of.size()))?;
-        gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))
+        Ok(gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))?)
     }
 
     /// Returns the bytes up to the next zero, which is skipped.
@@ -130,9 +139,51 @@ impl<'a> Bytes<'a> {
     }
 }
 
+pub(super) const ZIP: &[u8] = b"PK\x03\x04";
+
+/// Archive in memory, and the most bytes to which its further files may expand.
+pub(super) struct Archive<'a> {
+    archive: ZipArchive<Cursor<&'a [u8]>>,
+    most: usize,
+}
+
+impl<'a> Archive<'a> {
+    pub fn new(bytes: &'a [u8]) -> Result<Self, TopographyError> {
+        let archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| {
+            refused(Place::File, format!("a damaged archive ({error})"), "an archive of ZIP")
+        })?;
+        Ok(Archive { archive, most: most_expanded(bytes.len()) })
+    }
+
+    /// Returns the first of these names that a file of the archive has.
+    pub fn first_of(&self, names: &[&'static str]) -> Option<&'static str> {
+        names.iter().find(|name| self.archive.index_for_name(name).is_some()).copied()
+    }
+
+    /// Returns the content of a file of the archive, at most `most` bytes.
+    pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
+        let damaged = |error: &dyn std::fmt::Display| {
+            let fault = format!("cannot be unpacked ({error})");
+            refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
+        };
+        let entry = self.archive.by_name(name).map_err(|error| match error {
+            ZipError::FileNotFound => {
+                let fault = format!("no file {} in the archive", shown(name));
+                refused(Place::File, fault, "an archive with all files that it names")
+            }
+            error => damaged(&error),
+        })?;
+        let content = read_limited(entry, most.min(self.most)).map_err(|error| damaged(&error))?;
+        self.most -= content.len();
+        Ok(content)
+    }
+}
+
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+    use std::io::Write;
+    use zip::write::SimpleFileOptions;
 
     #[test]
     fn numbers_have_their_values_in_either_order() {
@@ -149,5 +200,28 @@ mod tests {
             bytes.reverse();
             assert_eq!(Bytes::new(&bytes, Order::Big).numbers(1, of).unwrap(), [value], "{of:?}");
         }
+    }
+
+    pub fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
+        let mut writer = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, content) in files {
+            writer.start_file(*name, SimpleFileOptions::default()).unwrap();
+            writer.write_all(content).unwrap();
+        }
+        writer.finish().unwrap().into_inner()
+    }
+
+    #[test]
+    fn files_of_an_archive_expand_to_a_limit_together() {
+        let zeros = vec![0; 1 << 20];
+        let bytes = archive(&[("one", &zeros), ("two", &zeros)]);
+        let mut archive = Archive::new(&bytes).unwrap();
+        assert!(archive.unpacked("one", usize::MAX).is_ok());
+        let error = archive.unpacked("two", usize::MAX).unwrap_err().to_string();
+        assert!(error.starts_with("two: cannot be unpacked (longer than"), "{error}");
+        let error = archive.unpacked("three", 1).unwrap_err().to_string();
+        assert!(error.starts_with("no file three in the archive"), "{error}");
+        let error = Archive::new(b"PK\x03\x04").err().unwrap().to_string();
+        assert!(error.starts_with("a damaged archive"), "{error}");
     }
 }

@@ -1,13 +1,12 @@
 //! Containers of contact.engineering: archives with an index, in JSON or in YAML, of surfaces and their measurements.
 
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::{ReadOptions, Reading};
 use super::{Detrend, Unit};
+use super::{Place, TopographyError, refused, shown};
 use serde::Deserialize;
 
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
 
-/// Most bytes of the index.
 pub(super) const LONGEST_INDEX: usize = 1 << 24;
 
 const MOST_MEASUREMENTS: usize = 10_000;
@@ -61,9 +60,6 @@ enum Mode {
 
 /// Returns the measurements of the surface of a name, or the measurement of that name; without a name, those of the only
 /// surface.
-///
-/// # Errors
-/// An index that cannot be read, no or several surfaces without a name, an unknown name.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],
@@ -126,7 +122,6 @@ impl Measurement {
         }
     }
 
-    /// Options of the reader of its file.
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, TopographyError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, Place::Part(format!("topography {}", self.name)))?;
@@ -155,7 +150,7 @@ impl Measurement {
 
 #[cfg(test)]
 mod tests {
-    use super::super::archive::tests::archive;
+    use super::super::bytes::tests::archive;
     use super::super::{ReadOptions, Topography, parse, parse_all};
     use super::*;
 
@@ -196,17 +191,17 @@ mod tests {
     fn measurements_of_a_surface_are_read_with_what_the_index_states() {
         let surfaces = read(("meta.yml", YAML), Some("first: \u{e9}")).unwrap();
         let [map, profile] = &surfaces[..] else { panic!("{surfaces:?}") };
-        assert_eq!((map.name(), map.columns(), map.spacing()), ("map", 4, Ok([1e-9; 2])));
-        assert!((map.heights()[3] - 4e-8).abs() < 1e-20 && map.detrend.is_none());
+        assert_eq!((&*map.name, map.columns, map.spacing()), ("map", 4, Ok([1e-9; 2])));
+        assert!((map.heights[3] - 4e-8).abs() < 1e-20 && map.detrend.is_none());
         // The scaled file is not scaled again.
-        assert_eq!((profile.name(), profile.heights()[1]), ("profile", 3e-6));
+        assert_eq!((&*profile.name, profile.heights[1]), ("profile", 3e-6));
         assert_eq!((profile.detrend, profile.periodic), (Some(Detrend::Curvature), true));
         for name in ["second", "7", "profile"] {
             assert_eq!(read(("meta.yml", YAML), Some(name)).unwrap().len(), 1, "{name}");
         }
         let json = r#"{"surfaces": [{"name": "s", "topographies": [
             {"name": "p", "datafile": {"original": "profile.txt"}, "size": [2.0], "unit": "nm"}]}]}"#;
-        assert_eq!(read(("index.json", json), None).unwrap()[0].heights()[1], 3e-9);
+        assert_eq!(read(("index.json", json), None).unwrap()[0].heights[1], 3e-9);
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
+use super::{Place, TopographyError, refused, shown};
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";

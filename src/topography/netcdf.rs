@@ -1,11 +1,12 @@
 //! NetCDF in its classic format (CDF-1 and CDF-2), as written by contact.engineering and SurfaceTopography: a
 //! variable `heights` over positions `x`, and `y` for a map.
 
+use super::Unit;
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, gathered, refused};
 use super::reading::Reading;
 use super::surface::first_uneven;
-use super::unit::Unit;
+use super::{Place, TopographyError, refused};
+use crate::memory::gathered;
 
 /// First bytes, without the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
@@ -34,7 +35,6 @@ struct Variable<'a> {
 /// A file after its header.
 struct Dataset<'a> {
     bytes: &'a [u8],
-    /// Lengths.
     dimensions: Vec<usize>,
     variables: Vec<Variable<'a>>,
 }

@@ -5,14 +5,16 @@
 //! brackets, and twice as long for each further one.
 
 use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
+use super::{Place, TopographyError, refused, shown};
 pub(super) use crate::io::npy::SIGNATURE;
+use crate::memory::emptied;
 
-/// Reads an array of format version 1, 2 or 3.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let (mut header, mut data) = Header::read(bytes)?;
-    let [(_, number), ref others @ ..] = header.fields[..] else { return Err(no_field()) };
+    let [(_, number), ref others @ ..] = header.fields[..] else {
+        return Err(refused(Place::Byte(10), "an array without fields", "numbers"));
+    };
     if others.len() > 1 || others.iter().any(|other| other.1 != number) {
         let fault = "other fields than one or two of the same type";
         return Err(refused(Place::Byte(10), fault, "heights, or positions and heights"));
@@ -34,10 +36,8 @@ pub(crate) fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), Topo
         let names = fields.iter().map(|(name, _)| name.clone()).collect();
         let size = fields.iter().map(|(_, number)| number.size()).sum::<usize>();
         let mut rows = data.part(points.saturating_mul(size))?;
-        let mut columns = vec![Vec::new(); fields.len()];
-        for column in &mut columns {
-            column.try_reserve_exact(points).map_err(|_| TopographyError::OutOfMemory(points))?;
-        }
+        let column = |_: &(String, Number)| emptied(Vec::new(), points);
+        let mut columns = fields.iter().map(column).collect::<Result<Vec<Vec<f64>>, _>>()?;
         for _ in 0..points {
             for ((_, number), column) in fields.iter().zip(&mut columns) {
                 column.push(rows.number(*number)?);
@@ -55,10 +55,6 @@ pub(crate) fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), Topo
     let (along, between) = if rows >= of_row { (row_step, step) } else { (step, row_step) };
     let column = |column: usize| (0..points).map(|point| values[point * along + column * between]).collect();
     Ok((Vec::new(), (0..count).map(column).collect()))
-}
-
-fn no_field() -> TopographyError {
-    refused(Place::Byte(10), "an array without fields", "numbers")
 }
 
 struct Header {
@@ -118,22 +114,10 @@ impl Header {
                 return Err(wrong("two orders of bytes"));
             }
             order = order.or(of_field);
-            let number = match name {
-                "f8" => Number::F64,
-                "f4" => Number::F32,
-                "i1" => Number::I8,
-                "i2" => Number::I16,
-                "i4" => Number::I32,
-                "i8" => Number::I64,
-                "u1" => Number::U8,
-                "u2" => Number::U16,
-                "u4" => Number::U32,
-                "u8" => Number::U64,
-                _ => {
-                    let fault = format!("numbers of type {:?}", shown(descr));
-                    return Err(refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8"));
-                }
-            };
+            let number = Number::named(name).ok_or_else(|| {
+                let fault = format!("numbers of type {:?}", shown(descr));
+                refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8")
+            })?;
             fields.push((field.to_owned(), number));
         }
         let is_column_major = match entry("fortran_order")? {

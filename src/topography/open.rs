@@ -1,10 +1,9 @@
 //! The format of a file, determined by its first bytes, and its reader.
 
-use super::archive::{self, Archive};
-use super::bytes::{MOST_EXPANSION, most_expanded};
-use super::error::{Place, TopographyError, refused};
+use super::bytes::{Archive, MOST_EXPANSION, ZIP, most_expanded};
 use super::reading::{ReadOptions, Reading};
-use super::{Topography, container, gsf, gwy, netcdf, npy, sdf, sur, text, x3p};
+use super::{Place, TopographyError, refused};
+use super::{Topography, container, gwy, netcdf, npy, sdf, sur, text, x3p};
 use crate::io::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
@@ -13,7 +12,6 @@ use std::path::Path;
 /// Most bytes of a file.
 pub const MOST_BYTES: usize = 1 << 30;
 
-/// First bytes of gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
@@ -21,7 +19,7 @@ type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 /// First bytes of the binary formats. All others but archives are text.
 const SIGNATURES: [(&[u8], BinaryReader); 9] = [
     (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
-    (gsf::SIGNATURE, |bytes, _| gsf::read(bytes)),
+    (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
     (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
     (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
     (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
@@ -40,9 +38,6 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, Topog
 }
 
 /// Reads the bytes of a regular file of at most 1 GiB, for [`parse`].
-///
-/// # Errors
-/// [`TopographyError`] if the file cannot be read or is longer.
 pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
@@ -64,11 +59,8 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
 }
 
 /// Reads a surface, or all measurements of a surface in a container, from the content of a file.
-///
-/// # Errors
-/// As [`read`].
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
-    let is_archive = bytes.starts_with(archive::SIGNATURE);
+    let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {
         let allowed = "a container of surfaces, or no --surface-name, in a scene roughness.surface_name";
         return Err(refused(Place::File, "a file of one surface, without a name", allowed));
@@ -106,7 +98,7 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
 /// Reads the numbers of a file of one surface.
 fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
     let content = unpacked(bytes)?;
-    if content.starts_with(archive::SIGNATURE) {
+    if content.starts_with(ZIP) {
         return x3p::read(Archive::new(&content)?);
     }
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
@@ -127,22 +119,19 @@ pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());
     }
-    let content = expanded(bytes)?;
-    if content.starts_with(&GZIP) {
-        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
-    }
-    Ok(content.into())
-}
-
-fn expanded(bytes: &[u8]) -> Result<Vec<u8>, TopographyError> {
     let most = most_expanded(bytes.len());
-    read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES)).map_err(|error| match error {
+    let content = read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES));
+    let content = content.map_err(|error| match error {
         ReadError::TooLong { .. } if most <= MOST_BYTES => {
             let fault = format!("gzip expands to more than {MOST_EXPANSION} times its size");
             refused(Place::File, fault, "at most that and 1 MiB")
         }
         error => error.into(),
-    })
+    })?;
+    if content.starts_with(&GZIP) {
+        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
+    }
+    Ok(content.into())
 }
 
 #[cfg(test)]
@@ -341,6 +330,6 @@ mod tests {
         );
         let options = ReadOptions { interpolate: true, ..metres() };
         let surface = parse(text, &options).unwrap();
-        assert_eq!((surface.heights(), surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
+        assert_eq!((&surface.heights[..], surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
     }
 }

@@ -1,8 +1,8 @@
 //! From the numbers of a file to heights in m: units, distances between points, missing points.
 
-use super::error::{Place, TopographyError, refused};
 use super::surface::{Cut, Grid, LARGEST, Topography};
-use super::{Unit, missing, outliers};
+use super::{Place, TopographyError, refused};
+use super::{Unit, missing};
 
 /// Most points of a surface: 2 GiB of heights.
 const MOST_POINTS: usize = 1 << 28;
@@ -94,9 +94,6 @@ impl Reading {
     }
 
     /// Converts heights and positions to m.
-    ///
-    /// # Errors
-    /// An unknown unit or distance, missing or too many points, values out of range.
     pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, TopographyError> {
         let points = self.heights.len();
         if !(2..=MOST_POINTS).contains(&points) {
@@ -127,13 +124,13 @@ impl Reading {
             None => Grid::Even([even(0)?, even(1)?]),
         };
         let rows = heights.len() / columns;
-        if options.align_rows && rows < 2 {
-            return Err(refused(Place::File, "a profile, which has no rows to align", "a map"));
-        }
         if options.align_rows {
-            outliers::level_rows(&mut heights, columns)?;
+            if rows < 2 {
+                return Err(refused(Place::File, "a profile, which has no rows to align", "a map"));
+            }
+            missing::level_rows(&mut heights, columns)?;
         }
-        let outliers = if options.robust { outliers::remove(&mut heights, columns)? } else { 0 };
+        let outliers = if options.robust { missing::remove_outliers(&mut heights, columns)? } else { 0 };
         let has_gaps = missing || outliers > 0;
         let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
         let surface = Topography::new(format, heights, columns, grid, interpolated)?;
@@ -141,9 +138,6 @@ impl Reading {
     }
 
     /// Converts heights to m. Returns true if some are missing.
-    ///
-    /// # Errors
-    /// Missing points if these are not interpolated, heights out of range.
     fn heights_in_metres(&mut self, unit: Unit, interpolate: bool) -> Result<bool, TopographyError> {
         let points = self.heights.len();
         let first = self.heights.iter().position(|height| !height.is_finite());
@@ -170,7 +164,6 @@ fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(
     Err(refused(Place::Point(index + 1), fault, format!("from -{LARGEST:e} to {LARGEST:e} m")))
 }
 
-/// Checks ascending positions, m.
 fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
     check_range("position", positions, |_| true)?;
     // Units divide, and neighbours closer than the last digit coincide.

@@ -2,8 +2,8 @@
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, most_expanded};
-use super::error::{Place, TopographyError, refused};
 use super::reading::Reading;
+use super::{Place, TopographyError, refused};
 use crate::io::read_limited;
 use encoding_rs::WINDOWS_1252;
 use flate2::read::ZlibDecoder;

@@ -1,7 +1,10 @@
 //! Measured heights in m with their positions.
 
-use super::error::{Place, TopographyError, gathered, refused};
-use super::{Detrend, missing};
+use super::missing;
+use super::{Place, TopographyError, refused};
+use crate::memory::gathered;
+use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 /// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
 /// could overflow.
@@ -26,7 +29,6 @@ pub enum Cut {
     Column(u64),
 }
 
-/// Positions of heights, m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Grid {
     /// Positions of a profile, ascending.
@@ -38,18 +40,19 @@ pub(super) enum Grid {
 /// Measured heights of a profile or a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
-    pub(super) format: &'static str,
+    /// Name of the format of the file.
+    pub format: &'static str,
     /// Heights, m, row by row.
-    pub(crate) heights: Vec<f64>,
+    pub heights: Vec<f64>,
     /// Points of a row; all points of a profile.
-    pub(crate) columns: usize,
+    pub columns: usize,
     pub(super) grid: Grid,
     /// Indices of the points with interpolated heights.
-    pub(super) interpolated: Vec<usize>,
+    pub(crate) interpolated: Vec<usize>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
     /// Name of the measurement in a container; empty for a file of its own.
-    pub(super) name: String,
+    pub name: String,
     /// Part that is no roughness, and true for a surface that repeats itself at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
@@ -64,43 +67,31 @@ impl Topography {
         grid: Grid,
         interpolated: Vec<usize>,
     ) -> Result<Self, TopographyError> {
-        let (name, aligned, detrend, periodic) = (String::new(), false, None, false);
-        Topography { format, heights, columns, grid, interpolated, aligned, name, detrend, periodic }
-            .checked()
-    }
-
-    fn checked(self) -> Result<Self, TopographyError> {
         let slope = |index: usize| {
-            let distance = match &self.grid {
+            let distance = match &grid {
                 Grid::Positions(positions) => positions[index] - positions[index - 1],
                 Grid::Even([along, between]) => along.min(*between),
             };
-            (self.heights[index] - self.heights[index - 1]).abs() / distance
+            (heights[index] - heights[index - 1]).abs() / distance
         };
         let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
-        let places = (1..self.heights.len()).filter(|index| index % self.columns > 0);
-        let Some(index) = places.into_iter().find(is_steep) else { return Ok(self) };
+        let mut places = (1..heights.len()).filter(|index| index % columns > 0);
+        let Some(index) = places.find(is_steep) else {
+            let (name, aligned, detrend, periodic) = (String::new(), false, None, false);
+            return Ok(Topography {
+                format,
+                heights,
+                columns,
+                grid,
+                interpolated,
+                aligned,
+                name,
+                detrend,
+                periodic,
+            });
+        };
         let fault = format!("a slope of {:e} from the point before", slope(index));
         Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")))
-    }
-
-    /// Name of the format of the file.
-    pub fn format(&self) -> &'static str {
-        self.format
-    }
-
-    /// Heights, m, row by row.
-    pub fn heights(&self) -> &[f64] {
-        &self.heights
-    }
-
-    pub(crate) fn first_interpolated(&self) -> Option<usize> {
-        self.interpolated.first().copied()
-    }
-
-    /// Name of the measurement in a container; empty for a file of its own.
-    pub fn name(&self) -> &str {
-        &self.name
     }
 
     /// Number of points with interpolated heights, outliers among them.
@@ -123,11 +114,6 @@ impl Topography {
         }
         missing::interpolate(&mut heights, columns)?;
         Ok(heights)
-    }
-
-    /// Points of a row; all points of a profile.
-    pub fn columns(&self) -> usize {
-        self.columns
     }
 
     /// Number of rows; one for a profile.
@@ -244,9 +230,25 @@ pub(crate) fn interpolated(
     })
 }
 
-/// Mean distance between positions, m.
 fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
+}
+
+/// Part of a surface removed before analysis.
+#[cfg_attr(feature = "tui", derive(clap::ValueEnum))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
+pub enum Detrend {
+    /// None; in scenes `Nothing`, since `None` omits a field.
+    #[serde(rename = "Nothing")]
+    #[strum(serialize = "Nothing")]
+    None,
+    /// Mean height.
+    Mean,
+    /// Mean height and tilt.
+    #[default]
+    Tilt,
+    /// Mean height, tilt and the curvatures of a paraboloid.
+    Curvature,
 }
 
 #[cfg(test)]
@@ -271,7 +273,7 @@ mod tests {
         let error = uneven.spacing().unwrap_err().to_string();
         assert!(error.starts_with("point 3: x = 2.5e0 m is off") && error.contains("--resample"), "{error}");
         let even = uneven.resampled().unwrap();
-        assert_eq!((even.spacing(), even.heights()), (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..]));
+        assert_eq!((even.spacing(), &even.heights[..]), (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..]));
         let digits = profile(&[0.0, 0.3333, 0.6667, 1.0], &[0.0; 4]);
         assert!((digits.spacing().unwrap()[0] - 1.0 / 3.0).abs() < 1e-15);
     }
@@ -279,9 +281,9 @@ mod tests {
     #[test]
     fn rows_and_columns_of_a_map_are_profiles() {
         let row = map().cut(Cut::Row(2)).unwrap();
-        assert_eq!((row.heights(), row.spacing()), (&[3.0, 4.0, 5.0][..], Ok([1.0; 2])));
+        assert_eq!((&row.heights[..], row.spacing()), (&[3.0, 4.0, 5.0][..], Ok([1.0; 2])));
         let column = map().cut(Cut::Column(3)).unwrap();
-        assert_eq!((column.heights(), column.spacing()), (&[2.0, 5.0][..], Ok([2.0; 2])));
+        assert_eq!((&column.heights[..], column.spacing()), (&[2.0, 5.0][..], Ok([2.0; 2])));
         for (cut, expected) in [
             (Cut::Row(0), "row 0; allowed: rows 1 to 2"),
             (Cut::Row(3), "row 3; allowed: rows 1 to 2"),

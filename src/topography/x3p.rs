@@ -1,24 +1,20 @@
 //! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths are in m.
 
 use super::Unit;
-use super::archive::Archive;
-use super::bytes::{Bytes, Number, Order};
-use super::error::{Place, TopographyError, refused, shown};
+use super::bytes::{Archive, Bytes, Number, Order};
 use super::reading::Reading;
+use super::{Place, TopographyError, refused, shown};
 use crate::io::into_text;
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// Most bytes of `main.xml`.
 const LONGEST_INDEX: usize = 1 << 26;
 
 /// Most attributes of `main.xml`, declarations of namespaces among them. The parser compares each with all others of
 /// its element, and those of an element with all that it inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
-/// Name of the index in the archive.
 pub(super) const INDEX: &str = "main.xml";
 
-/// Letters of the types of heights.
 const TYPES: [(&str, Number); 4] =
     [("I", Number::I16), ("L", Number::I32), ("F", Number::F32), ("D", Number::F64)];
 
@@ -149,7 +145,7 @@ fn count(root: Node<'_, '_>, name: &str) -> Result<usize, TopographyError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::archive::tests::archive;
+    use super::super::bytes::tests::archive;
     use super::*;
 
     const MAIN: &str = "<?xml version='1.0' encoding='UTF-8'?>\n\

@@ -51,7 +51,7 @@ fn sequences(base: usize, count: usize) -> impl Iterator<Item = Vec<usize>> {
 }
 
 fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
-    let hess = HessRule::new(FOUNDATION, range);
+    let hess = HessRule::from_works(FOUNDATION, range, range);
     let mut body = Body::new(&Contact::new(gaps.to_vec(), edges, FOUNDATION, Some(hess)), 2);
     let definition = Definition { gaps, stretch: hess.stretch(Direction::Unloading), edges };
     let whole = Patch { first: 0, last: gaps.len() - 1 };

@@ -19,7 +19,8 @@ fn sphere(points: usize, stiffness: f64) -> (Contact, PowerLaw) {
     let form = Form::Paraboloid { radius: 1.0 };
     let line = Line::new(12.0, points, Some(&form), None, 0.0).unwrap();
     let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0, length: 12.0 };
-    let contact = Contact::new(line.gaps, Edges::SubCell, foundation, Some(HessRule::new(foundation, 1.0)));
+    let contact =
+        Contact::new(line.gaps, Edges::SubCell, foundation, Some(HessRule::from_works(foundation, 1.0, 1.0)));
     (contact.with_loading_stiffness(stiffness), PowerLaw::of(&form, 1.0, 1.0).unwrap())
 }
 

@@ -79,7 +79,7 @@ fn turning_points_out_of_contact_are_refused() {
     let body = Body::new(vec![0.0, 0.5, 0.25], Edges::SubCell, Foundation::endless(0.01, 1.0), 0.0);
     for (turns, index, reason) in [
         (vec![Move::ToTouch, Move::ToIndentation(-0.1)], 1, ContactError::NoContact),
-        (vec![Move::ToForce(f64::INFINITY)], 0, ContactError::NotFinite { value: f64::INFINITY }),
+        (vec![Move::ToForce(f64::INFINITY)], 0, ContactError::NotFinite(f64::INFINITY)),
         (vec![Move::ToSeparation], 0, ContactError::NoContact),
     ] {
         let expected = ContactError::Stage { index, target: turns[index], reason: Box::new(reason) };

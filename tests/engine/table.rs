@@ -120,7 +120,7 @@ fn a_table_without_a_file_or_too_short_is_refused() {
         let mut simulation = Simulation::new(folder.path().to_owned());
         let outcome = simulation.run(scene(form, 1e-4).scene(), &|| false, &mut |_, _, _| Ok(()));
         match outcome {
-            Err(RunError::Surface(SurfaceError::FormTable { reason, .. })) => reason,
+            Err(RunError::Surface(SurfaceError::File { reason, .. })) => reason,
             other => panic!("{other:?}"),
         }
     };

@@ -233,7 +233,7 @@ fn the_errors_of_interpolated_points_are_stated() {
     let mut normal = Normal::new(8);
     let with_holes = |is_hole: &mut dyn FnMut(usize) -> bool| {
         let height = |(index, z): (usize, &f64)| if is_hole(index) { f64::NAN } else { *z };
-        let heights: Vec<f64> = whole.heights().iter().enumerate().map(height).collect();
+        let heights: Vec<f64> = whole.heights.iter().enumerate().map(height).collect();
         estimated(&[topography(&heights, points)])
     };
     let random = with_holes(&mut |_| normal.uniform() < 0.1);
@@ -253,7 +253,7 @@ fn aliased_waves_of_maps_are_part_of_the_model() {
     let whole = map(&spectrum, POINTS, 2);
     let few = POINTS / 4;
     let place = |index: usize| 4 * (index / few * POINTS + index % few);
-    let heights: Vec<f64> = (0..few * few).map(|index| whole.heights()[place(index)]).collect();
+    let heights: Vec<f64> = (0..few * few).map(|index| whole.heights[place(index)]).collect();
     let sampled = [topography(&heights, few)];
     let end = End::Continues(TAU * LAST);
     let continued = analyse(&sampled, &Options { end, ..Options::default() }).unwrap();
@@ -280,7 +280,7 @@ fn offset_rows_of_maps_are_left_out_or_stated() {
         let mut normal = Normal::new(9);
         let step = 12.0_f64.sqrt() * share * spectrum.line()[0];
         let offsets: Vec<f64> = (0..POINTS).map(|_| step * (normal.uniform() - 0.5)).collect();
-        let heights = whole.heights().iter().enumerate().map(|(index, z)| z + offsets[index / POINTS]);
+        let heights = whole.heights.iter().enumerate().map(|(index, z)| z + offsets[index / POINTS]);
         estimated(&[topography(&heights.collect::<Vec<_>>(), POINTS)])
     };
     let none = offset(0.0);
@@ -331,7 +331,7 @@ fn faulty_maps_have_the_moments_of_their_surface() {
             let (exact, mut normal) = (spectrum.line(), Normal::new(seed + 1000));
             let offset: Vec<f64> = (0..MAP).map(|_| offsets * normal.normal()).collect();
             let whole = map(&spectrum, MAP, seed);
-            let faulty = whole.heights().iter().enumerate().map(|(index, z)| {
+            let faulty = whole.heights.iter().enumerate().map(|(index, z)| {
                 let spike = if normal.uniform() < spikes { 20.0 * (normal.uniform() - 0.5) } else { 0.0 };
                 z + (spike + offset[index / MAP]) * exact[0]
             });

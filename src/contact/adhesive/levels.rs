@@ -1,7 +1,98 @@
-//! Levels of a span: its length, its edges and its edge cells as the edges slide.
+//! Spans, neighbouring springs that one fragment holds, and their levels: length, edges and edge cells as the edges slide.
 
-use super::span::Span;
-use crate::contact::grid::CompensatedSum;
+use crate::contact::totals::CompensatedSum;
+use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
+
+/// Edge model of a contact patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
+pub enum Edges {
+    /// The rule of the paper: a patch of n springs is n Δx long.
+    Grid,
+    /// The profile is straight from spring to spring, and a patch ends where the profile crosses the level of the
+    /// patch: the error falls with Δx².
+    SubCell,
+}
+
+impl Edges {
+    /// Name in scene files.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+}
+
+/// Springs `first..=last` of one fragment and their largest gap, m.
+///
+/// Every fragment in equilibrium under any loading history is a span all of whose neighbours have larger gaps: a
+/// subtree of the max-Cartesian tree of the gaps, where of equal gaps the leftmost is nearest the root.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    pub gap: f64,
+    pub first: usize,
+    pub last: usize,
+}
+
+impl Span {
+    /// The largest span of its branch within these first and last springs whose walls lie above a level, m; itself if its
+    /// walls do already.
+    #[inline]
+    pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
+        let Span { gap, mut first, mut last } = *self;
+        while first > lowest as usize && gaps[first - 1] < level {
+            first -= 1;
+        }
+        while last < highest as usize && gaps[last + 1] <= level {
+            last += 1;
+        }
+        Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
+    }
+
+    /// The spring that attaches next, the lower one beside the span; `None` where it fills the line.
+    #[inline]
+    pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
+        match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
+            (Some(left), Some(&right)) => Some(if right <= gaps[left] { self.last + 1 } else { left }),
+            (Some(left), None) => Some(left),
+            (None, Some(_)) => Some(self.last + 1),
+            (None, None) => None,
+        }
+    }
+
+    /// The span extended by the spring beside it that attaches next.
+    #[inline]
+    pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
+        let gap = gaps[wall];
+        if wall > self.last { Span { gap, last: wall, ..*self } } else { Span { gap, first: wall, ..*self } }
+    }
+
+    /// The next larger span, if there is one.
+    #[inline]
+    pub fn grown(&self, gaps: &[f64]) -> Self {
+        self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
+    }
+
+    #[inline]
+    pub fn springs(&self) -> usize {
+        self.last + 1 - self.first
+    }
+
+    #[inline]
+    pub fn ends(&self) -> [u32; 2] {
+        [self.first as u32, self.last as u32]
+    }
+}
+
+/// The smaller of two numbers, neither of which is NaN: `f64::min` would check for NaN.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The larger of two numbers, neither of which is NaN.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
 
 /// Length of a span at level t: `length + growth (t − gap)` cells, from its largest gap up to `top`.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +127,6 @@ pub struct EdgeSum {
 }
 
 impl EdgeSum {
-    /// Adds the edge cells of a fragment.
     #[inline]
     pub fn add(&mut self, cells: EdgeCells) {
         self.length.add(cells.length);
@@ -44,7 +134,6 @@ impl EdgeSum {
         self.squares.add(cells.squares);
     }
 
-    /// All edge cells.
     pub fn total(&self) -> EdgeCells {
         let EdgeSum { length, compression, squares } = *self;
         EdgeCells { length: length.total(), compression: compression.total(), squares: squares.total() }
@@ -156,15 +245,6 @@ impl Levels {
         let root = 0.5 * stretch * self.growth;
         // φ rises with the level where √ℓ exceeds half of stretch × growth.
         ((self.gap + rise) - stretch * length.sqrt(), root * root <= length)
-    }
-
-    /// Returns true if edges of this stretch (m) pass from here to the next larger span without a jump.
-    #[inline]
-    pub fn slide_on(&self, stretch: f64, upper: &Levels) -> bool {
-        // φ rises from the lowest level of the upper span on, and that span adds no level cell.
-        let root = 0.5 * stretch * upper.growth;
-        let reached = self.length_at(self.top - self.gap);
-        root * root < upper.length && upper.length - reached < 0.25
     }
 }
 

@@ -1,10 +1,10 @@
 //! Loading: the indentation at which each part of the line closes, and the fragments between.
 
-use super::levels::Levels;
+use super::levels::{Levels, Span, larger, smaller};
 use super::run::{Ground, Held, Listed, Run};
-use super::span::{Span, larger, smaller};
 use super::tree::{Branch, Node};
-use crate::contact::{ContactError, push, reserve, resized};
+use crate::contact::ContactError;
+use crate::memory::{gathered, push, resized};
 use std::borrow::Cow;
 
 /// Closing thresholds of the nodes of a tree on a loading from separation.
@@ -17,7 +17,6 @@ pub struct Closing {
     closes: Vec<f64>,
     /// Springs that surely attach with each node; bounds that grow as the chains above the node are walked.
     known: Vec<[u32; 2]>,
-    /// Evaluations of the rule.
     pub evaluations: u64,
 }
 
@@ -45,13 +44,11 @@ struct Climb {
     branch: Branch,
     /// Indentation at which the branch merges into a larger fragment, m.
     merges: f64,
-    /// Spring of the node above it.
     parent: usize,
     held: [usize; 2],
 }
 
 impl Closing {
-    /// Closes all nodes on a loading from separation.
     pub fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>) -> Result<Self, ContactError> {
         let count = ground.tree.node_count();
         let mut closing = Closing {
@@ -61,7 +58,7 @@ impl Closing {
         };
         let square = ground.square();
         for index in 0..count {
-            let node = ground.tree.nodes()[index];
+            let node = ground.tree.nodes[index];
             let (rank, right) = (node.rank as usize, node.right as usize);
             let left = node.size as usize - 1 - right;
             let mut closes = f64::INFINITY;
@@ -69,7 +66,7 @@ impl Closing {
             let parts = [(left, index.saturating_sub(1 + right)), (right, index.saturating_sub(1))];
             for (side, (size, child)) in parts.into_iter().enumerate() {
                 // Both kinds of branches are read: a choice would often be mispredicted.
-                let place = ground.tree.turns()[2 * (rank + side)];
+                let place = ground.tree.turns[2 * (rank + side)];
                 let lowest = ground.gaps[place as usize];
                 let (of_node, known_of_node) = (closing.closes[child], closing.known[child]);
                 let is_leaf = size == 0;
@@ -80,7 +77,7 @@ impl Closing {
                     if need * need <= square * ground.least_length(reach[0] as usize, reach[1] as usize) {
                         closed
                     } else {
-                        let gap = if is_leaf { closed } else { ground.tree.nodes()[child].gap };
+                        let gap = if is_leaf { closed } else { ground.tree.nodes[child].gap };
                         let start = Start { closes: closed, known: reach, gap };
                         let place = ground.tree.maximum(&node);
                         let (taken, walked) = ground.climb(start, place, &mut closing.evaluations);
@@ -107,9 +104,7 @@ impl Closing {
     ) -> Result<Listed, ContactError> {
         let mut closes = Cow::Borrowed(self.closes.as_slice());
         if !held.is_empty() {
-            let mut own = reserve(self.closes.len())?;
-            own.extend_from_slice(&self.closes);
-            closes = Cow::Owned(own);
+            closes = Cow::Owned(gathered(self.closes.len(), self.closes.iter().copied())?);
         }
         let listed = Listed { runs: Vec::new(), end: f64::NEG_INFINITY, evaluations: 0 };
         let mut loading = Loading { ground, held, closes, known: &self.known, listed };
@@ -141,15 +136,15 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         while let Some((branch, held)) = waiting.pop() {
             if let (Ok(node), None, true) = (branch.origin(), self.held_on(held, branch), held[0] < held[1]) {
                 let parts =
-                    tree.parts(node).into_iter().zip(self.split(held, tree.maximum(&tree.nodes()[node])));
+                    tree.parts(node).into_iter().zip(self.split(held, tree.maximum(&tree.nodes[node])));
                 for part in parts.clone() {
-                    push(&mut waiting, part, self.ground.gaps.len())?;
+                    push(&mut waiting, part)?;
                 }
-                push(&mut around, (node, held), self.ground.gaps.len())?;
+                push(&mut around, (node, held))?;
             }
         }
         for (node, held) in around.into_iter().rev() {
-            let place = tree.maximum(&tree.nodes()[node]);
+            let place = tree.maximum(&tree.nodes[node]);
             let mut closes = f64::INFINITY;
             for (part, held) in tree.parts(node).into_iter().zip(self.split(held, place)) {
                 let start = self.start(part, self.held_on(held, part));
@@ -170,7 +165,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         }
         match branch.origin() {
             Ok(node) => {
-                Start { closes: self.closes[node], known: self.known[node], gap: tree.nodes()[node].gap }
+                Start { closes: self.closes[node], known: self.known[node], gap: tree.nodes[node].gap }
             }
             Err(rank) => {
                 let place = tree.minimum(rank);
@@ -189,7 +184,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
             let Climb { branch, merges, held, .. } = climb;
             let state = self.held_on(held, branch).copied();
             let start = self.start(branch, state.as_ref());
-            let node = branch.origin().ok().map(|index| (index, tree.nodes()[index]));
+            let node = branch.origin().ok().map(|index| (index, tree.nodes[index]));
             let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
             // What is in contact already stays so, however far it is stretched.
             if lowest >= merges && held[0] == held[1] {
@@ -202,7 +197,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let merges = smaller(start.closes, merges);
                 let parent = tree.maximum(&node);
                 for (branch, held) in tree.parts(index).into_iter().zip(self.split(held, parent)) {
-                    push(&mut branches, Climb { branch, merges, parent, held }, self.ground.gaps.len())?;
+                    push(&mut branches, Climb { branch, merges, parent, held })?;
                 }
             }
         }
@@ -223,7 +218,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
             let Some(wall) = span.wall(gaps) else {
                 *complete = closes;
                 if closes < climb.merges {
-                    push(runs, Run::new(climb.branch, &span, closes, climb.merges), gaps.len())?;
+                    push(runs, Run::new(climb.branch, &span, closes, climb.merges))?;
                 }
                 break;
             };
@@ -236,15 +231,15 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
                 let end = smaller(attaches, climb.merges);
                 if let Some(rise) = pin.take() {
                     let released = smaller(levels.release(ground.stretch, rise).0, end);
-                    push(runs, Run::pinned(climb.branch, &span, rise, closes, released), gaps.len())?;
+                    push(runs, Run { pin: rise, ..Run::new(climb.branch, &span, closes, released) })?;
                     closes = released;
                 }
                 if closes < end {
                     match (runs.last_mut(), below) {
                         (Some(run), Some(lower)) if ground.slides_on(&lower, &levels) => {
-                            run.raise(&span, end)
+                            (run.to, run.top) = (end, span.ends());
                         }
-                        _ => push(runs, Run::new(climb.branch, &span, closes, end), gaps.len())?,
+                        _ => push(runs, Run::new(climb.branch, &span, closes, end))?,
                     }
                     below = Some(levels);
                 } else {

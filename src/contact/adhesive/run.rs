@@ -1,7 +1,18 @@
-//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump.
+//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump; and the edge
+//! models of a fragment, its length, its next attachment and detachment.
+//!
+//! A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on each
+//! level a length ℓ, the only input of the rule of Hess: its largest stretch is Δl_max = s √ℓ, eq. (10), with the stretch s
+//! of a fragment of unit length.
+//!
+//! * Whole springs, as the paper counts them: a fragment of n springs is n Δx long at all levels of its span.
+//! * Edges that slide between springs: the line is straight between neighbouring springs, and a fragment ends at the crossing
+//!   of the line with the level of the fragment. A fragment at level t is in equilibrium with the indentation φ(t) = t −
+//!   Δl_max(ℓ(t)): it grows while φ(t) ≤ d and recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its
+//!   wall ℓ is linear in t, so φ is convex: φ falls to its lowest value and then rises, and a fragment rests only where φ
+//!   rises.
 
-use super::levels::Slider;
-use super::span::{Span, larger};
+use super::levels::{EdgeCell, Levels, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::contact::ContactTotals;
 
@@ -20,7 +31,7 @@ pub struct Run {
     /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
     pub to: f64,
     /// Height of the level of pinned edges above the largest gap, m; NaN for edges that are free to move.
-    pin: f64,
+    pub pin: f64,
     /// First and last spring of its smallest span.
     pub bottom: [u32; 2],
     /// First and last spring of its largest span.
@@ -38,13 +49,11 @@ pub struct Held {
     pub pin: Option<f64>,
 }
 
-/// The runs of a leg.
 #[derive(Debug)]
 pub struct Listed {
     pub runs: Vec<Run>,
     /// Smallest indentation of full contact of a loading, or of contact of an unloading, m.
     pub end: f64,
-    /// Evaluations of the rule of Hess.
     pub evaluations: u64,
 }
 
@@ -62,14 +71,8 @@ pub struct Ground<'a, const SLIDES: bool> {
 }
 
 impl Run {
-    /// Returns a run over one span.
     pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
         Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
-    }
-
-    /// A run over one span with its edges pinned at a rise above its largest gap, m.
-    pub fn pinned(branch: Branch, span: &Span, rise: f64, from: f64, to: f64) -> Self {
-        Run { pin: rise, ..Run::new(branch, span, from, to) }
     }
 
     /// Rise of pinned edges, m.
@@ -78,17 +81,6 @@ impl Run {
         Some(self.pin).filter(|pin| !pin.is_nan())
     }
 
-    /// Extends the run upwards, to the next larger span.
-    pub fn raise(&mut self, span: &Span, to: f64) {
-        (self.to, self.top) = (to, span.ends());
-    }
-
-    /// Extends the run downwards, to the next smaller span.
-    pub fn lower(&mut self, span: &Span, from: f64) {
-        (self.from, self.bottom) = (from, span.ends());
-    }
-
-    /// Returns true for an indentation (m) at which the run exists.
     #[inline]
     pub fn is_at(&self, indentation: f64) -> bool {
         self.from <= indentation && indentation < self.to
@@ -96,29 +88,20 @@ impl Run {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// The span of a branch between these springs.
     #[inline]
     pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
         let (first, last) = (first as usize, last as usize);
         let ends = larger(self.gaps[first], self.gaps[last]);
         // Above the lowest span of a branch the largest gap is that of the outermost spring that attached last.
-        let gap = branch.origin().map_or(ends, |node| larger(ends, self.tree.nodes()[node].gap));
+        let gap = branch.origin().map_or(ends, |node| larger(ends, self.tree.nodes[node].gap));
         Span { gap, first, last }
     }
 
-    /// The smallest span of a run.
     #[inline]
     pub fn bottom(&self, run: &Run) -> Span {
         self.span(run.branch, run.bottom)
     }
 
-    /// The largest span of a run.
-    #[inline]
-    pub fn top(&self, run: &Run) -> Span {
-        self.span(run.branch, run.top)
-    }
-
-    /// The edge cells of a run on one of its spans.
     #[inline]
     pub fn slider(&self, run: &Run, span: &Span) -> Slider {
         Slider::new(self.gaps, span, self.stretch, run.pin())
@@ -221,5 +204,82 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     #[inline]
     pub fn span_at(&self, run: &Run, indentation: f64) -> Span {
         self.filled(run, self.bottom(run), indentation)
+    }
+}
+
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
+    #[inline]
+    pub fn levels(&self, span: &Span) -> Levels {
+        if SLIDES {
+            return Levels::between_springs(self.gaps, span).0;
+        }
+        let length = f64::from(span.springs() as u32);
+        Levels { gap: span.gap, length, growth: 0.0, top: f64::INFINITY }
+    }
+
+    /// Smallest length that a span has at its highest level, in cells.
+    #[inline]
+    pub fn least_length(&self, first: usize, last: usize) -> f64 {
+        // One of two edge cells is full at the highest level.
+        (last + usize::from(!SLIDES) - first).max(1) as f64
+    }
+
+    /// Smallest indentation at which a span of these levels attaches its wall of this gap, m.
+    #[inline]
+    pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
+        let length = if SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
+        wall - self.stretch * length.sqrt()
+    }
+
+    /// Smallest indentation at which a span of these levels holds its most stretched spring, m; at most its gap.
+    #[inline]
+    pub fn holds_to(&self, levels: &Levels) -> f64 {
+        let (gap, stretch) = (levels.gap, self.stretch);
+        if !SLIDES {
+            // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
+            // is the next number above; but a spring whose gap is closed stays under any rule.
+            return (gap - stretch * levels.length.sqrt()).next_up().min(gap);
+        }
+        // At the smallest φ √ℓ is half of stretch × growth.
+        let root = 0.5 * stretch * levels.growth;
+        let excess = root * root - levels.length;
+        // Without branches: they would often be mispredicted.
+        let rise = excess / levels.growth;
+        let most = levels.top - gap;
+        let rise = if rise < most { rise } else { most };
+        let rise = if excess > 0.0 { rise } else { 0.0 };
+        let holds = (gap + rise) - stretch * levels.length_at(rise).sqrt();
+        if holds < gap { holds } else { gap }
+    }
+
+    /// Returns true if the edges pass from a span to the next larger one without a jump.
+    #[inline]
+    pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
+        if !SLIDES {
+            return true;
+        }
+        // φ rises from the lowest level of the upper span on, and that span adds no level cell.
+        let root = 0.5 * self.stretch * upper.growth;
+        let reached = lower.length_at(lower.top - lower.gap);
+        root * root < upper.length && upper.length - reached < 0.25
+    }
+
+    /// ∫ (c − θ)² dx over the places passed while the edges move between two spans and levels, each place at its own
+    /// indentation θ, in cells times ½ s².
+    pub fn passed_squares(&self, [lower, upper]: [(Span, f64); 2]) -> f64 {
+        if !SLIDES {
+            let [fewer, more] = [lower, upper].map(|(span, _)| span.springs() as f64);
+            // Springs attach one by one to patches of `fewer` springs and more, and detach from those of `more` and fewer.
+            let sign = if self.unloading { 1.0 } else { -1.0 };
+            return (more - fewer) * (more + fewer + sign);
+        }
+        // Twice the stretch s √ℓ of an edge times the change of the length ℓ.
+        let length = |(span, level): (Span, f64)| {
+            let [left, right] = EdgeCell::of(self.gaps, &span, level);
+            [(span.last - span.first) as f64, left.share + right.share]
+        };
+        let ([cells0, share0], [cells1, share1]) = (length(lower), length(upper));
+        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
+        ((cells1 - cells0) + (share1 - share0)) * ((cells0 + cells1) + (share0 + share1))
     }
 }

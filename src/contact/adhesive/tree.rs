@@ -1,10 +1,9 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
-use super::span::larger;
-use crate::contact::Edges;
+use super::levels::{Edges, larger};
 use crate::contact::totals::sums_of_few;
-use crate::contact::{ContactError, GapScale, TWO_THREADS, reserve};
-use crate::memory;
+use crate::contact::{GapScale, TWO_THREADS};
+use crate::memory::{OutOfMemory, emptied, push, reserve};
 use crate::parallel::in_parallel;
 
 /// Springs between two kept sums.
@@ -24,20 +23,18 @@ const LANES: usize = 64;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
     /// Local minima and maxima in turn along the line; the first and the last are minima.
-    turns: Vec<u32>,
-    nodes: Vec<Node>,
+    pub(super) turns: Vec<u32>,
+    pub(super) nodes: Vec<Node>,
     /// Sums before each `BLOCK`-th spring: of the gaps, or of the mean gaps of cells, in quanta; and of their squares.
     sums: Vec<[i128; 2]>,
     /// True for sums of cells between springs.
     of_cells: bool,
-    scale: GapScale,
-    pending: Vec<Pending>,
+    pub(super) scale: GapScale,
 }
 
 /// A local maximum of the gap: where two components merge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Its gap, m.
     pub gap: f64,
     /// Smallest gap of its subtree, m.
     pub lowest: f64,
@@ -60,7 +57,6 @@ impl Branch {
         Branch((rank as u32) << 1 | 1)
     }
 
-    /// From this node.
     #[inline]
     pub fn node(node: usize) -> Self {
         Branch((node as u32) << 1)
@@ -87,15 +83,12 @@ struct Pending {
 impl ContactTree {
     /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero), the largest of which is `deepest`, with the sums of
     /// an edge model. The memory of the former tree is used again.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub(in crate::contact) fn rebuild(
         mut self,
         gaps: &[f64],
         deepest: f64,
         edges: Edges,
-    ) -> Result<Self, ContactError> {
+    ) -> Result<Self, OutOfMemory> {
         let scale = GapScale::for_gaps_up_to(deepest);
         (self.scale, self.of_cells) = (scale, edges == Edges::SubCell);
         let sums = std::mem::take(&mut self.sums);
@@ -113,22 +106,6 @@ impl ContactTree {
     /// Nodes: local maxima of the gap inside the line.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
-    }
-
-    /// The scale of its sums.
-    #[inline]
-    pub(crate) fn scale(&self) -> GapScale {
-        self.scale
-    }
-
-    #[inline]
-    pub(in crate::contact) fn nodes(&self) -> &[Node] {
-        &self.nodes
-    }
-
-    #[inline]
-    pub(in crate::contact) fn turns(&self) -> &[u32] {
-        &self.turns
     }
 
     /// The branch that grows until it fills the line.
@@ -172,11 +149,10 @@ impl ContactTree {
     }
 
     /// Finds the turning points: of neighbours with equal gaps the right one counts as lower.
-    fn find_turns(&mut self, gaps: &[f64]) -> Result<(), ContactError> {
+    fn find_turns(&mut self, gaps: &[f64]) -> Result<(), OutOfMemory> {
         let count = gaps.len();
         debug_assert!(u32::try_from(count).is_ok_and(|count| count < 1 << 31));
-        let out_of_memory = |_| ContactError::OutOfMemory { springs: count };
-        self.turns = memory::emptied(std::mem::take(&mut self.turns), count / 4).map_err(out_of_memory)?;
+        self.turns = emptied(std::mem::take(&mut self.turns), count / 4)?;
         // One bit for each spring: 1 if the gap rises behind it. The gap falls before the line and rises behind it.
         let mut rose = 0_u64;
         for base in (0..count).step_by(LANES) {
@@ -193,7 +169,7 @@ impl ContactTree {
                 turns &= (1 << springs) - 1;
             }
             rose = rises >> (LANES - 1);
-            self.turns.try_reserve(LANES + 4).map_err(out_of_memory)?;
+            reserve(&mut self.turns, LANES + 4)?;
             let found = turns.count_ones() as usize;
             let place = self.turns.len();
             // Four at a time: their number is hard to foresee.
@@ -211,12 +187,10 @@ impl ContactTree {
     }
 
     /// Builds the nodes in one pass along the local maxima.
-    fn merge(&mut self, gaps: &[f64]) -> Result<(), ContactError> {
+    fn merge(&mut self, gaps: &[f64]) -> Result<(), OutOfMemory> {
         let count = self.turns.len() / 2;
-        let out_of_memory = |_| ContactError::OutOfMemory { springs: gaps.len() };
-        let mut nodes = memory::emptied(std::mem::take(&mut self.nodes), count).map_err(out_of_memory)?;
-        let mut pending = std::mem::take(&mut self.pending);
-        pending.clear();
+        let mut nodes = emptied(std::mem::take(&mut self.nodes), count)?;
+        let mut pending: Vec<Pending> = Vec::new();
         let gap_at = |turn: usize| gaps[self.turns[turn] as usize];
         let mut lowest = if self.turns.is_empty() { 0.0 } else { gap_at(0) };
         let finish = |top: Pending, lowest: f64, nodes: &mut Vec<Node>| {
@@ -233,14 +207,14 @@ impl ContactTree {
                 start = top.start;
                 lowest = finish(top, lowest, &mut nodes);
             }
-            pending.try_reserve(1).map_err(out_of_memory)?;
-            pending.push(Pending { gap, lowest, rank: rank as u32, start, right_start: nodes.len() as u32 });
+            let right_start = nodes.len() as u32;
+            push(&mut pending, Pending { gap, lowest, rank: rank as u32, start, right_start })?;
             lowest = gap_at(2 * rank + 2);
         }
         while let Some(top) = pending.pop() {
             lowest = finish(top, lowest, &mut nodes);
         }
-        (self.nodes, self.pending) = (nodes, pending);
+        self.nodes = nodes;
         Ok(())
     }
 }
@@ -251,12 +225,9 @@ fn sums_along(
     gaps: &[f64],
     edges: Edges,
     scale: GapScale,
-) -> Result<Vec<[i128; 2]>, ContactError> {
+) -> Result<Vec<[i128; 2]>, OutOfMemory> {
     let count = gaps.len() / BLOCK + 1;
-    sums.clear();
-    if sums.capacity() < count {
-        sums = reserve(count)?;
-    }
+    sums = emptied(sums, count)?;
     let mut sum = [0_i128; 2];
     sums.push(sum);
     let mut add = |few: [i128; 2]| {

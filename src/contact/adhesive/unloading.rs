@@ -1,10 +1,10 @@
 //! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
 
-use super::levels::Levels;
+use super::levels::{Levels, Span, smaller};
 use super::run::{Ground, Held, Listed, Run};
-use super::span::{Span, smaller};
 use super::tree::Branch;
-use crate::contact::{ContactError, push};
+use crate::contact::ContactError;
+use crate::memory::push;
 
 /// Margin of the bounds for rounding.
 const ABOVE: f64 = 1.0 + 1e-12;
@@ -34,7 +34,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
             parts.push(Part { branch, first, last, opens: from, is_whole: true });
             while let Some(part) = parts.pop() {
                 for part in self.descend(part, pin, &mut listed)?.into_iter().flatten() {
-                    push(&mut parts, part, self.gaps.len())?;
+                    push(&mut parts, part)?;
                 }
             }
         }
@@ -72,7 +72,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let (mut opens, mut is_whole) = (part.opens, part.is_whole);
         let (bottom, lowest, place) = match part.branch.origin() {
             Ok(index) => {
-                let node = &tree.nodes()[index];
+                let node = &tree.nodes[index];
                 (node.gap, node.lowest, tree.maximum(node))
             }
             Err(rank) => {
@@ -109,16 +109,16 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
                         let (released, slides) = levels.release(self.stretch, rise);
                         let released = smaller(opens, released);
                         leaves = if slides { smaller(leaves, released) } else { released };
-                        push(runs, Run::pinned(part.branch, &span, rise, released, to), gaps.len())?;
+                        push(runs, Run { pin: rise, ..Run::new(part.branch, &span, released, to) })?;
                         to = released;
                     }
                     match (runs.last_mut(), above) {
                         // Pinned edges run away at once.
                         _ if leaves == to => {}
                         (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
-                            run.lower(&span, leaves)
+                            (run.from, run.bottom) = (leaves, span.ends());
                         }
-                        _ => push(runs, Run::new(part.branch, &span, leaves, to), gaps.len())?,
+                        _ => push(runs, Run::new(part.branch, &span, leaves, to))?,
                     }
                     // A run continues only from a level equal to the gap of the span.
                     goes_on = (leaves == holds && leaves < to).then_some(levels);

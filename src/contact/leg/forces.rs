@@ -6,9 +6,8 @@
 //! searched.
 
 use super::{Leg, Patches};
-use crate::contact::contact_state::{ContactState, Extreme, intervals, lower_bound, upper_bound};
-use crate::contact::goal::Goal;
-use crate::contact::grid::Grid;
+use crate::contact::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
+use crate::contact::history::Goal;
 use crate::contact::interval::{Interval, Intervals};
 use crate::contact::thresholds::Thresholds;
 use crate::contact::{ContactError, CurvePoint, Direction, Edges, Work};
@@ -20,17 +19,11 @@ const STRIDE: usize = 16;
 
 impl Leg {
     /// Returns the point of the curve at an indentation, m.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub fn point(&self, indentation: f64) -> Result<CurvePoint, ContactError> {
         Ok(self.state(indentation)?.point(self.contact.foundation))
     }
 
     /// Returns the points of the curve at ascending indentations, m.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub fn curve(&self, indentations: &[f64]) -> Result<Vec<CurvePoint>, ContactError> {
         if indentations.is_empty() {
             return Ok(Vec::new());
@@ -52,21 +45,19 @@ impl Leg {
         if self.direction == Direction::Loading { 0.0 - energy } else { energy }
     }
 
-    /// Contact state at an indentation, m.
     pub(in crate::contact) fn state(&self, indentation: f64) -> Result<ContactState, ContactError> {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// The leg with the instrument beside the contact: the force of both is k D where D = d + F/k.
+    /// The leg with the instrument beside the contact, in springs: the force of both is k D where D = d + F/k. Of a rigid
+    /// one, whose displacement is the indentation, there are none.
     fn with_instrument(&self) -> Self {
-        Leg { instrument: self.contact.instrument_springs(), ..self.clone() }
+        let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
+        Leg { instrument: if springs.is_infinite() { 0.0 } else { springs }, ..self.clone() }
     }
 
     /// Finds the indentation at which a motion from another one reaches its goal, m, and that goal: the separation where
     /// the contact is lost on the way.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::OutOfMemory`].
     pub(in crate::contact) fn reach(
         &self,
         goal: Goal,
@@ -92,9 +83,6 @@ impl Leg {
     }
 
     /// The contact at the smallest displacement of the instrument on a sampled unloading.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub(in crate::contact) fn least_displaced(
         &self,
         sampled: &[ContactState],
@@ -107,9 +95,6 @@ impl Leg {
 
     /// Finds the first indentation of a loading from `from` on, or the last one of an unloading up to `from`, m, at which
     /// the force is `force`, N.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfReach`], [`ContactError::DetachesBefore`], [`ContactError::OutOfMemory`].
     fn reach_force(&self, force: f64, from: f64, work: &mut Work) -> Result<f64, ContactError> {
         let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
@@ -139,7 +124,6 @@ impl Leg {
         Ok(found)
     }
 
-    /// Contact states along a grid.
     pub(in crate::contact) fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut sampled = match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
@@ -238,7 +222,7 @@ impl Leg {
             place(low) + 1..place(high)
         };
         let chosen = intervals(&coarse, may_lie).into_iter().flat_map(between);
-        let fine: Vec<f64> = chosen.map(|index| grid.points()[index]).collect();
+        let fine: Vec<f64> = chosen.map(|index| grid.points[index]).collect();
         if !fine.is_empty() {
             coarse.extend(self.sample(Grid::at(fine))?);
             coarse.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));

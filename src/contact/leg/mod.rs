@@ -21,7 +21,6 @@ pub struct Leg {
     pub(super) evaluations: u64,
 }
 
-/// Data from which the patches in contact follow.
 #[derive(Clone, Debug)]
 enum Patches {
     /// Each spring touches at a threshold, m: without adhesion at its gap. Empty where nothing touches.
@@ -106,17 +105,13 @@ impl Leg {
         Leg { patches, end, ..Leg::apart(&contact, direction) }
     }
 
-    /// Creates the leg of a contact without adhesion.
     fn without_adhesion(contact: &Contact, direction: Direction) -> Self {
-        let patches = Patches::Springs(Arc::clone(contact.springs.shared_gaps()));
+        let patches = Patches::Springs(Arc::clone(&contact.springs.gaps));
         let end = if direction == Direction::Loading { contact.springs.deepest() } else { 0.0 };
         Leg { patches, end, ..Leg::apart(contact, direction) }
     }
 
     /// Starts a loading from separation.
-    ///
-    /// # Errors
-    /// [`ContactError::OutOfMemory`].
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
         if contact.hess.is_none() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));

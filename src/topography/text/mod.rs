@@ -4,21 +4,19 @@
 //! skipped. The first line of numbers fixes the separator ([`layout::Separator::of`]) and the number of columns: one
 //! is z, two are x z, three are x y z of a full grid row by row, four and more are a row of a matrix.
 
-mod grid;
-mod header;
 mod layout;
-mod lines;
+pub(crate) use layout::{Cell, Decimal, Separator};
 
 use super::Unit;
-use super::error::{Place, TopographyError, refused, shown};
 use super::reading::Reading;
-use super::surface::LARGEST;
+use super::surface::{LARGEST, UNEVEN};
+use super::{Place, TopographyError, refused, shown};
 use crate::io::PROVENANCE;
-use header::Header;
-pub(crate) use layout::{Cell, Decimal, Separator};
-use lines::{decoded, line_text};
+use crate::memory::{check_room, push, reserve};
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use layout::Header;
+use std::borrow::Cow;
 
-/// First characters of a comment.
 pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
@@ -75,7 +73,6 @@ struct Rows {
     columns: usize,
     /// Positions x, or x and y.
     positions: [Vec<f64>; 2],
-    /// Heights row by row.
     heights: Vec<f64>,
     first_missing: Option<Place>,
 }
@@ -98,8 +95,7 @@ impl Rows {
     fn take(&mut self, place: Place, line: &str) -> Result<(), TopographyError> {
         let columns = self.columns;
         let positions = if columns <= 3 { columns - 1 } else { 0 };
-        let points = self.heights.len();
-        self.heights.try_reserve(columns).map_err(|_| TopographyError::OutOfMemory(points))?;
+        reserve(&mut self.heights, columns)?;
         let mut found = 0;
         for cell in self.separator.split(line) {
             found += 1;
@@ -108,9 +104,7 @@ impl Rows {
             }
             let value = self.value(&place, cell, found <= positions)?;
             if found <= positions {
-                let column = &mut self.positions[found - 1];
-                column.try_reserve(1).map_err(|_| TopographyError::OutOfMemory(points))?;
-                column.push(value);
+                push(&mut self.positions[found - 1], value)?;
             } else {
                 self.heights.push(value);
             }
@@ -172,7 +166,7 @@ impl Rows {
                 Reading::profile("text columns", positions, heights, units)
             }
             3 => {
-                let (columns, spacing) = grid::from_points(&positions)?;
+                let (columns, spacing) = grid_of(&positions)?;
                 Reading::even("text columns", heights, columns, Some(spacing), units)
             }
             columns => {
@@ -187,6 +181,78 @@ impl Rows {
         };
         Ok(Reading { first_missing, ..reading })
     }
+}
+
+/// Longest line, bytes: a row of a large matrix.
+const LONGEST_LINE: usize = 1 << 24;
+
+/// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
+fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
+    let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
+    let text = &bytes[mark..];
+    if encoding == UTF_8 {
+        return Ok(Cow::Borrowed(text));
+    }
+    check_room(2 * text.len() as u64)?;
+    Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
+}
+
+/// Returns a line without white space around it: UTF-8, or, if that is invalid, Windows-1252, in which older programs
+/// write µ and °.
+fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, TopographyError> {
+    let (fault, allowed) = if line.len() > LONGEST_LINE {
+        (format!("longer than {LONGEST_LINE} bytes"), format!("at most {LONGEST_LINE} bytes"))
+    } else if let Some(at) = line.iter().position(|byte| *byte == 0) {
+        let formats = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, NetCDF, or these in gzip";
+        (format!("byte {at} of the line is zero, so this is no text"), formats.to_owned())
+    } else {
+        let line = line.trim_ascii();
+        let other = |_| WINDOWS_1252.decode_without_bom_handling(line).0;
+        return Ok(str::from_utf8(line).map_or_else(other, Cow::Borrowed));
+    };
+    Err(refused(place.clone(), fault, allowed))
+}
+
+/// Returns the number of columns and the distances along and between rows of points listed row by row, along x or y.
+/// Each point lies on an even grid within 0.1 % of the distance between points.
+fn grid_of([x, y]: &[Vec<f64>; 2]) -> Result<(usize, [f64; 2]), TopographyError> {
+    let points = x.len();
+    if points < 2 {
+        return Err(refused(Place::File, format!("{points} points"), "at least 2"));
+    }
+    // The position that changes from the first point to the second is along the rows.
+    let (along, between) = match (x[1] != x[0], y[1] != y[0]) {
+        (true, false) => (x, y),
+        (false, true) => (y, x),
+        (same, _) => {
+            let fault = if same { "x and y both differ from" } else { "x and y both equal" };
+            let fault = format!("{fault} those of the point before");
+            return Err(refused(Place::Point(2), fault, "points of a full grid, row by row"));
+        }
+    };
+    let columns = between.iter().position(|position| *position != between[0]).unwrap_or(points);
+    if !points.is_multiple_of(columns) {
+        let fault = format!("{points} points in rows of {columns}");
+        return Err(refused(Place::Point(points), fault, "full rows"));
+    }
+    let rows = points / columns;
+    if columns < 2 {
+        return Err(refused(Place::Point(2), "a row of 1 point", "rows of at least 2 points"));
+    }
+    let step = (along[columns - 1] - along[0]) / (columns - 1) as f64;
+    let row_step = if rows > 1 { (between[points - 1] - between[0]) / (rows - 1) as f64 } else { step };
+    for (index, (u, v)) in along.iter().zip(between).enumerate() {
+        let off_row = (u - along[0] - (index % columns) as f64 * step).abs() / step.abs();
+        let off_column = (v - between[0] - (index / columns) as f64 * row_step).abs() / row_step.abs();
+        if off_row.is_nan() || off_column.is_nan() || off_row.max(off_column) > UNEVEN {
+            return Err(refused(
+                Place::Point(index + 1),
+                format!("({:e}, {:e}) is off the even grid", x[index], y[index]),
+                format!("points of a full grid, row by row, within {UNEVEN} of their distance"),
+            ));
+        }
+    }
+    Ok((columns, [step.abs(), row_step.abs()]))
 }
 
 #[cfg(test)]
@@ -237,4 +303,42 @@ mod tests {
     }
 
     proptest! {}
+
+    #[test]
+    fn binary_content_and_endless_lines_are_refused() {
+        let error = |line: &[u8]| line_text(line, &Place::Line(2)).unwrap_err().to_string();
+        assert!(error(b"b\0").starts_with("line 2: byte 1 of the line is zero"));
+        let mut long = vec![b'1'; LONGEST_LINE];
+        assert_eq!(line_text(&long, &Place::File).unwrap().len(), LONGEST_LINE);
+        long.push(b'1');
+        assert!(error(&long).starts_with("line 2: longer than 16777216 bytes"));
+    }
+
+    fn grid(points: &[(f64, f64)]) -> Result<(usize, [f64; 2]), String> {
+        let (x, y) = points.iter().copied().unzip();
+        grid_of(&[x, y]).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn rows_may_run_along_either_axis_and_in_either_direction() {
+        let along_x = [(3.0, 0.0), (2.0, 0.0), (1.0, 0.0), (3.0, 5.0), (2.0, 5.0), (1.0, 5.0)];
+        let expected = (3, [1.0, 5.0]);
+        assert_eq!(grid(&along_x), Ok(expected));
+        assert_eq!(grid(&along_x.map(|(x, y)| (y, x))), Ok(expected));
+        assert_eq!(grid(&[(0.0, 1.0), (0.0, 3.0), (0.0, 5.0)]), Ok((3, [2.0; 2])));
+    }
+
+    #[test]
+    fn points_off_the_grid_are_named() {
+        for (points, place) in [
+            (&[(0.0, 0.0), (1.0, 1.0)][..], "point 2: x and y both differ"),
+            (&[(0.0, 0.0), (0.0, 0.0)], "point 2: x and y both equal"),
+            (&[(0.0, 0.0), (1.0, 0.0), (2.5, 0.0), (3.0, 0.0)], "point 3: (2.5e0, 0e0) is off"),
+            (&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)], "point 3: 3 points in rows of 2"),
+            (&[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.1, 1.0)], "point 4: (1.1e0, 1e0) is off"),
+        ] {
+            let error = grid(points).unwrap_err();
+            assert!(error.starts_with(place), "{points:?}: {error}");
+        }
+    }
 }

@@ -152,7 +152,7 @@ proptest! {
         let foundation = Foundation::endless(0.25, 4.0);
         let work = (share * wall).powi(2) * 4.0 / (0.25 * std::f64::consts::PI);
         let gaps = if first { vec![0.0, wall] } else { vec![wall, 0.0] };
-        let attaches = wall - HessRule::new(foundation, work).stretch(Direction::Loading);
+        let attaches = wall - HessRule::from_works(foundation, work, work).stretch(Direction::Loading);
         let expected = 0.5 * (attaches + wall);
         let mut solver = Body::new(gaps, Edges::Grid, foundation, work).on(5);
         let record = solver.advance(Move::ToForce(attaches)).unwrap();

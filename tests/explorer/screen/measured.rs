@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// A sphere that is pressed by 50 µN and pulled off.
 fn sphere(work: &str) -> Document {
-    let fields = [("numerics.points", "1024"), ("numerics.samples", "200"), ("adhesion.work", work)];
+    let fields = [("numerics.points", "256"), ("numerics.samples", "200"), ("adhesion.work", work)];
     open("jkr-sphere").unwrap().set_all(&fields.map(|(path, value)| (path.into(), value.into()))).unwrap()
 }
 

@@ -142,11 +142,11 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
             let is_named = message.starts_with(&format!("loading.{index} = "));
             is_named && (message.contains("; allowed") || is_out_of_reach)
         }
-        RunError::Surface(SurfaceError::FormTable { .. }) => {
+        RunError::Surface(SurfaceError::File { field: "form.file", .. }) => {
             matches!(scene.form, Some(Form::Table { .. })) && message.starts_with("form.file = ")
         }
         RunError::Surface(SurfaceError::NotFinite { .. }) => message.contains("form and roughness"),
-        RunError::Surface(SurfaceError::Measured { file, .. }) => {
+        RunError::Surface(SurfaceError::File { file, .. }) => {
             matches!(scene.roughness, Some(Roughness::Measured { .. }))
                 && message.contains(&format!("{file:?}"))
         }
