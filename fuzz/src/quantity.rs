@@ -41,9 +41,9 @@ fn assert_shown(text: &str, value: f64, unit: &str) {
     let shown = format_quantity(value, unit);
     let read = parse_quantity(&shown, unit).unwrap_or_else(|error| panic!("{text:?}: {error}"));
     assert_eq!(format_quantity(read, unit), shown, "{text:?} {unit}: {value} {read}");
-    // Four digits, as far as numbers this small have them.
+    // Four digits; what is far below the smallest prefix is zero.
     let error = (read - value).abs();
-    assert!(error <= 5.01e-4 * value.abs() + f64::MIN_POSITIVE, "{text:?} {unit}: {value} {read}");
+    assert!(error <= 5.01e-4 * value.abs() + 1e-36, "{text:?} {unit}: {value} {read}");
     // The opposite sign gives the opposite number.
     let typed = text.trim();
     if !typed.starts_with(['+', '-']) {

@@ -139,8 +139,9 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
                 matches!(target, Move::ToForce(force) if *force > 0.0 && (force / stiffness).is_finite());
             let is_out_of_reach =
                 **reason == ContactError::OutOfReach && (scene.adhesion.is_some() || !presses);
-            let is_named = message.starts_with(&format!("loading.{index} = "));
-            is_named && (message.contains("; allowed") || is_out_of_reach)
+            let is_named = message.starts_with(&format!("stage {}: ", index + 1));
+            let has_limit = ["; allowed", "within reach: "].iter().any(|words| message.contains(words));
+            is_named && (has_limit || is_out_of_reach)
         }
         RunError::Surface(SurfaceError::File { field: "form.file", .. }) => {
             matches!(scene.form, Some(Form::Table { .. })) && message.starts_with("form.file = ")
