@@ -174,8 +174,8 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
     if let Some(path) = &arguments.measured {
         let name = path_name(path);
         let curve = MeasuredCurve::read(path, &arguments.reading);
-        opening.measured =
-            Some(Measured::new(name.clone(), curve.map_err(|error| CliError::named(&name, error))?));
+        let curve = curve.map_err(|error| CliError::named(&name, error))?;
+        opening.measured = Some(Measured::new(name, curve, &arguments.reading));
     }
     Ok(opening)
 }

@@ -15,4 +15,4 @@ pub use curve::MeasuredCurve;
 pub use error::ExperimentError;
 pub use fit::{Fit, FitOptions, FittedParameter, fit};
 pub use parameter::{Free, Parameter};
-pub use read::CurveOptions;
+pub use read::{CurveOptions, Drift};

@@ -2,10 +2,11 @@
 
 use super::ExperimentError;
 use crate::io::{PROVENANCE, npy};
-use crate::scene::{LONGEST_TEXT, parse_quantity};
+use crate::scene::{LONGEST_TEXT, parse_quantity, quoted};
 use crate::topography::text::{COMMENT, Cell, Decimal, Separator, each_line};
 use crate::topography::{Place, TopographyError, content, npy_columns, refused, shown, unpacked};
 use std::cell::RefCell;
+use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -36,8 +37,10 @@ pub enum Negate {
 /// Treatment of the linear drift of the force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drift {
+    /// Keeps the drift in the curve.
     #[default]
     Keep,
+    /// Removes the straight line before contact.
     Remove,
     /// Removes this drift from the first to the last point, N.
     Known(f64),
@@ -94,6 +97,32 @@ pub struct CurveOptions {
     /// Number of points before contact; default: up to the first change
     #[cfg_attr(feature = "tui", arg(long, value_name = "COUNT"))]
     pub free_points: Option<usize>,
+}
+
+impl fmt::Display for CurveOptions {
+    /// Writes the options as arguments of the command line, a blank before each.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (name, values) in [("columns", &self.columns), ("units", &self.units)] {
+            if !values.is_empty() {
+                write!(out, " --{name}={}", quoted(&values.join(",")))?;
+            }
+        }
+        let drift = match self.drift {
+            Drift::Keep => None,
+            Drift::Remove => Some("remove".to_owned()),
+            Drift::Known(force) => Some(format!("{force:?}N")),
+        };
+        let newtons = |force: Option<f64>| force.map(|force| format!("{force:?}N"));
+        let values = [
+            ("negate", self.negate.map(|one| one.to_string())),
+            ("zero", newtons(self.zero)),
+            ("drift", drift),
+            ("noise", newtons(self.noise)),
+            ("free-points", self.free_points.map(|count| count.to_string())),
+        ];
+        let given = values.into_iter().filter_map(|(name, value)| Some((name, value?)));
+        given.into_iter().try_for_each(|(name, value)| write!(out, " --{name}={value}"))
+    }
 }
 
 /// Columns of a file in SI units, without the points of which a value is missing.

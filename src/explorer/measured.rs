@@ -1,7 +1,7 @@
 //! A measured force curve beside the scene, in its place over the displacement.
 
 use crate::contact::CurvePoint;
-use crate::experiment::MeasuredCurve;
+use crate::experiment::{CurveOptions, MeasuredCurve};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -9,14 +9,16 @@ pub struct Measured {
     /// Name of its file.
     pub name: String,
     pub curve: Arc<MeasuredCurve>,
+    /// The options of reading, as arguments of a command.
+    pub options: String,
     /// Measured displacement at first touch, m.
     pub offset: f64,
 }
 
 impl Measured {
-    pub fn new(name: String, curve: MeasuredCurve) -> Self {
+    pub fn new(name: String, curve: MeasuredCurve, options: &CurveOptions) -> Self {
         let offset = curve.displacement[curve.free];
-        Measured { name, curve: curve.into(), offset }
+        Measured { name, curve: curve.into(), options: options.to_string(), offset }
     }
 
     /// The points on the curve of a scene with an instrument of this stiffness, N/m.

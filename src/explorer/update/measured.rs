@@ -1,4 +1,4 @@
-//! A measured force curve beside the scene: its first touch, its zero, the residual of the scene, and the fit of parameters.
+//! A measured force curve beside the scene: its first touch, the residual of the scene, and the fit of parameters.
 
 use super::{Effect, edit};
 use crate::experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
@@ -119,7 +119,8 @@ fn sentence(fit: &Fit) -> String {
 pub fn exported(app: &App) -> Exported<'_> {
     let report = report(app)?;
     let names: Vec<_> = report.fit.parameters.iter().map(|one| one.parameter.name()).collect();
-    let command = format!("asperity fit {} --free={}", quoted(report.title), names.join(","));
+    let options = &app.measured.as_ref()?.options;
+    let command = format!("asperity fit {}{options} --free={}", quoted(report.title), names.join(","));
     Some((command.into(), Box::new(report)))
 }
 

@@ -2,7 +2,7 @@
 
 use super::common::driver::Driver;
 use super::is_up_to_date;
-use asperity::experiment::{CurveOptions, Fit, MeasuredCurve};
+use asperity::experiment::{CurveOptions, Drift, Fit, MeasuredCurve};
 use asperity::explorer::Opening;
 use asperity::explorer::app::{Measured, Pane};
 use asperity::explorer::update::{Effect, Fitting};
@@ -35,12 +35,16 @@ fn curve() -> MeasuredCurve {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("curve.csv");
     std::fs::write(&path, text).unwrap();
-    MeasuredCurve::read(&path, &CurveOptions::default()).unwrap()
+    MeasuredCurve::read(&path, &options()).unwrap()
+}
+
+fn options() -> CurveOptions {
+    CurveOptions { drift: Drift::Remove, noise: Some(2e-7), ..CurveOptions::default() }
 }
 
 /// The explorer on a sphere of another work of adhesion, with the curve.
 fn shown() -> Driver {
-    let measured = Some(Measured::new("curve.csv".to_owned(), curve()));
+    let measured = Some(Measured::new("curve.csv".to_owned(), curve(), &options()));
     let opening = Opening { measured, ..Opening::from(sphere("0.03")) };
     let is_of_curve =
         |study: &asperity::explorer::studies::Study| study.is::<Arc<Fit>>() || study.is::<Fitting>();
@@ -95,9 +99,9 @@ fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() 
         driver.press("Enter");
         assert!(driver.file(name).contains(expected), "{name}");
     }
-    assert!(
-        driver.file("fit.csv").contains("# command: asperity fit curve.csv --free=work,offset jkr-sphere")
-    );
+    assert!(driver.file("fit.csv").contains(
+        "# command: asperity fit curve.csv --drift=remove --noise=2e-7N --free=work,offset jkr-sphere"
+    ));
     driver.press("u");
     assert_eq!(driver.app.edit.document.scene().adhesion.unwrap().work, Some(0.049));
 }
