@@ -159,11 +159,15 @@ impl Search<'_> {
     }
 
     /// Half the sum of the squared residuals over those of a noise in units of that of the curve. The square of a point
-    /// on the wrong side of a jump continues as a straight line (Huber).
+    /// on the wrong side of a jump continues as a logarithm: measured displacements are not exact to the edge of a jump.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
         let loss = |rest: &f64| {
             let rest = (rest / noise).abs();
-            if rest > WRONG_SIDE { WRONG_SIDE * (rest - 0.5 * WRONG_SIDE) } else { 0.5 * rest * rest }
+            if rest > WRONG_SIDE {
+                WRONG_SIDE * WRONG_SIDE * (0.5 + (rest / WRONG_SIDE).ln())
+            } else {
+                0.5 * rest * rest
+            }
         };
         self.refined(&member.rests, WRONG_SIDE * noise).iter().map(loss).sum()
     }
