@@ -104,7 +104,7 @@ impl fmt::Display for CurveOptions {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (name, values) in [("columns", &self.columns), ("units", &self.units)] {
             if !values.is_empty() {
-                write!(out, " --{name}={}", quoted(&values.join(",")))?;
+                write!(out, " --{name}={}", quoted(values.join(",")))?;
             }
         }
         let drift = match self.drift {
