@@ -299,7 +299,7 @@ mod tests {
         let none = adhesion(0.0);
         assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
         assert_eq!(adhesion(-1e-300), Some(1e-300));
-        // A force that still falls where the stage ends is no pull-off; one that rises again is.
+        // The pull-off is a minimum within the stage: the force rises again after it.
         let ends_at = |force| {
             let mut pulled = pulled(-1.0, 0);
             pulled.curve = vec![pulled.smallest, point(-0.5, force, 1)];

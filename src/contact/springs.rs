@@ -189,8 +189,8 @@ impl Foundation {
 
 /// The rule of Hess, eqs. (3) and (10): largest stretch of the springs of a contact fragment before they detach.
 ///
-/// Where the work of adhesion is larger on opening than on closing, a fragment attaches springs by the closing rule and
-/// detaches them by the opening one. In between its edges are pinned.
+/// If the work of adhesion on opening exceeds that on closing, springs attach to a contact patch by the closing rule and detach
+/// from it by the opening rule; between both limits the edges of the patch do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
     /// Largest stretch of a single spring on detaching, m.

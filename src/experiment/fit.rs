@@ -413,7 +413,8 @@ mod tests {
         assert!(held as f64 >= 0.93 * all as f64, "{held} of {all}");
     }
 
-    /// Its values lie within a few errors of the truth, with the residuals of the noise.
+    /// Asserts that the values differ from the truth by a few standard errors at most, and that the residuals are those of the
+    /// noise.
     fn assert_found(made: &Made, fit: &Fit) {
         assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
         for one in &fit.parameters {
@@ -423,7 +424,7 @@ mod tests {
         }
     }
 
-    /// Its force jumps at many places, which the fit finds again.
+    /// The force of a rough sphere jumps at many displacements.
     #[test]
     fn a_rough_sphere_is_found_within_its_errors() {
         let made = random(11, 1024);

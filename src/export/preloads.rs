@@ -203,7 +203,8 @@ const MOST_DECADES: f64 = 6.0;
 pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;
-    // A turn at first touch is no preload. From each preload on level up to the next one, as the staircases are.
+    // The first row is the turn at first touch, without a preload. Values are constant from each preload to the next, as in
+    // a staircase.
     let pressed = &spread[spread.partition_point(|(preload, _)| *preload <= touch)..];
     let corner = |pair: &[(f64, Statistics)]| {
         let level = (pair[0].1 != pair[1].1).then_some((pair[1].0, pair[0].1));

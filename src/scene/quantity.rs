@@ -19,7 +19,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi"),
 ];
 
-/// Reason why a typed text is no quantity.
+/// Reason why a typed text is not a quantity.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(pub(super) String);

@@ -219,7 +219,7 @@ mod tests {
             ),
             ("", "", Some("third"), "no surface \"third\" in the container: \"first"),
             ("map.txt", "none.txt", Some(first), "no file none.txt in the archive"),
-            ("nm", "V", Some(first), "topography map: \"V\" is no unit of length; allowed: "),
+            ("nm", "V", Some(first), "topography map: \"V\" is not a unit of length; allowed: "),
             ("curvature", "wavelets", Some(first), "meta.yml: "),
             ("surfaces", "things", None, "meta.yml: "),
             ("original: map", "other: map", Some(first), "topography map: no file; allowed: a datafile"),

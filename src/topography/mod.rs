@@ -58,7 +58,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Reason why a file is no surface. The caller puts the name of the file before the message.
+/// Reason why a file cannot be read as a surface. The caller puts the name of the file before the message.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TopographyError {
     /// The content cannot be read, or is invalid: place within the file, fault, and allowed content.
@@ -115,9 +115,9 @@ pub struct Unit {
     per_metre: f64,
 }
 
-/// Text that is no unit of length.
+/// Text that is not a unit of length.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{:?} is no unit of length; allowed: {}", shown(.0), UnitError::ALLOWED)]
+#[error("{:?} is not a unit of length; allowed: {}", shown(.0), UnitError::ALLOWED)]
 pub struct UnitError(String);
 
 impl UnitError {

@@ -146,6 +146,15 @@ mod tests {
         assert_eq!(buffer[(4, 1)].fg, Color::Red);
     }
 
+    #[test]
+    fn powers_of_ten_keep_their_exponents() {
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 24, 1));
+        buffer.set_string(0, 0, "10⁻¹⁹ │10⁵ 210⁵ 10 m²", Style::new());
+        to_ascii(&mut buffer);
+        let text: String = buffer.content.iter().map(|cell| cell.symbol()).collect();
+        assert_eq!(text.trim_end(), "1e-19 |1e5 2105 10 m2");
+    }
+
     proptest! {
         #[test]
         fn the_result_is_ascii_and_stays_so(rows in prop::collection::vec("\\PC{0,20}", 1..4)) {

@@ -100,3 +100,16 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
     driver.press("Down");
     assert_ne!(driver.app.edit.selected, before);
 }
+
+#[test]
+fn the_crosshair_stays_on_the_curves_of_its_chart() {
+    let mut driver = mid_retraction(punch());
+    driver.press("*");
+    for end in ["Home", "End"] {
+        driver.press(end);
+        let edge = edge(&driver, Pane::Force);
+        assert!(edge.contains("loading "), "{end}: {edge}");
+    }
+    driver.press("* O *");
+    assert!(driver.text().contains("no curves for the crosshair"), "{}", driver.text());
+}

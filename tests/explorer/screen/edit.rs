@@ -4,6 +4,7 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{is_up_to_date, pressed};
 use asperity::explorer::app::Message;
+use asperity::scene::open;
 
 #[test]
 fn keys_step_a_value_finely_and_coarsely() {
@@ -144,4 +145,13 @@ fn the_selection_stays_on_its_field_when_rows_come_and_go() {
     assert_eq!((path(&driver), rows(&driver)), ("numerics.samples", before));
     driver.press("1");
     assert_eq!(path(&driver), "numerics.samples");
+}
+
+#[test]
+fn a_scene_that_is_opened_again_unchanged_leaves_nothing_to_undo() {
+    let mut driver = Driver::start(open("pressure-sensitive").unwrap());
+    driver.press("2");
+    assert!(driver.app.edit.past.is_empty());
+    driver.press("u");
+    assert!(driver.status().starts_with("nothing to undo"), "{}", driver.status());
 }
