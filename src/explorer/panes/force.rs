@@ -1,12 +1,11 @@
 //! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
 use super::row::outcome;
-use super::{PaneRow, Place};
+use super::{Exported, PaneRow, Place};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction};
 use crate::draw::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
-use crate::explorer::app::letter;
-use crate::explorer::app::{App, Ghost};
+use crate::explorer::app::{App, Ghost, Measured, letter};
 use crate::explorer::caption::caption;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
@@ -14,18 +13,18 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
 use crate::explorer::update::measured;
 use crate::explorer::view::text::filled;
-use crate::export::{ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart, sign};
-use crate::scene::format_rounded;
+use crate::export::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart, sign};
+use crate::scene::{format_rounded, quoted};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    figure: |app, _| match measured::report(app) {
+    figure: |app, _| match fit_report(app) {
         Some(report) => report.figure(),
         None => Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     },
-    report: |app| measured::exported(app).or_else(|| outcome(app)),
+    report: |app| fit(app).or_else(|| outcome(app)),
     place: Place::Own,
     keys: Some(Context::Crosshair),
     help: &[(
@@ -35,6 +34,20 @@ pub static ROW: PaneRow = PaneRow {
     )],
     ..PaneRow::EMPTY
 };
+
+/// The measured curve, its model and the residuals, while there is a measured curve.
+fn fit_report(app: &App) -> Option<FitReport<'_>> {
+    let Measured { name, curve, .. } = app.measured.as_ref()?;
+    Some(FitReport { title: name, curve, fit: measured::fitted(app).filter(|_| app.is_current())? })
+}
+
+/// The same with the command that computes the fit.
+fn fit(app: &App) -> Exported<'_> {
+    let (report, options) = (fit_report(app)?, &app.measured.as_ref()?.options);
+    let names: Vec<_> = report.fit.parameters.iter().map(|one| one.parameter.name()).collect();
+    let command = format!("asperity fit {}{options} --free={}", quoted(report.title), names.join(","));
+    Some((command.into(), Box::new(report)))
+}
 
 /// Fewest rows of a pane whose label of the vertical axis is above the chart.
 const WITH_HEAD: u16 = 7;

@@ -2,12 +2,10 @@
 
 use super::{Effect, edit};
 use crate::experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
-use crate::explorer::app::{App, Measured};
-use crate::explorer::panes::Exported;
+use crate::explorer::app::App;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
-use crate::export::FitReport;
-use crate::scene::{format_quantity, format_range, quoted};
+use crate::scene::{format_quantity, format_range};
 use std::sync::Arc;
 
 /// Number of computed curves between two reports of a fit.
@@ -113,19 +111,4 @@ fn sentence(fit: &Fit) -> String {
             format!("the scene does not describe the curve, residual {times} × noise; {found}; u undoes")
         }
     }
-}
-
-/// The fit as a table or JSON, and the command that computes the fit.
-pub fn exported(app: &App) -> Exported<'_> {
-    let report = report(app)?;
-    let names: Vec<_> = report.fit.parameters.iter().map(|one| one.parameter.name()).collect();
-    let options = &app.measured.as_ref()?.options;
-    let command = format!("asperity fit {}{options} --free={}", quoted(report.title), names.join(","));
-    Some((command.into(), Box::new(report)))
-}
-
-/// The curve, its model and the residuals.
-pub fn report(app: &App) -> Option<FitReport<'_>> {
-    let Measured { name, curve, .. } = app.measured.as_ref()?;
-    Some(FitReport { title: name, curve, fit: fitted(app).filter(|_| app.is_current())? })
 }

@@ -73,6 +73,11 @@ fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() 
     assert!(far > 2.0 * near && near < 3.0, "{far} {near}");
     let measured = driver.app.measured.clone().unwrap();
     assert!((measured.offset - 4e-7).abs() < 2e-8, "{}", measured.offset);
+    // The measured points lie on the curve of the scene.
+    let points = measured.points(f64::INFINITY).into_iter();
+    let least = points.min_by(|one, other| one.force.total_cmp(&other.force)).unwrap().indentation;
+    let pull_off = driver.outcome().figures.pull_off_indentation.unwrap();
+    assert!((least - pull_off).abs() < 5e-8, "{least} {pull_off}");
 
     driver.press("Ctrl+f Ctrl+u");
     driver.type_text("work,ofset");
