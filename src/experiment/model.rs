@@ -7,8 +7,9 @@ use crate::contact::{Contact, ContactError, CurvePoint, Direction, Foundation, H
 use crate::scene::{Form, Scene};
 use crate::simulation::Simulation;
 
-/// Points of the force curve of each segment beside those at its jumps.
-const SAMPLES: usize = 256;
+/// Points of the force curve of each segment beside those at its jumps, and those of coarse forces.
+const SAMPLES: usize = 128;
+const FEW: usize = 64;
 /// Extensions of a loading that does not reach the displacement of its end, and halvings of the way to that end.
 const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
@@ -25,12 +26,32 @@ pub(super) struct Model<'a> {
     simulation: &'a mut Simulation,
     /// Contact with the radius of its form, m; its springs and their tree serve all other values.
     contact: Option<(Contact, f64)>,
+    /// Noise to which the forces are exact, in units of that of the curve: 1 or more.
+    pub noise: f64,
     pub evaluations: usize,
+}
+
+/// The instrument, and the points at which the curve of a leg is computed.
+#[derive(Clone, Copy)]
+struct Sampling {
+    /// Stiffness of the instrument, N/m.
+    stiffness: f64,
+    points: usize,
+    /// Smallest jump of the force with points at both of its ends, N.
+    least_jump: f64,
 }
 
 impl<'a> Model<'a> {
     pub fn new(curve: &'a MeasuredCurve, scene: &Scene, simulation: &'a mut Simulation) -> Self {
-        Model { turns: curve.turns(), curve, scene: scene.clone(), simulation, contact: None, evaluations: 0 }
+        Model {
+            turns: curve.turns(),
+            curve,
+            scene: scene.clone(),
+            simulation,
+            contact: None,
+            noise: 1.0,
+            evaluations: 0,
+        }
     }
 
     /// Springs under the form of this radius with these works of adhesion and modulus.
@@ -62,13 +83,25 @@ impl<'a> Model<'a> {
         let contact = self.contact(values)?;
         let [offset, zero, stiffness] =
             [Parameter::Offset, Parameter::Zero, Parameter::Stiffness].map(|one| values[one as usize]);
-        let instrument = [stiffness, self.curve.noise];
+        let sampling = Sampling {
+            stiffness,
+            points: if self.noise > 1.0 { FEW } else { SAMPLES },
+            least_jump: NOTABLE * self.noise * self.curve.noise,
+        };
         let mut forces = Vec::with_capacity(self.curve.force.len());
-        let mut here = None;
+        // Leg and indentation of the body, m, while it touches.
+        let mut here: Option<(Leg, f64)> = None;
         for (number, turn) in self.turns.iter().enumerate() {
-            let (leg, curve) = match number % 2 {
-                0 => press(&contact, here.as_ref(), turn - offset, instrument)?,
-                _ => pull(here.as_ref(), instrument)?,
+            let (presses, from) = (number % 2 == 0, here.as_ref().map(|(_, at)| *at));
+            let leg = match &here {
+                Some((leg, at)) => Some(leg.turn(*at)?),
+                None if presses && *turn > offset => Some(Leg::approach(&contact)?),
+                None => None,
+            };
+            let curve = match &leg {
+                Some(leg) if presses => sampling.press(leg, from, turn - offset)?,
+                Some(leg) => sampling.pull(leg, from.unwrap_or_default())?,
+                None => DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness),
             };
             let ends = [curve.points().first(), curve.points().last()].into_iter().flatten().copied();
             // Beyond the ends of a segment, by the noise of the displacement, the force is that of the end.
@@ -89,97 +122,78 @@ impl<'a> Model<'a> {
     }
 }
 
-/// A leg and the indentation of the body on it, m.
-type Here = (Leg, f64);
-
-/// Leg of a loading and its curve up to a displacement, m; no leg of a body that does not touch.
-fn press(
-    contact: &Contact,
-    here: Option<&Here>,
-    to: f64,
-    instrument: [f64; 2],
-) -> Result<(Option<Leg>, DisplacementCurve), ContactError> {
-    let free = here.is_none().then(CurvePoint::default);
-    let (leg, from) = match here {
-        Some((leg, at)) => (leg.turn(*at)?, *at),
-        None if to <= 0.0 => {
-            return Ok((None, DisplacementCurve::new(Direction::Loading, free.as_slice(), instrument[0])));
+impl Sampling {
+    /// Curve of a loading from an indentation, m, or from first touch, up to a displacement, m.
+    fn press(self, leg: &Leg, from: Option<f64>, to: f64) -> Result<DisplacementCurve, ContactError> {
+        let (free, from) = (from.is_none().then(CurvePoint::default), from.unwrap_or_default());
+        // An indentation close behind the one at which the instrument is at its end: it takes a part of the way, or is pulled on.
+        let displacement = |at: f64| leg.point(at).map(|point| point.displacement(self.stiffness));
+        let (mut low, mut high) = (from, to.max(from));
+        for _ in 0..EXTENSIONS {
+            let reached = displacement(high)?;
+            if reached >= to {
+                break;
+            }
+            (low, high) = (high, high + 2.0 * (to - reached));
         }
-        None => (Leg::approach(contact)?, 0.0),
-    };
-    // An indentation close behind the one at which the instrument is at its end: it takes a part of the way, or is pulled on.
-    let displacement = |at: f64| leg.point(at).map(|point| point.displacement(instrument[0]));
-    let (mut low, mut high) = (from, to.max(from));
-    for _ in 0..EXTENSIONS {
-        let reached = displacement(high)?;
-        if reached >= to {
-            break;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *if displacement(middle)? < to { &mut low } else { &mut high } = middle;
         }
-        (low, high) = (high, high + 2.0 * (to - reached));
+        self.over(leg, [from, high], 1, free)
     }
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        *if displacement(middle)? < to { &mut low } else { &mut high } = middle;
+
+    /// Curve of an unloading from an indentation, m, to separation.
+    fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
+        let end = leg.end().min(from);
+        // Close to separation the force may fall as the root of the indentation.
+        self.over(leg, [end, from], 2, Some(CurvePoint { indentation: end, ..CurvePoint::default() }))
     }
-    let curve = over(&leg, [from, high], 1, free, instrument)?;
-    Ok((Some(leg), curve))
-}
 
-/// Leg of an unloading and its curve to separation.
-fn pull(here: Option<&Here>, instrument: [f64; 2]) -> Result<(Option<Leg>, DisplacementCurve), ContactError> {
-    let free = CurvePoint::default();
-    let Some((leg, from)) = here else {
-        return Ok((None, DisplacementCurve::new(Direction::Unloading, &[free], instrument[0])));
-    };
-    let leg = leg.turn(*from)?;
-    let end = leg.end().min(*from);
-    // Close to separation the force may fall as the root of the indentation.
-    let curve = over(&leg, [end, *from], 2, Some(CurvePoint { indentation: end, ..free }), instrument)?;
-    Ok((Some(leg), curve))
-}
-
-/// Curve of a leg between two indentations over the displacement, through points that are close to the lower end by this
-/// power, and a point without contact before or after them. All jumps that exceed a noise, N, are where they are.
-fn over(
-    leg: &Leg,
-    [low, high]: [f64; 2],
-    power: i32,
-    free: Option<CurvePoint>,
-    [stiffness, noise]: [f64; 2],
-) -> Result<DisplacementCurve, ContactError> {
-    let share = |index: usize| (index as f64 / (SAMPLES - 1) as f64).powi(power);
-    let even = |index: usize| (low + (high - low) * share(index)).min(high);
-    let mut points = leg.curve(&(0..SAMPLES).map(even).collect::<Vec<f64>>())?;
-    let with = |mut points: Vec<CurvePoint>, mut at: Vec<f64>| {
+    /// Curve of a leg between two indentations over the displacement, through points that are close to the lower end by this
+    /// power, and a point without contact before or after them. All jumps that are looked for are where they are.
+    fn over(
+        self,
+        leg: &Leg,
+        [low, high]: [f64; 2],
+        power: i32,
+        free: Option<CurvePoint>,
+    ) -> Result<DisplacementCurve, ContactError> {
+        let share = |index: usize| (index as f64 / (self.points - 1) as f64).powi(power);
+        let even = (0..self.points).map(|index| (low + (high - low) * share(index)).min(high));
+        // Both ends of the jumps of the contact.
+        let jumps = leg.jumps(low, high, self.least_jump);
+        let mut at: Vec<f64> = even.chain(jumps.into_iter().flat_map(|at| [at.next_down(), at])).collect();
         at.sort_by(f64::total_cmp);
-        points.extend(leg.curve(&at)?);
-        points.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));
-        Ok::<_, ContactError>(points)
-    };
-    // Both ends of the jumps of the contact.
-    let jumps = leg.jumps(low, high, NOTABLE * noise);
-    points = with(points, jumps.into_iter().flat_map(|at| [at.next_down(), at]).collect())?;
-    // Places where the instrument cannot hold the body any more, which may be close before a jump of the contact.
-    let sign = if leg.direction() == Direction::Loading { 1.0 } else { -1.0 };
-    let mut reached = f64::NEG_INFINITY;
-    let mut folds = Vec::new();
-    let ordered = |index: usize| if sign > 0.0 { points[index] } else { points[points.len() - 1 - index] };
-    for [one, fold, next] in (2..points.len()).map(|index| [index - 2, index - 1, index].map(ordered)) {
-        let [before, at, after] = [one, fold, next].map(|point| sign * point.displacement(stiffness));
-        reached = reached.max(before);
-        if at > reached && after < at {
-            let beside = |end: CurvePoint| {
-                (1..=FAN).map(move |power| {
-                    fold.indentation + (end.indentation - fold.indentation) * 0.5_f64.powi(power)
-                })
-            };
-            folds.extend(beside(one).chain(beside(next)));
+        let mut points = leg.curve(&at)?;
+        // Places where the instrument cannot hold the body any more, which may be close before a jump of the contact.
+        let sign = if leg.direction() == Direction::Loading { 1.0 } else { -1.0 };
+        let mut reached = f64::NEG_INFINITY;
+        let mut folds = Vec::new();
+        let ordered =
+            |index: usize| if sign > 0.0 { points[index] } else { points[points.len() - 1 - index] };
+        for [one, fold, next] in (2..points.len()).map(|index| [index - 2, index - 1, index].map(ordered)) {
+            let [before, at, after] =
+                [one, fold, next].map(|point| sign * point.displacement(self.stiffness));
+            reached = reached.max(before);
+            if at > reached && after < at {
+                let beside = |end: CurvePoint| {
+                    (1..=FAN).map(move |power| {
+                        fold.indentation + (end.indentation - fold.indentation) * 0.5_f64.powi(power)
+                    })
+                };
+                folds.extend(beside(one).chain(beside(next)));
+            }
         }
+        if !folds.is_empty() {
+            folds.sort_by(f64::total_cmp);
+            points.extend(leg.curve(&folds)?);
+            points.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));
+        }
+        let points: Vec<CurvePoint> = match leg.direction() {
+            Direction::Loading => free.into_iter().chain(points).collect(),
+            Direction::Unloading => points.into_iter().rev().chain(free).collect(),
+        };
+        Ok(DisplacementCurve::new(leg.direction(), &points, self.stiffness))
     }
-    points = with(points, folds)?;
-    let points: Vec<CurvePoint> = match leg.direction() {
-        Direction::Loading => free.into_iter().chain(points).collect(),
-        Direction::Unloading => points.into_iter().rev().chain(free).collect(),
-    };
-    Ok(DisplacementCurve::new(leg.direction(), &points, stiffness))
 }

@@ -27,9 +27,14 @@ const EFFECTIVE: f64 = 0.3;
 /// Moves of the population at each step, and those at the end, after which all members are samples.
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
-/// Most populations of a search, and mean square residual in units of the noise at which the second one is the last.
-const ATTEMPTS: usize = 4;
+/// Noise in units of that of the curve down to which the forces are coarse, and factor of the members until then.
+const COARSE: f64 = 10.0;
+const MORE: usize = 2;
+/// Most populations of a search; mean square residual in units of the noise, and relative difference of the costs of two
+/// populations, at which one is the last.
+const ATTEMPTS: usize = 3;
 const EXPECTED: f64 = 1.2;
+const AGREEING: f64 = 0.01;
 /// Largest noise in units of that of the curve, and halvings of its logarithm in a step.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
@@ -56,6 +61,15 @@ struct Population {
     noise: f64,
     best: Member,
     cost: f64,
+}
+
+impl Population {
+    /// Keeps a member with this cost at the noise of the curve, if it is the best.
+    fn keep(&mut self, member: &Member, cost: f64) {
+        if cost < self.cost {
+            (self.best, self.cost) = (member.clone(), cost);
+        }
+    }
 }
 
 /// Result of a search.
@@ -211,22 +225,27 @@ impl Search<'_> {
         Ok(self.least(1, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
     }
 
-    /// The best of some populations at the noise of the curve: one in ten ends in another minimum than the least. The second
-    /// is the last if the residuals are those of the noise.
+    /// The best of some populations at the noise of the curve: one in thirty ends in another minimum than the least. A
+    /// population is the last if its residuals are those of the noise, or if it agrees with the best one before.
     fn least(&mut self, attempts: usize, generator: &mut ChaCha8Rng) -> Result<Population, ExperimentError> {
         let mut least = self.anneal(0, generator)?;
         for attempt in 1..attempts {
-            let next = self.anneal(attempt, generator)?;
-            least = if next.cost < least.cost { next } else { least };
             if least.cost < EXPECTED * 0.5 * least.best.rests.len() as f64 {
+                break;
+            }
+            let next = self.anneal(attempt, generator)?;
+            let agrees = (next.cost - least.cost).abs() < AGREEING * least.cost;
+            least = if next.cost < least.cost { next } else { least };
+            if agrees {
                 break;
             }
         }
         Ok(least)
     }
 
-    /// A population at the noise of the curve.
+    /// A population at the noise of the curve: with more members and coarse forces while the noise is large.
     fn anneal(&mut self, attempt: usize, generator: &mut ChaCha8Rng) -> Result<Population, ExperimentError> {
+        self.model.noise = COARSE;
         let members = self.scattered(attempt)?;
         let costs = vec![0.0; members.len()];
         let mut population = Population {
@@ -243,7 +262,16 @@ impl Search<'_> {
                 return Ok(population);
             }
             let (noise, weights) = self.cooler(&population, least);
-            let members = drawn(&population.members, &weights, count, generator.random());
+            let count = if noise > COARSE { MORE * count } else { count };
+            let mut members = drawn(&population.members, &weights, count, generator.random());
+            if noise < self.model.noise {
+                self.model.noise = 1.0;
+                population.cost = f64::INFINITY;
+                for member in &mut members {
+                    *member = self.member(std::mem::take(&mut member.at))?;
+                    population.keep(member, self.cost(member, 1.0));
+                }
+            }
             let costs = members.iter().map(|member| self.cost(member, noise)).collect();
             population = Population { members, costs, noise, ..population };
             for _ in 0..MOVES {
@@ -300,10 +328,7 @@ impl Search<'_> {
             let member = self.member(at)?;
             let cost = self.cost(&member, population.noise);
             if chance < (population.costs[index] - cost).exp() {
-                let total = self.cost(&member, 1.0);
-                if total < population.cost {
-                    (population.best, population.cost) = (member.clone(), total);
-                }
+                population.keep(&member, self.cost(&member, 1.0));
                 (population.members[index], population.costs[index]) = (member, cost);
             }
         }
