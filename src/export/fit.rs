@@ -133,10 +133,12 @@ impl Report for FitReport<'_> {
         ];
         let found = fit.parameters.iter().map(|one| {
             let half = 0.5 * (one.interval.1 - one.interval.0);
-            let [value, half] = [one.value, half].map(|value| format_quantity(value, one.parameter.row().3));
-            format!("{} = {value} ± {half}", one.parameter.row().2)
+            let digit = 10_f64.powf(half.max(1e-4 * one.value.abs()).max(1e-30).log10().floor() - 1.0);
+            let [value, half] = [one.value, half]
+                .map(|value| format_quantity((value / digit).round() * digit, one.parameter.row().3));
+            format!("{} = {value} ± {half}", one.parameter.row().2).replace(' ', "\u{a0}")
         });
-        let notes = vec![Label::plain(&found.collect::<Vec<_>>().join(", "))];
+        let notes = vec![Label::plain(&format!("95 % intervals: {}", found.collect::<Vec<_>>().join(", ")))];
         let charts = vec![Chart::new(x(), force, layers), Chart::new(x(), rest, rests)];
         Some(Figure { title: title.to_owned(), notes, charts, size: Figure::SMALL, ..Figure::default() })
     }
