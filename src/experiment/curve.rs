@@ -99,9 +99,9 @@ impl MeasuredCurve {
         let least = NO_NOISE * (high - low);
         let free = options.free_points.map(|free| free / averaged);
         let Some(free) = free.or_else(|| free_count(&force[..approach], least)) else {
-            let allowed =
-                "a change of the force by more than the noise; --free-points COUNT for a weak contact";
-            return refused("no contact: the force does not change in the approach", allowed);
+            let allowed = "a part before contact, then a change by more than the noise; --free-points COUNT for \
+                           a weak contact";
+            return refused("no contact: the force follows one straight line in the approach", allowed);
         };
         if !(FEWEST..approach).contains(&free) {
             let fault = format!("no part before contact: {free} of {approach} points of the approach");
