@@ -30,11 +30,8 @@ const LAST_MOVES: usize = 16;
 /// Noise in units of that of the curve down to which the forces are coarse, and factor of the members until then.
 const COARSE: f64 = 10.0;
 const MORE: usize = 2;
-/// Most populations of a search; mean square residual in units of the noise, and relative difference of the costs of two
-/// populations, at which one is the last.
-const ATTEMPTS: usize = 3;
+/// Mean square residual in units of the noise beyond which a second population is made.
 const EXPECTED: f64 = 1.2;
-const AGREEING: f64 = 0.01;
 /// Largest noise in units of that of the curve, and halvings of its logarithm in a step.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
@@ -208,10 +205,15 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Finds the parameters of a curve.
+    /// Finds the parameters of a curve: by the better of two populations if the residuals of the first one exceed the noise,
+    /// as one in thirty ends in another minimum than the least.
     pub fn find(&mut self) -> Result<Found, ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
-        let mut population = self.least(ATTEMPTS, &mut generator)?;
+        let mut population = self.anneal(0, &mut generator)?;
+        if population.cost > EXPECTED * 0.5 * population.best.rests.len() as f64 {
+            let second = self.anneal(1, &mut generator)?;
+            population = if second.cost < population.cost { second } else { population };
+        }
         let mut samples = Vec::new();
         for _ in 0..LAST_MOVES {
             self.move_all(&mut population, &mut generator)?;
@@ -220,27 +222,9 @@ impl Search<'_> {
         Ok(Found { best: population.best.at, samples })
     }
 
-    /// Coordinates of small residuals: those of one attempt.
+    /// Coordinates of small residuals: those of one population.
     pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
-        Ok(self.least(1, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
-    }
-
-    /// The best of some populations at the noise of the curve: one in thirty ends in another minimum than the least. A
-    /// population is the last if its residuals are those of the noise, or if it agrees with the best one before.
-    fn least(&mut self, attempts: usize, generator: &mut ChaCha8Rng) -> Result<Population, ExperimentError> {
-        let mut least = self.anneal(0, generator)?;
-        for attempt in 1..attempts {
-            if least.cost < EXPECTED * 0.5 * least.best.rests.len() as f64 {
-                break;
-            }
-            let next = self.anneal(attempt, generator)?;
-            let agrees = (next.cost - least.cost).abs() < AGREEING * least.cost;
-            least = if next.cost < least.cost { next } else { least };
-            if agrees {
-                break;
-            }
-        }
-        Ok(least)
+        Ok(self.anneal(0, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
     }
 
     /// A population at the noise of the curve: with more members and coarse forces while the noise is large.
