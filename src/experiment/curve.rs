@@ -316,6 +316,10 @@ mod tests {
                 text("separation [um],force [N]\n", |d, f| format!("{},{}", -d / 1e3, f / 1e9)).into(),
                 columns(&["1", "2"]),
             ),
+            (
+                text("z [nm],deflection [nm]\n", |d, f| format!("{d},{}", f / 4.0)).into(),
+                CurveOptions { units: vec!["nm".into(), "4nN".into()], ..columns(&["1", "2"]) },
+            ),
             (array("'<f8'", "600, 2", &mut rows()), units(columns(&["1", "2"]))),
             (array("'<f8'", "2, 600", &mut axes()), units(columns(&["1", "2"]))),
             (array(fields, "600,", &mut all.iter().flat_map(|&(d, f)| [f, d])), units(plain.clone())),

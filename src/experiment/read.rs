@@ -77,6 +77,8 @@ pub struct CurveOptions {
     )]
     pub columns: Vec<String>,
     /// Units of displacement and force where none are stated: nm,nN
+    ///
+    /// A number is the value of 1 in the column: nm,3.01nN for a deflection in nm with 3.01 N/m.
     #[cfg_attr(feature = "tui", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
     pub units: Vec<String>,
     /// Reverse none, displacement, force or both; default: by the approach
@@ -212,7 +214,8 @@ impl Columns {
         let columns = [&mut self.displacement, &mut self.force];
         for ((column, unit), value) in columns.into_iter().zip(choice.units).zip(&mut values) {
             // A division by a whole number rounds once.
-            column.push(if unit < 1.0 { value / (1.0 / unit).round() } else { value * unit });
+            let divisor = (1.0 / unit).round();
+            column.push(if (divisor * unit - 1.0).abs() < 1e-12 { value / divisor } else { value * unit });
         }
         self.segment.extend(values);
     }
@@ -261,16 +264,21 @@ impl Choice {
             let stated =
                 names.get(places[quantity]).and_then(|(_, unit)| unit.as_deref()).or(is_own.then_some(si));
             let option = options.units.get(quantity).map(String::as_str);
-            let text = stated.or(option).ok_or_else(|| {
+            let multiple = option.filter(|text| text.starts_with(|first: char| first.is_ascii_digit()));
+            let text = multiple.or(stated).or(option).ok_or_else(|| {
                 wrong(format!("no unit of the {term} is stated"), "--units nm,nN for displacement and force")
             })?;
-            units[quantity] = unit(text, si).ok_or_else(|| {
+            let of_one = match multiple {
+                Some(text) => parse_quantity(text, si).ok().filter(|of_one| *of_one > 0.0),
+                None => unit(text, si),
+            };
+            units[quantity] = of_one.ok_or_else(|| {
                 wrong(
                     format!("{:?} is not a unit of the {term}", shown(text)),
-                    &format!("{example} and the like"),
+                    &format!("{example} and the like, or the value of 1, such as --units nm,3.01nN"),
                 )
             })?;
-            if option.is_some_and(|option| unit(option, si) != Some(units[quantity])) {
+            if multiple.is_none() && option.is_some_and(|option| unit(option, si) != Some(units[quantity])) {
                 let fault =
                     format!("the file states {} as the unit of the {term}, not that of --units", shown(text));
                 return Err(wrong(fault, "the unit of the file, or no --units"));
