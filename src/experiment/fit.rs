@@ -391,26 +391,29 @@ mod tests {
                 }
             }
         }
-        let held = |kind: Option<&str>, parameter: Option<Parameter>| {
-            let is_of = |one: &&(&str, Parameter, bool)| {
-                kind.is_none_or(|kind| kind == one.0) && parameter.is_none_or(|parameter| parameter == one.1)
-            };
-            let of = || intervals.iter().filter(is_of);
-            (of().filter(|one| one.2).count(), of().count())
+        let counts = |parameter: Option<Parameter>| {
+            ["smooth", "rough"].map(|kind| {
+                let is_of =
+                    |one: &&(&str, Parameter, bool)| one.0 == kind && parameter.is_none_or(|of| of == one.1);
+                let of = || intervals.iter().filter(is_of);
+                (of().filter(|one| one.2).count(), of().count())
+            })
         };
-        for kind in ["smooth", "rough"].map(Some) {
-            for parameter in Parameter::ALL.map(Some).into_iter().chain([None]) {
-                let name = parameter.map_or("all", Parameter::name);
-                println!("{} {name}: {:?}", kind.unwrap_or_default(), held(kind, parameter));
-            }
-        }
-        let longest = seconds.iter().copied().fold(0.0, f64::max);
-        println!(
-            "{:.2} s for a fit, {longest:.2} s at most",
-            seconds.iter().sum::<f64>() / seconds.len() as f64
-        );
-        let (held, all) = held(None, None);
-        assert!(held as f64 >= 0.93 * all as f64, "{held} of {all}");
+        let row = |parameter: Parameter| {
+            let [smooth, rough] = counts(Some(parameter)).map(|(held, all)| format!("{held} of {all}"));
+            format!("| {} | {smooth} | {rough} |\n", parameter.row().1)
+        };
+        let tried = Parameter::ALL.into_iter().filter(|one| counts(Some(*one))[0].1 > 0);
+        let share = |held: usize, all: usize| held as f64 / all as f64;
+        let all = counts(None);
+        let [smooth, rough] =
+            all.map(|(held, all)| format!("{held} of {all}, {:.1} %", 100.0 * share(held, all)));
+        let table = format!("{}| all | {smooth} | {rough} |\n", tried.map(row).collect::<String>());
+        let (mean, longest) =
+            (seconds.iter().sum::<f64>() / seconds.len() as f64, seconds.iter().copied().fold(0.0, f64::max));
+        println!("{table}{mean:.2} s for a fit, {longest:.2} s at most");
+        assert!(share(all[0].0 + all[1].0, all[0].1 + all[1].1) >= 0.93);
+        assert!(seconds.len() < 200 || include_str!("../../docs/experiment.md").contains(&table));
     }
 
     /// Asserts that the values differ from the truth by a few standard errors at most, and that the residuals are those of the
