@@ -129,7 +129,9 @@ fn consoles_print_what_the_program_prints() {
     let take = || next.lock().unwrap().next();
     let work = || {
         while let Some(page) = take() {
-            *differences.lock().unwrap() += &check(page)
+            // The lock is not taken while a page is checked.
+            let found = check(page);
+            *differences.lock().unwrap() += &found;
         }
     };
     std::thread::scope(|scope| (0..4).for_each(|_| drop(scope.spawn(work))));
