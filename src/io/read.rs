@@ -61,7 +61,13 @@ pub(crate) fn open_regular(path: &Path) -> Result<File, ReadError> {
 
 /// Content of a regular file of at most `limit` bytes.
 pub(crate) fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
-    read_limited(open_regular(path)?, limit)
+    let file = open_regular(path)?;
+    // A longer file is refused before it is read; one may also grow while it is read.
+    if file.metadata()?.len() > limit as u64 {
+        Err(ReadError::TooLong { limit })
+    } else {
+        read_limited(file, limit)
+    }
 }
 
 /// Text of a regular file of at most `limit` bytes.

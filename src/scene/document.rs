@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::check::check;
 use super::edit::{field_at, set};
 use super::effects::Effect;
-use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
+use super::errors::{MOST_LISTED, Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::model::{Move, Scene};
@@ -276,9 +276,9 @@ fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.push(pair(path, value));
 }
 
-/// Errors with numbers that are not finite as they are written: `1e999`.
+/// Errors, as far as they are listed, with numbers that are not finite as they are written: `1e999`.
 fn as_written(mut errors: Vec<SceneError>, text: &Text) -> Vec<SceneError> {
-    for error in errors.iter_mut().filter(|error| error.value == "NaN") {
+    for error in errors.iter_mut().take(MOST_LISTED).filter(|error| error.value == "NaN") {
         error.value = text.value(&error.field).unwrap_or_default().to_owned();
     }
     errors

@@ -8,7 +8,7 @@ use super::text::{is_within, line_column};
 use crate::text::printable;
 
 /// Most errors listed; further ones are only counted.
-const MOST_LISTED: usize = 100;
+pub(super) const MOST_LISTED: usize = 100;
 
 /// Longest value or name in messages; longer ones are shortened.
 const MOST_SHOWN: usize = 80;
