@@ -1,9 +1,8 @@
 //! A measured force curve: its segments, with pressing positive, the zero of the force, its drift and its noise.
 
-use super::ExperimentError;
 use super::baseline::{FEWEST, Line, free_count};
-use super::error::refused;
 use super::read::{Columns, CurveOptions, Drift, Negate};
+use super::{ExperimentError, refused};
 use crate::scene::format_quantity;
 use crate::text::grouped;
 use std::path::Path;
@@ -87,12 +86,15 @@ impl MeasuredCurve {
         }
         let averaged = points.div_ceil(MOST_POINTS);
         if averaged > 1 {
-            [displacement, force] = [displacement, force].map(|values| averages(&values, &segment, averaged));
-            segment =
-                averages(&segment.iter().map(|&one| one as f64).collect::<Vec<_>>(), &segment, averaged)
-                    .into_iter()
-                    .map(|one| one as usize)
-                    .collect();
+            let (mut ranges, mut start) = (Vec::new(), 0);
+            for chunk in segment.chunk_by(|one, next| one == next).flat_map(|part| part.chunks(averaged)) {
+                ranges.push(start..start + chunk.len());
+                start += chunk.len();
+            }
+            let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+            [displacement, force] = [displacement, force]
+                .map(|values| ranges.iter().map(|range| mean(&values[range.clone()])).collect());
+            segment = ranges.iter().map(|range| segment[range.start]).collect();
         }
         let approach = segment.partition_point(|&number| number == 0);
         let (low, high) = ends(force.iter().copied());
@@ -231,17 +233,6 @@ fn by_numbers(segment: &[f64], displacement: &[f64]) -> Vec<usize> {
         numbers.extend(std::iter::repeat_n(number, part.len()));
     }
     numbers
-}
-
-/// Means of `count` consecutive values of each segment.
-fn averages(values: &[f64], segment: &[usize], count: usize) -> Vec<f64> {
-    let (mut means, mut start) = (Vec::with_capacity(values.len() / count + 8), 0);
-    for part in segment.chunk_by(|one, next| one == next) {
-        let chunks = values[start..start + part.len()].chunks(count);
-        means.extend(chunks.map(|chunk| chunk.iter().sum::<f64>() / chunk.len() as f64));
-        start += part.len();
-    }
-    means
 }
 
 #[cfg(test)]

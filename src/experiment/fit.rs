@@ -2,13 +2,12 @@
 
 use super::baseline::dot;
 use super::curve::ends;
-use super::error::refused;
 use super::model::Model;
 use super::parameter::{Coordinate, Free, Parameter, Values};
-use super::scene::{most_on_closing, radius_of, values_of, with_values, written_out, wrong};
-use super::search::{Found, Search, Space, WRONG_SIDE};
+use super::scene::{radius_of, values_of, with_values, written_out, wrong};
+use super::search::{Search, Space, WRONG_SIDE};
 use super::statistics::{correlated, correlation, spread, widen};
-use super::{ExperimentError, MeasuredCurve};
+use super::{ExperimentError, MeasuredCurve, refused};
 use crate::parallel::on_threads;
 use crate::scene::{Document, Solver};
 use crate::simulation::Simulation;
@@ -97,13 +96,11 @@ pub fn fit(
     let (document, space) = prepare(curve, document, &mut simulation, options, stop)?;
     let model = Model::new(curve, document.scene(), &mut simulation);
     let mut search = Search { space: &space, model, report, lines: space.lines() };
-    let Found { best, mut samples } = search.find()?;
-    let (forces, evaluations) = (search.forces(&best)?, search.model.evaluations);
-    let rests = curve.force.iter().zip(&forces).map(|(measured, model)| (measured - model) / curve.noise);
-    let rests = search.refined(&rests.collect::<Vec<_>>(), WRONG_SIDE);
+    let (best, mut samples) = search.find()?;
+    let (rests, evaluations) = (search.refined(&best.rests, WRONG_SIDE), search.model.evaluations);
     let others = other_profiles(&document, options, &space)?;
     widen(&mut samples, correlated(&rests).sqrt());
-    let values = space.values(&best);
+    let values = space.values(&best.at);
     let sampled: Vec<Values> = samples.iter().map(|at| space.values(at)).collect();
     let fitted = |one: &Coordinate| {
         let of = |values: &Values| values[one.parameter as usize];
@@ -120,7 +117,7 @@ pub fn fit(
     };
     let parameters: Vec<FittedParameter> = space.coordinates.iter().map(fitted).collect();
     let name = |index: usize| space.coordinates[index].parameter;
-    let pairs = (0..best.len()).flat_map(|one| (one + 1..best.len()).map(move |other| [one, other]));
+    let pairs = (0..best.at.len()).flat_map(|one| (one + 1..best.at.len()).map(move |other| [one, other]));
     let correlations: Vec<_> =
         pairs.map(|pair| (name(pair[0]), name(pair[1]), correlation(&samples, pair))).collect();
     let alike = correlations.iter().filter(|(.., value)| value.abs() > CORRELATED);
@@ -214,7 +211,8 @@ fn prepare<'a>(
         let unit = 0.1 * if parameter == Parameter::Zero { high - low } else { turn - touch };
         coordinates.push(Coordinate { parameter, start, range, unit });
     }
-    let most_on_closing = most_on_closing(document.scene());
+    let closing = document.scene().adhesion.and_then(|adhesion| adhesion.closing_work);
+    let most_on_closing = closing.unwrap_or(f64::INFINITY);
     Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
 }
 

@@ -2,7 +2,6 @@
 
 mod baseline;
 mod curve;
-mod error;
 mod fit;
 mod model;
 mod parameter;
@@ -12,7 +11,36 @@ mod search;
 mod statistics;
 
 pub use curve::MeasuredCurve;
-pub use error::ExperimentError;
 pub use fit::{Fit, FitOptions, FittedParameter, fit};
 pub use parameter::{Free, Parameter};
 pub use read::{CurveOptions, Drift};
+
+use crate::contact::ContactError;
+use crate::simulation::RunError;
+use crate::topography::TopographyError;
+use thiserror::Error;
+
+/// Reason why a curve is not read or not fitted. The caller puts the name of the file or scene in front.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ExperimentError {
+    /// A file that cannot be read as a curve.
+    #[error(transparent)]
+    File(#[from] TopographyError),
+    /// A curve or a scene that cannot be fitted: fault and what is allowed.
+    #[error("{0}; allowed: {1}")]
+    Refused(String, String),
+    /// A failure of the computation, or a stop.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl From<ContactError> for ExperimentError {
+    fn from(error: ContactError) -> Self {
+        ExperimentError::Run(error.into())
+    }
+}
+
+/// Error of a curve or a scene that cannot be fitted.
+fn refused<T>(fault: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
+    Err(ExperimentError::Refused(fault.into(), allowed.into()))
+}

@@ -17,26 +17,14 @@ fn change(path: &str, value: f64) -> Change {
 pub(super) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let closing = governing.closing_work.unwrap_or(work);
-    let radius = radius_of(scene).unwrap_or(0.0);
-    [
-        work,
-        closing,
-        governing.effective_modulus,
-        0.0,
-        0.0,
-        scene.loading_stiffness.unwrap_or(f64::INFINITY),
-        radius,
-    ]
+    let (stiffness, radius) =
+        (scene.loading_stiffness.unwrap_or(f64::INFINITY), radius_of(scene).unwrap_or(0.0));
+    [work, closing, governing.effective_modulus, 0.0, 0.0, stiffness, radius]
 }
 
 /// Radius of the form of a scene, m, if it has one.
 pub(super) fn radius_of(scene: &Scene) -> Option<f64> {
     scene.form.clone()?.radius_mut().copied()
-}
-
-/// Largest work of adhesion on closing that a scene allows, J/m².
-pub(super) fn most_on_closing(scene: &Scene) -> f64 {
-    scene.adhesion.and_then(|adhesion| adhesion.closing_work).unwrap_or(f64::INFINITY)
 }
 
 /// The document with works of adhesion in place of κ or e_el/γ, and with the amplitude of the roughness that these set.

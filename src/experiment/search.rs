@@ -46,9 +46,9 @@ const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 
 /// Coordinates with the residuals there, in units of the noise of the curve.
 #[derive(Clone)]
-struct Member {
-    at: Vec<f64>,
-    rests: Vec<f64>,
+pub(super) struct Member {
+    pub at: Vec<f64>,
+    pub rests: Vec<f64>,
 }
 
 /// Members with their costs at a noise, in units of that of the curve, and the best of all with its cost at that of the curve.
@@ -67,14 +67,6 @@ impl Population {
             (self.best, self.cost) = (member.clone(), cost);
         }
     }
-}
-
-/// Result of a search.
-pub(super) struct Found {
-    /// Coordinates of the least residuals.
-    pub best: Vec<f64>,
-    /// Coordinates distributed as the noise has it.
-    pub samples: Vec<Vec<f64>>,
 }
 
 /// The coordinates in which a scene is fitted, from these values on.
@@ -141,17 +133,12 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Forces at these coordinates, N.
-    pub fn forces(&mut self, at: &[f64]) -> Result<Vec<f64>, ExperimentError> {
+    fn member(&mut self, at: Vec<f64>) -> Result<Member, ExperimentError> {
         if (self.space.stop)() {
             return Err(ContactError::Interrupted.into());
         }
         (self.report)(self.model.evaluations);
-        self.model.forces(&self.space.values(at))
-    }
-
-    fn member(&mut self, at: Vec<f64>) -> Result<Member, ExperimentError> {
-        let forces = self.forces(&at)?;
+        let forces = self.model.forces(&self.space.values(&at))?;
         let measured = self.space.curve.force.iter().zip(&forces);
         let rest = |(measured, model): (&f64, &f64)| (measured - model) / self.space.curve.noise;
         let rests = measured.map(rest).map(|rest| if rest.is_finite() { rest } else { FAR }).collect();
@@ -205,9 +192,9 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Finds the parameters of a curve: by the better of two populations if the residuals of the first one exceed the noise,
-    /// as one in thirty ends in another minimum than the least.
-    pub fn find(&mut self) -> Result<Found, ExperimentError> {
+    /// Finds the member of the least residuals, and coordinates that are distributed as the noise has it: by the better of
+    /// two populations if the residuals of the first one exceed the noise, as one in thirty ends in another minimum.
+    pub fn find(&mut self) -> Result<(Member, Vec<Vec<f64>>), ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
         let mut population = self.anneal(0, &mut generator)?;
         if population.cost > EXPECTED * 0.5 * population.best.rests.len() as f64 {
@@ -219,7 +206,7 @@ impl Search<'_> {
             self.move_all(&mut population, &mut generator)?;
             samples.extend(population.members.iter().map(|member| member.at.clone()));
         }
-        Ok(Found { best: population.best.at, samples })
+        Ok((population.best, samples))
     }
 
     /// Coordinates of small residuals: those of one population.
@@ -334,12 +321,6 @@ fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<M
 }
 
 /// Point from 0 to 1 of an evenly scattered sequence (van der Corput).
-fn share_of(mut number: usize, base: usize) -> f64 {
-    let (mut share, mut digit) = (0.0, 1.0);
-    while number > 0 {
-        digit /= base as f64;
-        share += digit * (number % base) as f64;
-        number /= base;
-    }
-    share
+fn share_of(number: usize, base: usize) -> f64 {
+    if number == 0 { 0.0 } else { ((number % base) as f64 + share_of(number / base, base)) / base as f64 }
 }

@@ -15,10 +15,8 @@ use asperity::explorer::theme::{Appearance, Marker, Theme};
 use asperity::explorer::update::Effect;
 use asperity::simulation::{Outcome, Simulation, Timings};
 use std::any::Any;
-use std::collections::BTreeMap;
 use std::fs;
 use std::ops::{Deref, DerefMut};
-use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// The name of a file that cannot be saved.
@@ -79,27 +77,20 @@ impl Driver {
         found.into_iter().for_each(|finding| drop(self.act(Action::Found(finding))));
     }
 
-    /// The files in the folder of the explorer, as text.
-    pub fn files(&self) -> BTreeMap<PathBuf, String> {
-        let mut files = BTreeMap::new();
-        let mut folders = vec![self.folder.path().to_owned()];
-        while let Some(folder) = folders.pop() {
-            for entry in fs::read_dir(folder).unwrap() {
-                let path = entry.unwrap().path();
-                if path.is_dir() {
-                    folders.push(path);
-                } else {
-                    let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
-                    files.insert(path.strip_prefix(self.folder.path()).unwrap().to_owned(), text);
-                }
-            }
-        }
-        files
+    /// Names of the files in the folder of the explorer, in the order of the alphabet.
+    pub fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.folder.path()).unwrap().map(Result::unwrap);
+        let files = entries.filter(|entry| entry.path().is_file());
+        let mut names: Vec<_> = files.map(|entry| entry.file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
     }
 
     /// The text of a file in the folder of the explorer.
     pub fn file(&self, name: &str) -> String {
-        self.files().remove(Path::new(name)).unwrap_or_else(|| panic!("no {name}"))
+        let content =
+            fs::read(self.folder.path().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        String::from_utf8_lossy(&content).into_owned()
     }
 }
 

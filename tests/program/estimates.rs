@@ -74,7 +74,7 @@ fn ratios(quick: u32, seed: u8, make: fn(&mut dyn FnMut() -> f64) -> Document) -
         let document = make(&mut uniform);
         let outcome = run(&document);
         // An odd number, which has no spring of the scene, and suits a Fourier transform.
-        let suits = |number: &u64| 3_u64.pow(12) * 5_u64.pow(8) * 7_u64.pow(6) % number == 0;
+        let suits = |number: &u64| (3_u64.pow(12) * 5_u64.pow(8) * 7_u64.pow(6)).is_multiple_of(*number);
         let least = FINER * document.scene().numerics.points + 1;
         let points = (least..).step_by(2).find(suits).unwrap().to_string();
         let finest = document
