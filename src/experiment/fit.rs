@@ -4,7 +4,7 @@ use super::baseline::dot;
 use super::curve::ends;
 use super::model::Model;
 use super::parameter::{Coordinate, Free, Parameter, Values};
-use super::scene::{radius_of, values_of, with_values, written_out, wrong};
+use super::scene::{most_on_closing, radius_of, values_of, with_values, written_out, wrong};
 use super::search::{Search, Space, WRONG_SIDE};
 use super::statistics::{correlated, correlation, spread, widen};
 use super::{ExperimentError, MeasuredCurve, refused};
@@ -211,8 +211,7 @@ fn prepare<'a>(
         let unit = 0.1 * if parameter == Parameter::Zero { high - low } else { turn - touch };
         coordinates.push(Coordinate { parameter, start, range, unit });
     }
-    let closing = document.scene().adhesion.and_then(|adhesion| adhesion.closing_work);
-    let most_on_closing = closing.unwrap_or(f64::INFINITY);
+    let most_on_closing = most_on_closing(document.scene());
     Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
 }
 

@@ -27,6 +27,11 @@ pub(super) fn radius_of(scene: &Scene) -> Option<f64> {
     scene.form.clone()?.radius_mut().copied()
 }
 
+/// Largest work of adhesion on closing that a scene allows, J/m².
+pub(super) fn most_on_closing(scene: &Scene) -> f64 {
+    scene.adhesion.and_then(|adhesion| adhesion.closing_work).unwrap_or(f64::INFINITY)
+}
+
 /// The document with works of adhesion in place of κ or e_el/γ, and with the amplitude of the roughness that these set.
 /// Without adhesion it gets this work, J/m², if there is one.
 pub(super) fn written_out(
