@@ -15,7 +15,7 @@ const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
 /// Smallest jump of the force over the noise that is looked for.
 const NOTABLE: f64 = 2.0;
-/// Points on each side of a fold, each half as far as the one before.
+/// Points on each side of a fold, each half as far as the one before; none at a jump, the ends of which are points already.
 const FAN: i32 = 8;
 
 /// A scene on the displacements of a measured curve.
@@ -178,9 +178,9 @@ impl Sampling {
             reached = reached.max(before);
             if at > reached && after < at {
                 let beside = |end: CurvePoint| {
-                    (1..=FAN).map(move |power| {
-                        fold.indentation + (end.indentation - fold.indentation) * 0.5_f64.powi(power)
-                    })
+                    let [from, to] = [fold, end].map(|point| point.indentation);
+                    let halves = (1..=FAN).map(move |power| from + (to - from) * 0.5_f64.powi(power));
+                    halves.filter(move |at| ![from, to].contains(at))
                 };
                 folds.extend(beside(one).chain(beside(next)));
             }
