@@ -11,7 +11,7 @@ use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
     Body, Contact, ContactTree, Foundation, HessRule, Leg, LegRecord, Solver, Springs, Work,
 };
-use asperity::scene::{Adhesion, Document, Edges, Move, Roughness, RoughnessParameter, Scene};
+use asperity::scene::{Adhesion, CheckedScene, Document, Edges, Move, RoughnessParameter};
 use asperity::simulation::Simulation;
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use realfft::{RealFftPlanner, RealToComplex};
@@ -107,7 +107,7 @@ struct Rough {
     line: Line,
     foundation: Foundation,
     rms_gradient: f64,
-    scene: Scene,
+    scene: CheckedScene,
     kappas: [f64; 2],
 }
 
@@ -260,23 +260,21 @@ impl Edits {
 
     fn measure(&mut self, rough: &Rough, run: usize) {
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
-            let mut scene = rough.scene.clone();
-            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
-            let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
-            *seed = 2 + (2 * run + index) as u64;
+            let adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
+            let scene = rough.scene.with(|scene| scene.adhesion = adhesion).expect("a valid scene");
+            let scene = scene.with_seed(2 + (2 * run + index) as u64);
             self.seed[index] = self.seed[index].min(self.seconds(&scene));
         }
         // The line of the last seed is kept.
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
-            let mut scene = rough.scene.clone();
-            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
-            let Some(Roughness::SelfAffine { seed, .. }) = &mut scene.roughness else { return };
-            *seed = 3 + 2 * run as u64;
+            let adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, kappa));
+            let scene = rough.scene.with(|scene| scene.adhesion = adhesion).expect("a valid scene");
+            let scene = scene.with_seed(3 + 2 * run as u64);
             self.kappa[index] = self.kappa[index].min(self.seconds(&scene));
         }
     }
 
-    fn seconds(&mut self, scene: &Scene) -> f64 {
+    fn seconds(&mut self, scene: &CheckedScene) -> f64 {
         let clock = Instant::now();
         self.legs.clear();
         let legs = &mut self.legs;

@@ -198,6 +198,7 @@ fn one_by_one(plan: &Plan) {
             let unit = scene.material.effective_modulus() * rms_height.unwrap_or(1.0) * scene.length;
             scene.loading = vec![Move::ToForce(values[2] * unit), Move::ToSeparation];
             let mut simulation = Simulation::new(PathBuf::new());
+            let Ok(scene) = scene.checked() else { continue };
             let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()));
             black_box(outcome.unwrap_or_else(|error| panic!("{error}")));
         }

@@ -7,7 +7,7 @@ use asperity::explorer::app::App;
 use asperity::explorer::config::Config;
 use asperity::explorer::keys::bindings;
 use asperity::explorer::{Options, open as explore, view};
-use asperity::scene::{DEFAULT, Scene, open};
+use asperity::scene::{CheckedScene, DEFAULT, Scene, open};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use ratatui::Frame;
 use std::process::ExitCode;
@@ -17,7 +17,7 @@ use std::time::Duration;
 /// Panics on the seed 13, takes all its time on the seed 14, and computes otherwise.
 fn solve(
     simulation: &mut Simulation,
-    scene: &Scene,
+    scene: &CheckedScene,
     stop: &dyn Fn() -> bool,
     after: &mut AfterLeg<'_>,
 ) -> Result<Outcome, RunError> {

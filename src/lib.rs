@@ -31,7 +31,7 @@
 //!
 //! ```
 //! let document = asperity::scene::open("jkr-sphere")?;
-//! let outcome = asperity::run(document.scene())?;
+//! let outcome = asperity::run(&document)?;
 //! // Johnson, Kendall and Roberts: (3/2)πγR.
 //! let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
 //! assert!((outcome.figures.adhesion_force.unwrap() / expected - 1.0).abs() < 2e-3);
@@ -92,7 +92,7 @@ pub mod topography;
 
 pub use contact_cycle::{Contact, ContactBuilder, Cycle};
 pub use profile::Profile;
-pub use scene::{Edges, Material, Move, Scene};
+pub use scene::{Document, Edges, Material, Move, Scene};
 pub use surface::SelfAffine;
 
 use simulation::{Outcome, RunError, Simulation};
@@ -119,13 +119,12 @@ pub enum Error {
     Run(#[from] RunError),
 }
 
-/// Computes a scene. A measured profile is looked for from the working directory.
+/// Computes the scene of a document. Its measured files are looked for in the folder of the scene file.
 ///
 /// # Errors
-/// [`Error::Values`] for values out of range, [`Error::Run`] for a scene that cannot be computed.
-pub fn run(scene: &Scene) -> Result<Outcome, Error> {
-    scene.check()?;
-    Ok(Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(()))?)
+/// [`Error::Run`] for a scene that cannot be computed.
+pub fn run(document: &Document) -> Result<Outcome, Error> {
+    Ok(Simulation::new(document.resolve("")).run(document.scene(), &|| false, &mut |_, _, _| Ok(()))?)
 }
 
 /// The example of the README, compiled and run as a test.

@@ -75,11 +75,11 @@ fn assert_place(text: &str, line: usize, column: usize) {
 /// Asserts the properties of every document.
 fn assert_document(document: &Document) {
     let scene = document.scene();
-    assert_eq!(asperity::scene::check(scene), [], "{}", document.text());
+    assert_eq!(asperity::Scene::clone(scene).checked().as_ref(), Ok(scene), "{}", document.text());
     let read =
         |text: &str| Document::parse(text, "again").unwrap_or_else(|errors| panic!("{errors}\n{text}"));
     assert_eq!(read(document.text()).scene(), scene, "the text is that of the scene");
-    assert_eq!(Tree::of(scene).scene().as_ref(), Ok(scene));
+    assert_eq!(Tree::of(scene).scene().as_ref(), Ok(&**scene));
     // Written in canonical form the scene is the same, and remains so.
     let written = to_ron(scene);
     assert_eq!(read(&written).scene(), scene, "{written}");

@@ -5,7 +5,7 @@ use super::solution::{
     relative_error,
 };
 use super::table::{REFINEMENTS, first_within};
-use crate::scene::{Edges, Scene, Solver, check};
+use crate::scene::{CheckedScene, Edges, SceneErrors, Solver};
 use crate::simulation::{Outcome, RunError};
 use crate::text::{grouped, per_cent};
 use serde::Serialize;
@@ -83,7 +83,7 @@ pub enum Evidence {
 /// than the limit, if a solution on another number of springs cannot reach a target of the loading, or if `stop` ends the
 /// computation.
 pub fn estimate(
-    scene: &Scene,
+    scene: &CheckedScene,
     folder: &Path,
     outcome: &Outcome,
     stop: &dyn Fn() -> bool,
@@ -95,11 +95,11 @@ pub fn estimate(
         return Some(Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm });
     }
     let mut runs = Runs::new(folder, stop);
-    let mut solved = |scene: &Scene| runs.solve(scene).ok();
+    let mut solved = |scene: &CheckedScene| runs.solve(scene).ok();
     // The stepwise solver has edges at the springs, and converges to the exact one with its step.
     let is_exact = scene.numerics.solver == Solver::Exact;
     let edges = if is_exact { scene.numerics.edges } else { Edges::Grid };
-    let exact_scene = refined(&target.only(scene), scene.numerics.points, edges);
+    let exact_scene = refined(&target.only(scene).ok()?, scene.numerics.points, edges).ok()?;
     let exact = if is_exact { own.clone() } else { solved(&exact_scene)? };
     let of_step = target.difference(&own, &exact)?;
     let (others, factor) = others(&exact_scene, &mut solved)?;
@@ -117,8 +117,8 @@ pub fn estimate(
 }
 
 /// Estimates the errors of a solution of a scene with edges between springs, under all loads.
-pub(super) fn own_errors(scene: &Scene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
-    let scene = refined(scene, finest.points, Edges::SubCell);
+pub(super) fn own_errors(scene: &CheckedScene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
+    let scene = refined(scene, finest.points, Edges::SubCell).ok()?;
     let (others, factor) = others(&scene, &mut |scene| runs.solve_around(scene).ok())?;
     let [one, other] = others.map(|(_, solution)| solution.errors(finest));
     Some(array::from_fn(|index| Some(factor * one[index]?.max(other[index]?))))
@@ -127,16 +127,15 @@ pub(super) fn own_errors(scene: &Scene, finest: &Solution, runs: &mut Runs<'_>) 
 /// Solves a scene on two other numbers of springs; `None` where they are not allowed or have no solution. The factor is
 /// that of the error over the larger difference from these solutions.
 fn others(
-    scene: &Scene,
-    solved: &mut dyn FnMut(&Scene) -> Option<Solution>,
-) -> Option<([(Scene, Solution); 2], f64)> {
+    scene: &CheckedScene,
+    solved: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
+) -> Option<([(CheckedScene, Solution); 2], f64)> {
     let numerics = scene.numerics;
     let on = |(times, over): (u64, u64)| {
         let points = apart_from(numerics.points.saturating_mul(times) / over);
-        let other = refined(scene, points, numerics.edges);
         let is_other = points != numerics.points && (points < numerics.points) == (times < over);
-        let is_allowed = is_other && (FEWEST..=MOST_SPRINGS).contains(&points) && check(&other).is_empty();
-        is_allowed.then_some(other)
+        let is_allowed = is_other && (FEWEST..=MOST_SPRINGS).contains(&points);
+        refined(scene, points, numerics.edges).ok().filter(|_| is_allowed)
     };
     let allowed = |([one, other], factor): ([(u64, u64); 2], f64)| Some((on(one)?, on(other)?, factor));
     let (one, other, factor) = OTHERS.into_iter().find_map(allowed)?;
@@ -197,7 +196,10 @@ pub struct Choice {
 
 impl Choice {
     /// The scene with these springs and edges.
-    pub fn apply(&self, scene: &Scene) -> Scene {
+    ///
+    /// # Errors
+    /// Another scene than the one of the choice, which does not allow them.
+    pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
 
@@ -268,7 +270,7 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is polled now and then;
 /// `trying` receives the next number of springs.
 pub fn choose(
-    scene: &Scene,
+    scene: &CheckedScene,
     folder: &Path,
     tolerance: f64,
     stop: &dyn Fn() -> bool,
@@ -285,7 +287,7 @@ pub fn choose(
         trying(points);
         let mut solved = Vec::new();
         for edges in EDGES {
-            match runs.solve_around(&refined(scene, points, edges)) {
+            match runs.solve_around(&refined(scene, points, edges).map_err(RunError::from)?) {
                 Err(error) if is_too_coarse(&error) => refused = Some(error),
                 Err(error) if is_spent(&error) => {}
                 solution => solved.push(solution?),
@@ -315,7 +317,7 @@ pub fn choose(
 
 /// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and
 /// around them; 0 for a scene with a closed form, and `None` if unknown.
-fn error_of_finest(scene: &Scene, runs: &mut Runs<'_>, tried: &[[Solution; 2]]) -> Option<f64> {
+fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution; 2]]) -> Option<f64> {
     let [finest, _] = tried.last()?;
     if finest.closed_form.is_some() {
         return Some(0.0);

@@ -5,7 +5,7 @@ use super::estimate::own_errors;
 use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
 use super::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
 use crate::contact::ContactError;
-use crate::scene::{Edges, Scene, Solver, check, format_quantity};
+use crate::scene::{CheckedScene, Edges, Scene, SceneErrors, Solver, format_quantity};
 use crate::simulation::RunError;
 use crate::text::grouped;
 use realfft::RealFftPlanner;
@@ -41,7 +41,7 @@ pub enum Progress<'a> {
 
 /// A scene from coarse to fine, within a budget of time.
 struct Ladder<'a> {
-    scene: &'a Scene,
+    scene: &'a CheckedScene,
     folder: &'a Path,
     is_over: &'a dyn Fn() -> bool,
     /// Solutions, and their settings and times: rows without errors.
@@ -55,7 +55,7 @@ struct Ladder<'a> {
 /// # Errors
 /// The reason in a sentence: a scene that cannot be computed, a budget for fewer than two solutions, or a stop.
 pub fn measure(
-    scene: &Scene,
+    scene: &CheckedScene,
     folder: &Path,
     budget: Duration,
     stop: &dyn Fn() -> bool,
@@ -70,7 +70,7 @@ pub fn measure(
     let refused = ladder.climb(&left, watch).map_err(|error| error.to_string())?;
     let own = ladder.finest().and_then(|[finest, _]| {
         let mut runs = Runs::new(folder, &is_over);
-        own_errors(&compared(scene), finest, &mut runs)
+        own_errors(&compared(scene).ok()?, finest, &mut runs)
     });
     let springs = allowed_points(scene).next().unwrap_or(scene.numerics.points);
     match refused {
@@ -85,11 +85,13 @@ pub fn measure(
 }
 
 /// Returns the scene with the number of samples for a comparison of curves.
-fn compared(scene: &Scene) -> Scene {
+fn compared(scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
+    scene.with(|scene| scene.numerics.samples = compared_samples(scene))
+}
+
+fn compared_samples(scene: &Scene) -> u64 {
     let legs = scene.loading.len().max(1) as u64;
-    let mut scene = scene.clone();
-    scene.numerics.samples = (COMPARED_POINTS / legs).clamp(2, MOST_COMPARED);
-    scene
+    (COMPARED_POINTS / legs).clamp(2, MOST_COMPARED)
 }
 
 impl Ladder<'_> {
@@ -134,8 +136,8 @@ impl Ladder<'_> {
 
     /// Returns the settings with this number of springs. The step of the stepwise solver halves from rung to rung once its
     /// reference is known.
-    fn settings(&self, points: u64) -> Vec<(Knob, f64, Scene)> {
-        let of = |(knob, edges)| (knob, points as f64, refined(self.scene, points, edges));
+    fn settings(&self, points: u64) -> Vec<(Knob, f64, CheckedScene)> {
+        let of = |(knob, edges)| Some((knob, points as f64, refined(self.scene, points, edges).ok()?));
         let springs = [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)].map(of);
         let step = || {
             let exact = self.exact()?;
@@ -144,15 +146,15 @@ impl Ladder<'_> {
                 at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (at.min(low), at.max(high)));
             let halvings = self.rungs_of(Knob::Step).count() as i32;
             let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halvings);
-            let mut scene = refined(self.scene, exact.points, Edges::Grid);
-            scene.numerics.solver = Solver::Stepwise { step };
-            (low < high && check(&compared(&scene)).is_empty()).then_some((Knob::Step, step, scene))
+            let scene = refined(self.scene, exact.points, Edges::Grid).ok()?;
+            let scene = scene.with(|scene| scene.numerics.solver = Solver::Stepwise { step }).ok()?;
+            (low < high).then_some((Knob::Step, step, scene))
         };
-        springs.into_iter().chain(step()).collect()
+        springs.into_iter().flatten().chain(step()).collect()
     }
 
-    fn rung(&self, knob: Knob, setting: f64, scene: &Scene) -> Result<(Row, Solution), RunError> {
-        let (mut runs, compared) = (Runs::new(self.folder, self.is_over), compared(scene));
+    fn rung(&self, knob: Knob, setting: f64, scene: &CheckedScene) -> Result<(Row, Solution), RunError> {
+        let (mut runs, compared) = (Runs::new(self.folder, self.is_over), compared(scene)?);
         let is_step = knob == Knob::Step;
         let solution = if is_step { runs.solve(&compared)? } else { runs.solve_around(&compared)? };
         let seconds = self.time(scene).ok_or(ContactError::Interrupted)?;
@@ -162,7 +164,7 @@ impl Ladder<'_> {
     }
 
     /// Measures the times of a few whole runs of a scene, at least one, without any reuse; `None` without time for one.
-    fn time(&self, scene: &Scene) -> Option<Timing> {
+    fn time(&self, scene: &CheckedScene) -> Option<Timing> {
         let (began, mut seconds) = (Instant::now(), Vec::new());
         while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
         {
@@ -201,7 +203,7 @@ impl Ladder<'_> {
             errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
         // With few springs each of them is a jump, which is late by up to one distance of samples.
-        let late = [None, Some(1.0 / compared(self.scene).numerics.samples as f64), None, None];
+        let late = [None, Some(1.0 / compared_samples(self.scene) as f64), None, None];
         let mut rows: Vec<Row> = Vec::new();
         for knob in Knob::ALL {
             // The difference of the finest solution from itself is zero, which is not its error.

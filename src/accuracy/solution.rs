@@ -3,7 +3,7 @@
 use crate::analysis::pull_off_point;
 use crate::contact::{ContactError, Direction, History, LegRecord};
 use crate::reference::{PowerLaw, smooth_adhesion_force};
-use crate::scene::{Edges, Form, Move, Numerics, Scene, Solver, check};
+use crate::scene::{CheckedScene, Edges, Form, Move, Scene, SceneErrors, Solver};
 use crate::simulation::{FEW_SAMPLES, Outcome, RunError, Simulation};
 use crate::surface::SurfaceError;
 use serde::Serialize;
@@ -98,14 +98,14 @@ impl Target {
     }
 
     /// Returns a scene that is solved for this quantity alone.
-    pub(super) fn only(self, scene: &Scene) -> Scene {
-        let mut scene = scene.clone();
-        scene.observe.clear();
-        if self == Target::AdhesionForce {
-            // The adhesion force is an exact extreme.
-            scene.numerics.samples = FEW_SAMPLES;
-        }
-        scene
+    pub(super) fn only(self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
+        scene.with(|scene| {
+            scene.observe.clear();
+            if self == Target::AdhesionForce {
+                // The adhesion force is an exact extreme.
+                scene.numerics.samples = FEW_SAMPLES;
+            }
+        })
     }
 
     /// Returns the relative difference of the quantity from a reference.
@@ -120,30 +120,32 @@ pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
 }
 
 /// Returns the scene with another number of springs and edge model, and with the exact solver.
-pub(super) fn refined(scene: &Scene, points: u64, edges: Edges) -> Scene {
-    let mut scene = scene.clone();
-    scene.numerics = Numerics { points, edges, solver: Solver::Exact, ..scene.numerics };
-    scene
+pub(super) fn refined(scene: &CheckedScene, points: u64, edges: Edges) -> Result<CheckedScene, SceneErrors> {
+    scene.with(|scene| {
+        let numerics = &mut scene.numerics;
+        (numerics.points, numerics.edges, numerics.solver) = (points, edges, Solver::Exact);
+    })
 }
 
 /// Returns the scene with its target forces and indentations above zero multiplied by a factor; `None` without such
 /// targets, or beyond their range.
-pub(super) fn loaded(scene: &Scene, factor: f64) -> Option<Scene> {
-    let mut other = scene.clone();
-    for leg in &mut other.loading {
-        if let Move::ToForce(target) | Move::ToIndentation(target) = leg
-            && *target > 0.0
-        {
-            *target *= factor;
+pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> {
+    let loaded = |other: &mut Scene| {
+        for leg in &mut other.loading {
+            if let Move::ToForce(target) | Move::ToIndentation(target) = leg
+                && *target > 0.0
+            {
+                *target *= factor;
+            }
         }
-    }
-    (other.loading != scene.loading && check(&other).is_empty()).then_some(other)
+    };
+    scene.with(loaded).ok().filter(|other| other.loading != scene.loading)
 }
 
 /// Returns the powers of two allowed as the scene's number of springs, ascending.
-pub(super) fn allowed_points(scene: &Scene) -> impl Iterator<Item = u64> {
+pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
-    let allowed = |points| check(&refined(scene, points, scene.numerics.edges)).is_empty();
+    let allowed = |points| refined(scene, points, scene.numerics.edges).is_ok();
     // Skips numbers too small for the modes, then stops at those too large for the field.
     powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
 }
@@ -156,15 +158,15 @@ impl<'a> Runs<'a> {
         Runs(Simulation::new(folder.to_path_buf()), stop)
     }
 
-    pub(super) fn solve(&mut self, scene: &Scene) -> Result<Solution, RunError> {
+    pub(super) fn solve(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
         let outcome = self.0.run(scene, self.1, &mut |_, _, _| Ok(()))?;
         Ok(Solution::of(scene, &outcome))
     }
 
     /// Solves a scene, with the adhesion forces under the loads around its own.
-    pub(super) fn solve_around(&mut self, scene: &Scene) -> Result<Solution, RunError> {
+    pub(super) fn solve_around(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
         let mut solution = self.solve(scene)?;
-        let scene = Target::of(&solution).only(scene);
+        let scene = Target::of(&solution).only(scene)?;
         let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
         for scene in others.take_while(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
             solution.around.push(match self.solve(&scene) {

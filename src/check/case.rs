@@ -1,8 +1,8 @@
 //! A row of the catalogue of checks, and what its measurements share: rough profiles under adhesion, loaded through the front
 //! of the library.
 
-use crate::scene::{Document, Edges, Material, Move, Scene};
-use crate::simulation::Outcome;
+use crate::scene::{CheckedScene, Document, Edges, Material, Move};
+use crate::simulation::{Outcome, Simulation};
 use crate::surface::{SelfAffine, phases};
 use crate::{Contact, Cycle, Profile};
 use std::error::Error;
@@ -16,7 +16,7 @@ pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Subject {
     /// The text of a scene.
-    Scene(&'static str, fn(&Scene) -> Measured),
+    Scene(&'static str, fn(&CheckedScene) -> Measured),
     /// Random bodies: self-affine profiles, noise, few levels. The largest error counts.
     Bodies(fn(&Body) -> Measured),
 }
@@ -51,12 +51,12 @@ pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
 
-pub(super) fn with(scene: &Scene, path: &str, value: f64) -> Measured<Scene> {
+pub(super) fn with(scene: &CheckedScene, path: &str, value: f64) -> Measured<CheckedScene> {
     Ok(Document::from_scene(scene, "check")?.set(path, &format!("{value:e}"))?.scene().clone())
 }
 
-pub(super) fn outcome(scene: &Scene) -> Measured<Outcome> {
-    Ok(crate::run(scene)?)
+pub(super) fn outcome(scene: &CheckedScene) -> Measured<Outcome> {
+    Ok(Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(()))?)
 }
 
 pub(super) fn ensure(holds: bool, what: impl FnOnce() -> String) -> Measured<()> {

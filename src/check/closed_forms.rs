@@ -3,7 +3,7 @@
 use super::case::Subject::Scene as OfScene;
 use super::case::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_error, relative_errors};
 use crate::reference::PowerLaw;
-use crate::scene::{Form, Scene};
+use crate::scene::{CheckedScene, Form};
 use std::f64::consts::PI;
 
 const KNOWN: [&str; 2] = ["closed-forms", CLOSED_FORM];
@@ -44,14 +44,14 @@ pub const CASES: &[Case] = &[
         √(8πa³E*γ).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(PUNCH, flat)),
 ];
 
-fn power_law(scene: &Scene) -> Measured<PowerLaw> {
+fn power_law(scene: &CheckedScene) -> Measured<PowerLaw> {
     let work = scene.adhesion.and_then(|adhesion| adhesion.work).unwrap_or(0.0);
     let modulus = scene.material.effective_modulus();
     let closed = scene.form.as_ref().and_then(|form| PowerLaw::of(form, modulus, work));
     Ok(closed.ok_or("no closed form")?)
 }
 
-fn hertz(scene: &Scene) -> Measured {
+fn hertz(scene: &CheckedScene) -> Measured {
     let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
     let force = |d: f64| closed.force((d / closed.line_coefficient).powf(closed.exponent.recip()));
     let leg = &outcome.history.legs[0];
@@ -59,7 +59,7 @@ fn hertz(scene: &Scene) -> Measured {
     Ok(errors.fold(0.0, f64::max) / force(leg.end()))
 }
 
-fn pull_off(scene: &Scene) -> Measured {
+fn pull_off(scene: &CheckedScene) -> Measured {
     let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
     let unloading = &outcome.history.legs[1];
     let place = closed.indentation(closed.displacement_controlled_pull_off().0);
@@ -68,7 +68,7 @@ fn pull_off(scene: &Scene) -> Measured {
 }
 
 /// Compares the loss with −∫F dd of the tensile branch below d = 0, which loading does not pass.
-fn energy(scene: &Scene) -> Measured {
+fn energy(scene: &CheckedScene) -> Measured {
     const PIECES: u32 = 20_000;
     let closed = power_law(scene)?;
     let last = closed.displacement_controlled_pull_off().0;
@@ -83,12 +83,10 @@ fn energy(scene: &Scene) -> Measured {
     Ok(relative_error(outcome(scene)?.figures.dissipated_energy.unwrap_or(0.0), lost))
 }
 
-fn flat(scene: &Scene) -> Measured {
+fn flat(scene: &CheckedScene) -> Measured {
     let width = scene.form.as_ref().and_then(Form::flat_end).map_or(scene.length, |radius| 2.0 * radius);
     largest([5, 1000, 100_000].map(|points| {
-        let mut scene = scene.clone();
-        scene.numerics.points = points;
-        let outcome = outcome(&scene)?;
+        let outcome = outcome(&scene.with(|scene| scene.numerics.points = points)?)?;
         let stiffness = outcome.governing.effective_modulus * width;
         let work = outcome.governing.adhesive_work().unwrap_or(0.0);
         let place = -(PI * width * work / outcome.governing.effective_modulus).sqrt();

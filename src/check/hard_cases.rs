@@ -7,7 +7,7 @@ use super::case::{
     relative_errors, with,
 };
 use super::laws::{end, only_scales};
-use crate::scene::{Edges, Move, Scene};
+use crate::scene::{CheckedScene, Edges, Move};
 use crate::simulation::Outcome;
 use crate::surface::phases;
 use std::f64::consts::PI;
@@ -54,12 +54,12 @@ fn full_contact(outcome: &Outcome, indentation: f64) -> f64 {
     outcome.governing.effective_modulus * outcome.line.length * (indentation - outcome.line.summit)
 }
 
-fn everything_sticks(scene: &Scene) -> Measured {
+fn everything_sticks(scene: &CheckedScene) -> Measured {
     let cases =
         [3, 10, 999].into_iter().flat_map(|points| [1e-12, 1e-16, 1e-23].map(|height| (points, height)));
     largest(cases.map(|(points, height)| {
-        let mut scene = with(scene, "roughness.rms_height", height)?;
-        scene.numerics.points = points;
+        let scene = with(scene, "roughness.rms_height", height)?;
+        let scene = scene.with(|scene| scene.numerics.points = points)?;
         let outcome = outcome(&scene)?;
         let [touch, last] = &outcome.history.legs[..] else { return Ok(f64::NAN) };
         let held = [touch.attached, last.smallest.springs];
@@ -75,7 +75,7 @@ fn everything_sticks(scene: &Scene) -> Measured {
     }))
 }
 
-fn equal_teeth(scene: &Scene) -> Measured {
+fn equal_teeth(scene: &CheckedScene) -> Measured {
     let (teeth, springs) = (16.0, 8);
     let heights = (0..33 * springs).map(|index| if index / springs % 2 == 1 { 0.0 } else { -1.0e-6 });
     let (length, edges) = (scene.length, scene.numerics.edges);
@@ -115,11 +115,11 @@ fn heights_of_any_size(body: &Body) -> Measured {
 
 /// Presses a scene to indentations and by the forces found there; returns the largest error of a force over its change
 /// by one rounding of the indentation.
-fn far_loads(scene: &Scene) -> Measured {
+fn far_loads(scene: &CheckedScene) -> Measured {
     let (depth, bare) = (outcome(scene)?.line.deepest, with(scene, "adhesion.work", 0.0)?);
     largest((0..=30).flat_map(|power| [scene, &bare].map(|scene| (scene, 10.0_f64.powi(power) * depth))).map(
         |(scene, load)| {
-            let pressed = |target| outcome(&Scene { loading: vec![target], ..scene.clone() });
+            let pressed = |target| outcome(&scene.with(|scene| scene.loading = vec![target])?);
             let there = pressed(Move::ToIndentation(load))?;
             let (expected, there) = (full_contact(&there, load), end(&there.history.legs[0]));
             let again = end(&pressed(Move::ToForce(there.force))?.history.legs[0]);
@@ -133,7 +133,7 @@ fn far_loads(scene: &Scene) -> Measured {
     ))
 }
 
-fn very_many_springs(scene: &Scene) -> Measured {
+fn very_many_springs(scene: &CheckedScene) -> Measured {
     let outcome = outcome(scene)?;
     let [loading, unloading] = &outcome.history.legs[..] else { return Ok(f64::NAN) };
     let counts = [loading.attached, unloading.detached];

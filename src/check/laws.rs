@@ -7,7 +7,7 @@ use super::case::{
 };
 use crate::Cycle;
 use crate::contact::{CurvePoint, LegRecord, Patch};
-use crate::scene::{Edges, Scene, Solver};
+use crate::scene::{CheckedScene, Edges, Solver};
 
 const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
 const COMPUTED: [&str; 2] = ["laws", INDEPENDENT];
@@ -139,13 +139,11 @@ fn units(body: &Body) -> Measured {
     )
 }
 
-fn stepwise(scene: &Scene) -> Measured {
+fn stepwise(scene: &CheckedScene) -> Measured {
     largest([0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3].into_iter().zip(1..).map(|(work, tenths)| {
-        let mut scene =
-            with(&with(scene, "adhesion.work", work)?, "roughness.hurst", 0.1 * f64::from(tenths))?;
+        let scene = with(&with(scene, "adhesion.work", work)?, "roughness.hurst", 0.1 * f64::from(tenths))?;
         let exact = outcome(&scene)?;
-        scene.numerics.solver = Solver::Stepwise { step: 1.0e-8 };
-        let steps = outcome(&scene)?;
+        let steps = outcome(&scene.with(|scene| scene.numerics.solver = Solver::Stepwise { step: 1.0e-8 })?)?;
         ensure(exact.fragments == steps.fragments, || format!("γ = {work:e} J/m²: another contact"))?;
         let unit = exact.governing.effective_modulus * scene.length * exact.line.deepest;
         let legs = exact.history.legs.iter().zip(&steps.history.legs);

@@ -10,7 +10,7 @@ mod closed_forms;
 mod hard_cases;
 mod laws;
 
-use crate::scene::{Document, Edges, Scene};
+use crate::scene::{CheckedScene, Document, Edges};
 pub use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
@@ -58,10 +58,8 @@ pub fn judge(check: Check) -> Verdict {
     Verdict { check, error: error.map_err(|error| error.to_string()), seconds: clock.elapsed().as_secs_f64() }
 }
 
-fn scene(text: &str, edges: Edges) -> Measured<Scene> {
-    let mut scene = Document::parse(text, "check")?.scene().clone();
-    scene.numerics.edges = edges;
-    Ok(scene)
+fn scene(text: &str, edges: Edges) -> Measured<CheckedScene> {
+    Ok(Document::parse(text, "check")?.scene().with(|scene| scene.numerics.edges = edges)?)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::output::{Origin, OutputArguments};
 use super::scene::{Overrides, compute};
 use crate::explorer::Opening;
 use crate::export::{Comparison, Format};
-use crate::scene::open_argument;
+use crate::scene::{Scene, open_argument};
 use clap::Args;
 use std::io::{IsTerminal, Write, stdin, stdout};
 
@@ -59,6 +59,6 @@ pub(super) fn compare(arguments: &CompareArguments, out: &mut dyn Write) -> Resu
     let outcomes = [compute(&first, first.scene())?, compute(&second, second.scene())?];
     let report = Comparison([(&first, &outcomes[0]), (&second, &outcomes[1])]);
     let names = [("A", &first), ("B", &second)];
-    let scenes = names.map(|(name, document)| (name.to_owned(), document.scene().clone()));
+    let scenes = names.map(|(name, document)| (name.to_owned(), Scene::clone(document.scene())));
     arguments.output.write(out, &report, format, Origin::Scenes(&scenes))
 }

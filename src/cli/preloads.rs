@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use crate::draw::AxisScale;
-use crate::scene::{Document, Scene, parse_quantity};
+use crate::scene::{CheckedScene, Document, parse_quantity};
 use crate::simulation::{Simulation, reach};
 use crate::study::Axis;
 
@@ -34,7 +34,7 @@ pub(super) fn parse_range(text: &str) -> Result<(f64, f64), String> {
 /// Refuses preloads far beyond full contact of a scene.
 pub(super) fn check_reach(
     document: &Document,
-    scene: &Scene,
+    scene: &CheckedScene,
     largest: f64,
     simulation: &mut Simulation,
 ) -> Result<(), CliError> {

@@ -11,7 +11,7 @@ use crate::export::{
     ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, check_measured_files, force_figure,
     force_panels,
 };
-use crate::scene::{Document, Scene, open_argument};
+use crate::scene::{CheckedScene, Document, Scene, open_argument};
 use crate::study::{Axis, Quantity, Results, Staircase};
 use crate::text::wrap;
 use clap::Args;
@@ -103,7 +103,12 @@ impl RunArguments {
         self.output.format(formats, usual)
     }
 
-    fn solved(&self, document: &Document, scene: &Scene, record: &[Quantity]) -> Result<Results, CliError> {
+    fn solved(
+        &self,
+        document: &Document,
+        scene: &CheckedScene,
+        record: &[Quantity],
+    ) -> Result<Results, CliError> {
         let (lines, jobs) = (self.lines.map_or(1, u64::from), threads(self.jobs));
         Results::of_scene(scene, &document.resolve(""), record, lines, self.preloads.as_ref(), jobs)
             .map_err(|error| CliError::named(document.name(), error))
@@ -113,7 +118,7 @@ impl RunArguments {
     fn adhesion(
         &self,
         document: &Document,
-        scene: &Scene,
+        scene: &CheckedScene,
         preloads: &Axis,
         is_drawn: bool,
     ) -> Result<(Results, Option<Staircase>), CliError> {
@@ -128,14 +133,18 @@ impl RunArguments {
 
     /// The scene of a document, with springs and edges for the tolerance if one is given. Text states the choice; with
     /// other formats it is on standard error.
-    fn scene_of(&self, document: &Document, format: Format) -> Result<(Scene, Option<Choice>), CliError> {
+    fn scene_of(
+        &self,
+        document: &Document,
+        format: Format,
+    ) -> Result<(CheckedScene, Option<Choice>), CliError> {
         let Some(tolerance) = self.tolerance else { return Ok((document.scene().clone(), None)) };
         let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut |_| ())
             .map_err(|error| CliError::named(document.name(), error))?;
         if format != Format::Text {
             let _ = writeln!(io::stderr(), "{}", wrap(&choice.sentence(), WIDTH).join("\n"));
         }
-        Ok((choice.apply(document.scene()), Some(choice)))
+        Ok((choice.apply(document.scene())?, Some(choice)))
     }
 }
 
@@ -193,7 +202,7 @@ fn figure(
         } else {
             outcomes.push((title, compute(document, &scene)?));
         }
-        scenes.push((title.to_owned(), scene));
+        scenes.push((title.to_owned(), Scene::clone(&scene)));
     }
     let outcomes: Vec<_> = outcomes.iter().map(|(title, outcome)| (*title, outcome)).collect();
     let figure = match figures.len() {
@@ -205,7 +214,11 @@ fn figure(
     Ok((figure, scenes))
 }
 
-fn contact_figure(arguments: &RunArguments, document: &Document, scene: &Scene) -> Result<Figure, CliError> {
+fn contact_figure(
+    arguments: &RunArguments,
+    document: &Document,
+    scene: &CheckedScene,
+) -> Result<Figure, CliError> {
     let failed = |error| CliError::named(document.name(), error);
     let mut simulation = simulation_of(document);
     let mut sets = ContactSets::new(arguments.fragments);

@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use crate::parallel;
-use crate::scene::{Document, Scene, open_argument};
+use crate::scene::{CheckedScene, Document, open_argument};
 use crate::simulation::{Outcome, Simulation};
 use crate::text::printable;
 use clap::Args;
@@ -58,7 +58,7 @@ pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
 }
 
-pub(super) fn compute(document: &Document, scene: &Scene) -> Result<Outcome, CliError> {
+pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outcome, CliError> {
     simulation_of(document)
         .run(scene, &|| false, &mut |_, _, _| Ok(()))
         .map_err(|error| CliError::named(document.name(), error))

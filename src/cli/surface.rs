@@ -197,7 +197,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     // Adhesion is computed for text and JSON, if it is asked for or takes seconds.
     let is_asked = arguments.work.is_some() && matches!(format, Format::Text | Format::Json);
     let adhesion = scene.filter(|_| is_asked).map(|scene| {
-        scene.check()?;
+        let scene = scene.checked()?;
         let unasked = (scene.numerics.points <= MOST_SPRINGS).then_some(LINES);
         let solve = |lines: u32| MeasuredAdhesion::solve(&scene, &line, lines, threads(None));
         let solved = arguments.lines.or(unasked).map(solve).transpose();

@@ -224,9 +224,8 @@ fn other_profiles(
     let worker = || {
         let mut simulation = Simulation::new(document.resolve(""));
         move |number: u64| {
-            let mut scene = document.scene().clone();
-            scene.set_seed(scene.seed().unwrap_or_default().wrapping_add(number + 1));
-            let model = Model::new(space.curve, &scene, &mut simulation);
+            let seed = document.scene().seed().unwrap_or_default().wrapping_add(number + 1);
+            let model = Model::new(space.curve, &document.scene().with_seed(seed), &mut simulation);
             let mut search = Search { space, model, report: &mut |_| (), lines: space.lines() };
             Ok(space.values(&search.roughly()?))
         }
@@ -261,6 +260,7 @@ mod tests {
     fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
         let mut fine = scene.clone();
         fine.numerics.samples = 1 << 18;
+        let fine = fine.checked().unwrap();
         let outcome = Simulation::default().run(&fine, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let legs = &outcome.history.legs;
         let base = |point: &CurvePoint| point.indentation + point.force / stiffness(scene);
@@ -313,7 +313,7 @@ mod tests {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let mut between = |low: f64, high: f64| low * (high / low).powf(generator.random::<f64>());
         let name = if seed.is_multiple_of(2) { "jkr-sphere" } else { "rough-sphere" };
-        let mut scene = open(name).unwrap().scene().clone();
+        let mut scene = Scene::clone(open(name).unwrap().scene());
         scene.numerics.points = points;
         scene.set_seed(seed);
         let (modulus, work) = (2.7e6 * between(0.5, 2.0), 0.05 * between(0.5, 2.0));
@@ -323,7 +323,9 @@ mod tests {
         // Contact radius at pull-off of a sphere.
         let contact = (radius * radius * 9.0 * PI * work / (8.0 * modulus)).cbrt();
         scene.loading_stiffness = Some(2.0 * modulus * contact * between(0.5, 10.0));
-        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = Simulation::default()
+            .run(&scene.clone().checked().unwrap(), &|| false, &mut |_, _, _| Ok(()))
+            .unwrap();
         let force = outcome.figures.adhesion_force.unwrap();
         Made { scene, offset: 1e-6 * between(0.1, 1.0), noise: 0.01 * force, drift: 0.1 * force }
     }

@@ -1,7 +1,7 @@
 //! The scene as edited: its list of parameters, its history, and its state on disk.
 
 use super::parameters::{Parameter, parameters};
-use crate::scene::{Document, Scene};
+use crate::scene::{CheckedScene, Document};
 use std::collections::BTreeMap;
 use std::iter::successors;
 use std::mem::replace;
@@ -173,8 +173,7 @@ impl Editor {
 }
 
 /// The scene of a document, with files named from the working folder.
-pub fn scene_of(document: &Document) -> Arc<Scene> {
-    let mut scene = document.scene().clone();
-    scene.rename_measured_files(|file| document.resolve(file).to_string_lossy().into_owned());
-    Arc::new(scene)
+pub fn scene_of(document: &Document) -> Arc<CheckedScene> {
+    let named = |file: &str| document.resolve(file).to_string_lossy().into_owned();
+    Arc::new(document.scene().with_files_named(named))
 }

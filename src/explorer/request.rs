@@ -1,6 +1,6 @@
 //! Requests from the explorer to the worker.
 
-use crate::scene::Scene;
+use crate::scene::CheckedScene;
 use std::sync::Arc;
 
 /// State that the screen waits for: the scene, solved unless it is the last one, after the manual moves, reduced to a
@@ -8,7 +8,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
-    pub scene: Arc<Scene>,
+    pub scene: Arc<CheckedScene>,
     /// Manual moves since the last request.
     pub moves: Vec<ManualMove>,
     pub snapshot: SnapshotRequest,

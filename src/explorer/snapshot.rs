@@ -6,7 +6,7 @@ use super::request::{Focus, LineView, SnapshotRequest};
 use crate::contact::{CurvePoint, Patch, PatchState};
 pub use crate::export::section::{Column, Section};
 use crate::export::section::{Contact, Part};
-use crate::scene::{Move, Scene};
+use crate::scene::{CheckedScene, Move};
 use crate::simulation::{LineFacts, Outcome};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedScene {
     pub generation: u64,
-    pub scene: Arc<Scene>,
+    pub scene: Arc<CheckedScene>,
     pub outcome: Outcome,
     /// Force at which the last spring touches the rigid body, N.
     pub full_contact: f64,

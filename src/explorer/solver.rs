@@ -8,7 +8,7 @@ use super::request::{Drive, ManualMove, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, lengths, profile_part, strip};
 use crate::contact::{ContactError, CurvePoint, Direction, Leg};
 use crate::export::section::{Contact, LineColumns};
-use crate::scene::{Move, Observer, Scene, Solver as SceneSolver};
+use crate::scene::{CheckedScene, Move, Observer, Solver as SceneSolver};
 use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -24,7 +24,7 @@ const STEPS_OF_A_PULL: f64 = 200.0;
 
 /// Function that computes a scene, as [`Simulation::run`].
 pub type Solve =
-    fn(&mut Simulation, &Scene, &dyn Fn() -> bool, &mut AfterLeg<'_>) -> Result<Outcome, RunError>;
+    fn(&mut Simulation, &CheckedScene, &dyn Fn() -> bool, &mut AfterLeg<'_>) -> Result<Outcome, RunError>;
 
 pub struct Solver {
     solve: Solve,
@@ -38,7 +38,7 @@ pub struct Solver {
 struct Newest {
     generation: u64,
     /// The scene as computed; `None` where that failed.
-    scene: Option<Scene>,
+    scene: Option<CheckedScene>,
     solved: Option<Arc<SolvedScene>>,
     /// Legs of the loading, as far as kept.
     legs: Vec<Option<Leg>>,
@@ -96,15 +96,12 @@ impl Solver {
     fn compute(
         &mut self,
         generation: u64,
-        scene: Arc<Scene>,
+        scene: Arc<CheckedScene>,
         report: &mut dyn FnMut(Report),
     ) -> Result<(), RunError> {
         self.newest = Newest { generation, ..Newest::default() };
         // The histogram beside the profile needs the heights.
-        let mut observed = scene.as_ref().clone();
-        if !observed.observe.contains(&Observer::HeightHistogram) {
-            observed.observe.push(Observer::HeightHistogram);
-        }
+        let observed = scene.observing(Observer::HeightHistogram);
         let stop = || self.awaited.load(Ordering::Relaxed) != generation;
         let (mut bytes, mut legs, mut full_contact) = (0, Vec::new(), 0.0);
         let outcome = (self.solve)(&mut self.simulation, &observed, &stop, &mut |stage, _, leg| {
@@ -140,9 +137,8 @@ impl Solver {
             self.leg(number)
         } else {
             // The stepwise solver knows no leg but those of the loading.
-            let mut scene = solved.scene.as_ref().clone();
-            scene.numerics.solver = SceneSolver::Exact;
-            self.leg_of(&scene, number)
+            let exact = solved.scene.with(|scene| scene.numerics.solver = SceneSolver::Exact).ok()?;
+            self.leg_of(&exact, number)
         }?;
         let preload = solved.outcome.figures.preload.unwrap_or(0.0);
         let (low, high) = indentations(&solved.outcome.history.legs).unwrap_or_default();
@@ -208,7 +204,7 @@ impl Solver {
     }
 
     /// Runs a scene up to a leg.
-    fn leg_of(&mut self, scene: &Scene, wanted: usize) -> Option<Leg> {
+    fn leg_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Leg> {
         let mut found = None;
         // The run ends as soon as the leg is found.
         let _ = (self.solve)(&mut self.simulation, scene, &|| false, &mut |stage, _, leg| {

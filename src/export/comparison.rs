@@ -71,7 +71,7 @@ mod tests {
     fn a_comparison_names_both_scenes_and_what_differs() {
         let first = open("jkr-sphere").unwrap();
         let second = first.set("adhesion.work", "0.1").unwrap();
-        let outcomes = [&first, &second].map(|document| crate::run(document.scene()).unwrap());
+        let outcomes = [&first, &second].map(|document| crate::run(document).unwrap());
         let pair = [(&first, &outcomes[0]), (&second, &outcomes[1])];
         let text = Comparison(pair).words();
         assert!(text.contains("different from A to B: γ 50 mJ/m² → 100 mJ/m²\n"), "{text}");

@@ -304,7 +304,7 @@ mod tests {
     #[test]
     fn a_force_curve_has_its_marks_where_the_figures_are() {
         let document = open("jkr-sphere").unwrap();
-        let outcome = crate::run(document.scene()).unwrap();
+        let outcome = crate::run(&document).unwrap();
         let figure = force_figure(&[("Rough <&>", &outcome)]);
         let named: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(named[..2], ["loading", "unloading"]);

@@ -26,7 +26,7 @@ mod tests {
 
     #[test]
     fn common_numbers_are_stated_once() {
-        let scene = |name: &str| open(name).unwrap().scene().clone();
+        let scene = |name: &str| Scene::clone(open(name).unwrap().scene());
         let [one, other] = ["ideal-adhesion", "non-adhesive"].map(scene);
         let lines = |names: [&str; 2]| -> Vec<String> {
             let scenes = [(names[0].to_owned(), one.clone()), (names[1].to_owned(), other.clone())];

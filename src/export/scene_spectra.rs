@@ -2,7 +2,7 @@
 
 use super::spectrum_figure::{Spectra, SpectrumPoint};
 use crate::memory::check_room;
-use crate::scene::{Form, Scene};
+use crate::scene::{CheckedScene, Form, Scene};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::spectrum::{Analysis, LineMoments, line_spectrum};
 use crate::surface::{EquivalentLine, Line, read_faces};
@@ -31,7 +31,11 @@ impl SceneSpectra {
     ///
     /// # Errors
     /// When the line of the scene cannot be made.
-    pub fn new(scene: &Scene, outcome: &Outcome, simulation: &mut Simulation) -> Result<Self, RunError> {
+    pub fn new(
+        scene: &CheckedScene,
+        outcome: &Outcome,
+        simulation: &mut Simulation,
+    ) -> Result<Self, RunError> {
         let (line, ..) = simulation.make_line(scene)?;
         let mut missing = None;
         let analyses = analyses(scene).unwrap_or_else(|error| {

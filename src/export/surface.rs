@@ -5,7 +5,7 @@ use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
 use crate::draw::Figure;
 use crate::io::{Kind, Pairs, Table, object};
-use crate::scene::{Move, Scene, format_quantity, format_range};
+use crate::scene::{CheckedScene, Move, Scene, format_quantity, format_range};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
@@ -81,7 +81,7 @@ pub struct SurfaceReport {
     pub work: Option<f64>,
     /// Scene of the equivalent line if its adhesion is asked for, and the random profiles that were solved: none on
     /// many springs without a request.
-    pub adhesion: Option<(Scene, Option<MeasuredAdhesion>)>,
+    pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
 impl Report for SurfaceReport {

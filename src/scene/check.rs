@@ -368,7 +368,7 @@ mod tests {
             loading: [ToForce(1.0e-5), ToSeparation],
             numerics: (points: 4096, edges: Grid),
         )"#;
-        Document::parse(TEXT, "sound").unwrap().scene().clone()
+        Scene::clone(Document::parse(TEXT, "sound").unwrap().scene())
     }
 
     fn errors_with(sets: &str) -> Vec<String> {

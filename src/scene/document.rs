@@ -3,10 +3,10 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::check::check;
+use super::checked::CheckedScene;
 use super::edit::{field_at, set};
 use super::effects::Effect;
-use super::errors::{MOST_LISTED, Origin, SceneError, SceneErrors, origin_at, overrides_behind};
+use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
 use super::field::Field;
 use super::fields::{FIELDS, field};
 use super::model::{Move, Scene};
@@ -25,21 +25,11 @@ pub struct Document {
     name: String,
     opened: String,
     text: Text,
-    scene: Scene,
+    scene: CheckedScene,
     overrides: Vec<(String, String)>,
     table_head: String,
     /// Effects switched off, each with the paths of the changed values, their former and their present text.
     pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
-}
-
-impl Scene {
-    /// Checks all values of a scene that was not read from text.
-    ///
-    /// # Errors
-    /// All invalid values, each with its field and its allowed range.
-    pub fn check(&self) -> Result<(), SceneErrors> {
-        SceneErrors::result(check(self), |_| Origin::Scene)
-    }
 }
 
 impl Document {
@@ -57,9 +47,7 @@ impl Document {
         let scene = read(source, place)?;
         let text = Text::new(source)
             .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
-        SceneErrors::result(as_written(check(&scene), &text), |error| {
-            place(text.nearest_value(&error.field))
-        })?;
+        let scene = CheckedScene::of(scene, Some(&text), |error| place(text.nearest_value(&error.field)))?;
         let (name, opened) = (name.to_string(), source.to_string());
         Ok(Document {
             name,
@@ -77,7 +65,7 @@ impl Document {
     /// # Errors
     /// All invalid values.
     pub fn from_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
-        scene.check()?;
+        scene.clone().checked()?;
         Document::parse(&to_ron(scene), name)
     }
 
@@ -99,20 +87,21 @@ impl Document {
     /// All errors, each with the overrides that caused it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let mut new = self.clone();
-        let mut errors = Vec::new();
+        let (mut changed, mut errors) = (None, Vec::new());
         for (path, value) in overrides {
             match spliced(&new.text, path, value) {
                 Ok((text, scene)) => {
-                    (new.text, new.scene) = (text, scene);
+                    (new.text, changed) = (text, Some(scene));
                     remember(&mut new.overrides, path, value);
                 }
                 Err(refused) => errors.extend(refused.0),
             }
         }
         SceneErrors::result(errors, |error| error.origin.clone())?;
-        SceneErrors::result(as_written(check(&new.scene), &new.text), |error| {
-            overrides_behind(error, overrides)
-        })?;
+        if let Some(scene) = changed {
+            let origin = |error: &SceneError| overrides_behind(error, overrides);
+            new.scene = CheckedScene::of(scene, Some(&new.text), origin)?;
+        }
         if !new.is_changed() {
             new.overrides.clear();
         }
@@ -135,7 +124,7 @@ impl Document {
             self.set("loading", &in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>()))?;
         let is_same = |text: &Text| {
             check_length(text.as_str()).is_ok()
-                && read(text.as_str(), |_| Origin::Scene).is_ok_and(|scene| scene == new.scene)
+                && read(text.as_str(), |_| Origin::Scene).is_ok_and(|scene| scene == *new.scene)
         };
         if let Some(text) = self.text.arrange("loading", &elements).filter(is_same) {
             new.text = text;
@@ -152,7 +141,7 @@ impl Document {
     }
 
     /// The checked scene.
-    pub fn scene(&self) -> &Scene {
+    pub fn scene(&self) -> &CheckedScene {
         &self.scene
     }
 
@@ -231,9 +220,9 @@ impl Document {
     /// # Errors
     /// All invalid values.
     pub fn moved_to(&self, rename: impl Fn(&str) -> String) -> Result<Document, SceneErrors> {
-        let mut scene = self.scene.clone();
+        let mut scene = Scene::clone(&self.scene);
         scene.rename_measured_files(rename);
-        if scene == self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
+        if scene == *self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
     }
 
     /// Path of a file named in the scene, relative to the scene's own file.
@@ -274,14 +263,6 @@ pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));
-}
-
-/// Errors, as far as they are listed, with numbers that are not finite as they are written: `1e999`.
-fn as_written(mut errors: Vec<SceneError>, text: &Text) -> Vec<SceneError> {
-    for error in errors.iter_mut().take(MOST_LISTED).filter(|error| error.value == "NaN") {
-        error.value = text.value(&error.field).unwrap_or_default().to_owned();
-    }
-    errors
 }
 
 fn check_length(text: &str) -> Result<(), String> {

@@ -18,6 +18,7 @@
 mod adhesion;
 mod changes;
 mod check;
+mod checked;
 mod command;
 mod document;
 mod edit;
@@ -43,7 +44,7 @@ pub use crate::surface::Form;
 pub use crate::text::is_control;
 pub use adhesion::{Adhesion, RoughnessParameter};
 pub use changes::Change;
-pub use check::check;
+pub use checked::CheckedScene;
 pub use command::command_line;
 pub(crate) use command::quoted;
 pub use document::{Document, LONGEST_TEXT};

@@ -37,7 +37,7 @@ impl Document {
     /// # Errors
     /// A replacement value is not in `computed`, or is invalid.
     pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
-        let mut scene = self.scene().clone();
+        let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
             return Ok(self.clone());
         }
@@ -107,7 +107,7 @@ impl Document {
     /// # Errors
     /// An invalid value.
     pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
-        self.with_scene(&Scene { adhesion: Some(adhesion), ..self.scene().clone() })
+        self.with_scene(&Scene { adhesion: Some(adhesion), ..Scene::clone(self.scene()) })
     }
 
     /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no

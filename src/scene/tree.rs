@@ -225,7 +225,7 @@ mod tests {
 
     /// A rough scene with adhesion by work.
     fn sound() -> Scene {
-        open("rough-sphere").unwrap().set("form", "None").unwrap().scene().clone()
+        Scene::clone(open("rough-sphere").unwrap().set("form", "None").unwrap().scene())
     }
 
     /// A scene for every variant of every choice.
@@ -236,7 +236,7 @@ mod tests {
             _ => Vec::new(),
         };
         let documents = ["form", "roughness", "numerics.solver"].into_iter().flat_map(all);
-        documents.map(|document| document.scene().clone()).collect()
+        documents.map(|document| Scene::clone(document.scene())).collect()
     }
 
     #[test]

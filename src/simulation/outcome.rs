@@ -3,7 +3,7 @@
 use super::reach::{out_of_reach, rounded_up};
 use crate::analysis::{Figures, Governing, InstrumentFigures, Regime, SteepWaves};
 use crate::contact::{ContactError, History, Patch};
-use crate::scene::{Move, format_quantity};
+use crate::scene::{Move, SceneErrors, format_quantity};
 use crate::surface::{Histogram, SurfaceError};
 use serde::Serialize;
 use thiserror::Error;
@@ -94,6 +94,9 @@ impl Timings {
 /// Reason why a checked scene could not be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum RunError {
+    /// A variant of the scene that the computation needs has values out of their ranges.
+    #[error(transparent)]
+    Values(#[from] SceneErrors),
     /// The scene does not fit into memory.
     #[error(
         "not enough memory: this scene takes about {} MiB; fewer numerics.points and numerics.samples take less",

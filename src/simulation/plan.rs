@@ -1,7 +1,7 @@
 //! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
 
 use crate::contact::CurvePoint;
-use crate::scene::{Edges, Effect, Roughness, Scene, Solver};
+use crate::scene::{CheckedScene, Edges, Effect, Roughness, Scene, Solver};
 use serde::Serialize;
 
 /// Bytes per spring: a height of the roughness, or a gap of the profile.
@@ -105,8 +105,13 @@ impl Plan {
     /// Resident bytes of the program after a small scene: code, tables and stacks.
     pub const PROGRAM: u64 = 14 << 20;
 
-    /// Plans the stages of a checked scene.
-    pub fn of(scene: &Scene) -> Self {
+    /// Plans the stages of a scene.
+    pub fn of(scene: &CheckedScene) -> Self {
+        Plan::of_any(scene)
+    }
+
+    /// Plans the stages of a checked scene, which may have any other loading.
+    pub(super) fn of_any(scene: &Scene) -> Self {
         let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
         let stages = stages(scene, points, springs);
         let mut plan = Plan { springs, peak_bytes: 0, resident_bytes: 0, stages };

@@ -4,7 +4,7 @@ use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
 use crate::contact::{Body, ContactError, LegRecord, Reversal};
-use crate::scene::{Move, Scene, Solver as SolverChoice};
+use crate::scene::{CheckedScene, Move, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
 /// Turning points of a map.
@@ -26,14 +26,14 @@ impl Simulation {
     /// A scene with the stepwise solver, an end out of reach, insufficient memory or a stop.
     pub fn reverse(
         &mut self,
-        scene: &Scene,
+        scene: &CheckedScene,
         (ends, points): (&[Move], &[f64]),
         stop: &dyn Fn() -> bool,
         see: &mut SeeReversal<'_>,
     ) -> Result<(), RunError> {
         needs_exact_solver(scene)?;
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
-        let plan = Plan::of(&Scene { loading: vec![deepest, Move::ToSeparation], ..scene.clone() });
+        let plan = Plan::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
@@ -46,8 +46,8 @@ impl Simulation {
     ///
     /// # Errors
     /// Those of the profile of [`Simulation::run`].
-    pub fn full_contact_force(&mut self, scene: &Scene) -> Result<f64, RunError> {
-        let plan = Plan::of(&Scene { loading: vec![Move::ToTouch], ..scene.clone() });
+    pub fn full_contact_force(&mut self, scene: &CheckedScene) -> Result<f64, RunError> {
+        let plan = Plan::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
         Ok(self.prepare(&plan, scene, &|| false)?.contact.full_contact_force())
     }
 
@@ -59,15 +59,14 @@ impl Simulation {
     /// Errors of [`Simulation::reverse`], and a loading that never presses.
     pub fn reversal_map(
         &mut self,
-        scene: &Scene,
+        scene: &CheckedScene,
         preloads: Option<(f64, f64)>,
         count: usize,
         stop: &dyn Fn() -> bool,
     ) -> Result<ReversalMap, RunError> {
         needs_exact_solver(scene)?;
         let count = count.clamp(*TURNING_POINTS.start(), *TURNING_POINTS.end());
-        let mut scene = scene.clone();
-        scene.numerics.samples = FEW_SAMPLES;
+        let scene = scene.with(|scene| scene.numerics.samples = FEW_SAMPLES)?;
         let ends = if let Some((from, to)) = preloads {
             [Move::ToForce(from), Move::ToForce(to)]
         } else {
@@ -101,28 +100,30 @@ impl Simulation {
     /// on the way back from the deepest turning point of a map, for `levels` upper and as many lower indentations.
     pub fn minor_loops(
         &mut self,
-        scene: &Scene,
+        scene: &CheckedScene,
         map: &ReversalMap,
         levels: usize,
         stop: &dyn Fn() -> bool,
     ) -> Result<MinorLoops, RunError> {
         let Some(deepest) = map.reversals.last() else { return Ok(MinorLoops::default()) };
         let top = deepest.turn.indentation;
-        let mut scene = scene.clone();
-        scene.numerics.samples = FEW_SAMPLES;
-        scene.loading.clear();
+        let mut loops = Vec::new();
         for (upper, lower) in (0..levels).flat_map(|upper| (0..levels).map(move |lower| (upper, lower))) {
             let high = top * upper as f64 / levels as f64;
             let share = (lower as f64 + 0.5) / levels as f64;
             let low = deepest.separation + share * (high - deepest.separation);
             for loading in [&[high, low, high][..], &[top, low, high, low]] {
-                scene.loading.extend(loading.iter().map(|&to| Move::ToIndentation(to)));
-                scene.loading.push(Move::ToSeparation);
+                loops.extend(loading.iter().map(|&to| Move::ToIndentation(to)));
+                loops.push(Move::ToSeparation);
             }
         }
-        if scene.loading.is_empty() {
+        if loops.is_empty() {
             return Ok(MinorLoops::default());
         }
+        let scene = scene.with(|scene| {
+            scene.numerics.samples = FEW_SAMPLES;
+            scene.loading = loops;
+        })?;
         let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
         let loss = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
         let loops = outcome.history.legs.chunks_exact(9);

@@ -11,7 +11,7 @@ use crate::contact::{
 };
 use crate::memory::{check_room, emptied};
 use crate::reference::smooth_adhesion_force;
-use crate::scene::{Edges, Form, Move, Scene, Solver as SolverChoice};
+use crate::scene::{CheckedScene, Edges, Form, Move, Scene, Solver as SolverChoice};
 use crate::surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
 use std::mem::take;
 use std::path::PathBuf;
@@ -96,7 +96,11 @@ impl Simulation {
     ///
     /// # Errors
     /// Insufficient memory or an unreadable measured profile.
-    pub fn make_line(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
+    pub fn make_line(&mut self, scene: &CheckedScene) -> Result<(&Line, LineFacts, Governing), RunError> {
+        self.line_of(scene)
+    }
+
+    fn line_of(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
         let (points, length) = (scene.numerics.points as usize, scene.length);
         let roughness = self.maker.key(scene);
         if self.roughness.as_ref().map(|rough| &rough.key) != roughness.as_ref() {
@@ -170,7 +174,7 @@ impl Simulation {
     /// Makes the heights of a roughness; synthesised ones in this memory.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Plan::of(scene).line_bytes()).map_err(SurfaceError::from)?;
+        check_room(Plan::of_any(scene).line_bytes()).map_err(SurfaceError::from)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
             self.maker.synthesizer = Synthesizer::default();
@@ -225,7 +229,7 @@ impl Simulation {
 
         let drawn_before = self.maker.phases_drawn;
         let clock = Instant::now();
-        let (line, facts, governing) = self.make_line(scene)?;
+        let (line, facts, governing) = self.line_of(scene)?;
         let Governing { effective_modulus, .. } = governing;
         let foundation = Foundation { spacing: line.spacing, effective_modulus, length: line.length };
         timings.line = clock.elapsed().as_secs_f64();
@@ -243,9 +247,10 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Contact of a checked scene before its loading, and its governing parameters.
+    /// Contact of a scene before its loading, and its governing parameters. The scene is a checked one, whose form may
+    /// have a radius that a fit tries.
     pub(crate) fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
-        let made = self.prepare(&Plan::of(scene), scene, &|| false)?;
+        let made = self.prepare(&Plan::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
 
@@ -256,7 +261,7 @@ impl Simulation {
     /// A failure of a stage or a stop; earlier results are kept for the next run.
     pub fn run(
         &mut self,
-        scene: &Scene,
+        scene: &CheckedScene,
         stop: &dyn Fn() -> bool,
         after: &mut AfterLeg<'_>,
     ) -> Result<Outcome, RunError> {

@@ -160,7 +160,7 @@ fn conversion(
         return Some(Box::new(|value| value));
     }
     // The plan has been checked with these values.
-    let known = governing(&plan.scene_of(cell).ok()?)?;
+    let known = governing(&*plan.scene_of(cell).ok()?)?;
     let energies = known.energy(to)? / known.energy(from)?;
     Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
 }

@@ -147,9 +147,10 @@ mod tests {
         for name in ["pressure-sensitive", "rough-sphere", "kendall-punch", "non-adhesive", "two-works"] {
             for edges in [Edges::Grid, Edges::SubCell] {
                 let document = open(name).unwrap();
-                let mut scene = document.scene().clone();
-                scene.numerics.edges = edges;
-                scene.numerics.samples = 2;
+                let scene = document.scene().with(|scene| {
+                    (scene.numerics.edges, scene.numerics.samples) = (edges, 2);
+                });
+                let scene = scene.unwrap();
                 let presses = [
                     Move::ToTouch,
                     Move::ToZeroForce,
@@ -165,7 +166,8 @@ mod tests {
                 };
                 simulation.reverse(&scene, (&presses, &[]), &|| false, see).unwrap();
                 for (press, reversed) in presses.into_iter().zip(reversed) {
-                    scene.loading = vec![press, Move::ToSeparation];
+                    let loading = vec![press, Move::ToSeparation];
+                    let scene = scene.with(|scene| scene.loading = loading).unwrap();
                     let run = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
                     let legs = LoadingOutcome::of_legs(run.history.legs);
                     assert_eq!(reversed, Some(legs), "{name}, {edges:?}, {press:?}");

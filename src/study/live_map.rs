@@ -243,6 +243,7 @@ mod tests {
             if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
                 (*hurst, *seed) = (0.3, *seed + line);
             }
+            let scene = scene.checked().unwrap();
             let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
             outcome.zero_load_adhesion_force.unwrap() / outcome.ideal_adhesion_force.unwrap()
         });

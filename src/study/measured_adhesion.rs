@@ -11,7 +11,7 @@ use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use crate::analysis::Regime;
 use crate::parallel::on_threads;
-use crate::scene::Scene;
+use crate::scene::CheckedScene;
 use crate::simulation::{RunError, Simulation};
 use crate::surface::{EquivalentLine, MeasuredRoughness};
 use serde::Serialize;
@@ -42,23 +42,22 @@ impl ProfileAdhesion {
     /// # Errors
     /// When a profile or its contact fails, or `stop` returns true.
     pub fn solve(
-        scene: &Scene,
+        scene: &CheckedScene,
         line: &EquivalentLine,
         seed: u64,
         stop: &dyn Fn() -> bool,
     ) -> Result<Self, RunError> {
-        let mut scene = scene.clone();
-        scene.set_seed(seed);
-        strip(&mut scene);
-        let on = |scene: &Scene, line: EquivalentLine| {
+        let scene = scene.with_seed(seed).with(strip)?;
+        let on = |scene: &CheckedScene, line: EquivalentLine| {
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
             Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))
         };
         let fitted = on(&scene, line.clone())?;
         // If κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
-        if let Some(work) = fitted.governing.work_of_adhesion {
-            scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work));
-        }
+        let with_work = |work| {
+            scene.with(|scene| scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work)))
+        };
+        let scene = fitted.governing.work_of_adhesion.map_or(Ok(scene.clone()), with_work)?;
         let moved = on(&scene, line.drawn(seed, SHARE))?;
         let (one, other) = (fitted.figures.adhesion_force, moved.figures.adhesion_force);
         Ok(ProfileAdhesion {
@@ -84,7 +83,12 @@ impl MeasuredAdhesion {
     ///
     /// # Errors
     /// The first profile that fails.
-    pub fn solve(scene: &Scene, line: &EquivalentLine, count: u32, jobs: usize) -> Result<Self, StudyError> {
+    pub fn solve(
+        scene: &CheckedScene,
+        line: &EquivalentLine,
+        count: u32,
+        jobs: usize,
+    ) -> Result<Self, StudyError> {
         let profiles = on_threads(u64::from(count), jobs, || {
             |number| {
                 let seed = scene.seed().unwrap_or(0).wrapping_add(number);
@@ -134,9 +138,9 @@ fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Document;
+    use crate::scene::{Document, Scene};
 
-    fn scene_and_line(adhesion: &str) -> (Scene, EquivalentLine) {
+    fn scene_and_line(adhesion: &str) -> (CheckedScene, EquivalentLine) {
         let text = format!(
             "(version: 2, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: {adhesion}, \
              roughness: Measured(file: \"none.txt\", seed: 5), numerics: (points: 1024), \
@@ -156,8 +160,7 @@ mod tests {
         let found = MeasuredAdhesion::solve(&scene, &line, 6, 1).unwrap();
         assert_eq!(MeasuredAdhesion::solve(&scene, &line, 6, 3).unwrap(), found);
         let force = |line: EquivalentLine, seed: u64| {
-            let mut scene = scene.clone();
-            scene.set_seed(seed);
+            let scene = scene.with_seed(seed);
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
             let mut simulation = Simulation::default().with_measured(measured);
             simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap().figures.adhesion_force.unwrap()
@@ -188,7 +191,8 @@ mod tests {
         let mut simulation = Simulation::default().with_measured(measured);
         let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let work = outcome.governing.work_of_adhesion.unwrap();
-        let scene = Scene { adhesion: scene.adhesion.map(|adhesion| adhesion.with_work(work)), ..scene };
+        let with_work = |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
+        let scene = scene.with(with_work).unwrap();
         assert_eq!(MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap(), by_kappa);
     }
 

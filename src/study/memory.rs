@@ -1,7 +1,6 @@
 //! Memory of a study, for as many threads as it may take.
 
 use super::axis::Axis;
-use super::place::strip;
 use super::plan::{MOST_CHECKED, Plan};
 use crate::simulation;
 
@@ -26,10 +25,9 @@ impl Memory {
     /// Memory of a study of this plan: that of its largest scene.
     pub fn of(plan: &Plan) -> Memory {
         let of_cell = |cell| {
-            let mut scene = plan.scene_of(cell).ok()?;
+            let scene = plan.scene_of(cell).ok()?;
             let spare = 16 * scene.numerics.samples * scene.loading.len() as u64;
             let peak = simulation::Plan::of(&scene).peak_bytes;
-            strip(&mut scene);
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
             // The contact without adhesion or at zero force may add to the memory of the scene itself.

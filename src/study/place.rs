@@ -168,7 +168,7 @@ mod tests {
         ] {
             let document = open(base).unwrap();
             let scene = with(document.scene(), path, value).unwrap();
-            assert_eq!(&scene, document.set(overrides.0, overrides.1).unwrap().scene(), "{path}");
+            assert_eq!(&scene, &**document.set(overrides.0, overrides.1).unwrap().scene(), "{path}");
         }
     }
 
@@ -185,8 +185,8 @@ mod tests {
         ] {
             let axis = Axis::new(path, Spacing::List, vec![value], document.scene()).unwrap();
             let scene = with(document.scene(), path, value).unwrap();
-            assert_eq!(&scene, document.set(set.0, set.1).unwrap().scene(), "{path}");
-            assert_eq!(&scene, super::moved(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
+            assert_eq!(&scene, &**document.set(set.0, set.1).unwrap().scene(), "{path}");
+            assert_eq!(&scene, &**super::moved(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
             assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
         }
         // A longer line has the same waves: more modes.

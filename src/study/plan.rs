@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
-use crate::scene::{Scene, SceneError, check, ron_float};
+use crate::scene::{CheckedScene, Scene, SceneError, SceneErrors, ron_float};
 use serde::{Deserialize, Serialize};
 
 /// File name of the plan in the folder of a study.
@@ -151,9 +151,10 @@ impl Plan {
     /// The scene of a cell; its loading is that of the plan's scene, whatever the preload.
     ///
     /// # Errors
-    /// The path of an axis over a number that the scene does not have.
-    pub fn scene_of(&self, cell: u64) -> Result<Scene, String> {
-        scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))
+    /// The path of an axis over a number that the scene does not have, or values out of their ranges.
+    pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
+        let unknown = |message| SceneError { message, ..SceneError::default() };
+        scene_with(&self.scene, self.axes.iter().zip(self.values(cell))).map_err(unknown)?.checked()
     }
 
     /// Seed of a profile.
@@ -239,9 +240,10 @@ impl Plan {
     fn errors_of_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };
+        let errors = texts.checked().err();
         let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
         let mut wrong: Vec<String> =
-            check(&texts).iter().filter(is_text).map(SceneError::to_string).collect();
+            errors.iter().flat_map(SceneErrors::iter).filter(is_text).map(SceneError::to_string).collect();
         if self.measured_sha256.is_some() && self.scene.measured_files().is_empty() {
             wrong.push(
                 "measured_sha256: allowed with roughness: Measured and form: Table; this scene has no such file".into(),
@@ -254,10 +256,9 @@ impl Plan {
     pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
         let (mut wrong, mut more) = (Vec::new(), 0_u64);
         for cell in self.extremes(MOST_CHECKED) {
-            let checked = self.scene_of(cell).map(|scene| check(&scene).first().map(SceneError::to_string));
-            let Some(reason) = checked.unwrap_or_else(Some) else { continue };
+            let Err(errors) = self.scene_of(cell) else { continue };
             if wrong.len() < MOST_NAMED {
-                wrong.push(format!("cell {cell} ({}): {reason}", self.coordinates(cell)));
+                wrong.push(format!("cell {cell} ({}): {}", self.coordinates(cell), errors.first()));
             } else {
                 more += 1;
             }
@@ -304,7 +305,8 @@ mod tests {
     fn scenes_between_allowed_ends_are_allowed() {
         let mut allowed = [0, 0];
         for preset in presets() {
-            let scene = open(preset.name).unwrap().scene().clone();
+            let document = open(preset.name).unwrap();
+            let scene = document.scene();
             let paths = ["numerics.points", "springs_per_wave", "kappa", "roughness.modes.1"];
             let more = paths.iter().filter_map(|path| {
                 let axis = Axis::new(path, Spacing::List, Vec::new(), &scene).ok()?;
@@ -330,8 +332,7 @@ mod tests {
                         };
                         let axes = vec![part(one), part(other)];
                         let plan = Plan { axes, ..Plan::of_scene(&scene, 1, &[Quantity::Regime]) };
-                        let is_allowed =
-                            |cell| plan.scene_of(cell).is_ok_and(|scene| check(&scene).is_empty());
+                        let is_allowed = |cell| plan.scene_of(cell).is_ok();
                         let ends = plan.extremes(0);
                         assert_eq!(ends.len(), 4);
                         let is_met = ends.into_iter().all(is_allowed);

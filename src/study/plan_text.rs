@@ -225,7 +225,7 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
     };
     let set: Vec<_> = read.set.clone().into_iter().chain(set.iter().cloned()).collect();
     let document = document.set_all(&set).map_err(in_scene)?;
-    let mut scene = document.scene().clone();
+    let mut scene = Scene::clone(document.scene());
     scene.rename_measured_files(|file| {
         let path = document.resolve(file);
         std::path::absolute(&path).unwrap_or(path).display().to_string()

@@ -8,7 +8,7 @@ use super::results::Results;
 use super::statistics::Statistics;
 use crate::contact::Reversal;
 use crate::draw::AxisScale;
-use crate::scene::{LEG_FORCE, Move, Scene};
+use crate::scene::{CheckedScene, LEG_FORCE, Move};
 use crate::simulation::{RunError, Simulation};
 use std::ops::RangeInclusive;
 
@@ -71,7 +71,7 @@ impl Staircase {
     /// # Errors
     /// As [`Simulation::reverse`], and a preload below the force at first touch.
     pub fn find(
-        scene: &Scene,
+        scene: &CheckedScene,
         preloads: &Axis,
         simulation: &mut Simulation,
         stop: &dyn Fn() -> bool,
@@ -186,9 +186,9 @@ mod tests {
         assert_eq!((preloads.values[0], preloads.values[8], preloads.values.len()), (0.0, 2e-5, 9));
         let results = solved(&document, &preloads, 16, 2).unwrap();
         // One profile is the scene itself, loaded to one of the forces.
-        let mut scene = document.scene().clone();
-        scene.set_seed(results.plan().seed_of(3));
-        scene.loading = vec![Move::ToForce(preloads.values[4]), Move::ToSeparation];
+        let scene = document.scene().with_seed(results.plan().seed_of(3));
+        let loading = vec![Move::ToForce(preloads.values[4]), Move::ToSeparation];
+        let scene = scene.with(|scene| scene.loading = loading).unwrap();
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let found = |quantity| results.value(4, 3, quantity);
         assert_eq!(found(Quantity::AdhesionForce), outcome.figures.adhesion_force);
@@ -220,8 +220,7 @@ mod tests {
     #[test]
     fn a_staircase_has_its_steps_where_a_fine_grid_has_them() {
         let document = open("pressure-sensitive").unwrap();
-        let mut scene = document.scene().clone();
-        scene.numerics.points = 2048;
+        let scene = document.scene().with(|scene| scene.numerics.points = 2048).unwrap();
         let find = |ends, count, scale| {
             let axis = Axis::of_preloads(ends, count, scale).unwrap();
             let mut parts = Vec::new();

@@ -6,7 +6,7 @@ use super::place::strip;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
 use crate::analysis::Governing;
-use crate::scene::{Move, Roughness, Scene, Solver};
+use crate::scene::{CheckedScene, Move, Roughness, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::spectrum::slope;
 
@@ -19,7 +19,7 @@ pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,
     /// Properties of the last profile, and their scene without adhesion and loading.
-    profile: Option<(Scene, ProfileRecord)>,
+    profile: Option<(CheckedScene, ProfileRecord)>,
     stop: &'p dyn Fn() -> bool,
 }
 
@@ -35,10 +35,7 @@ impl<'p> Recorder<'p> {
     /// A failure of the profile or the contact, or a stop.
     pub fn record(&mut self, run: &Run) -> Result<Records, RunError> {
         let plan = self.plan;
-        // The scene of every cell has been checked.
-        let mut scene = plan.scene_of(run.cells.start).unwrap_or_else(|_| plan.scene.clone());
-        strip(&mut scene);
-        scene.set_seed(plan.seed_of(run.line));
+        let scene = plan.scene_of(run.cells.start)?.with_seed(plan.seed_of(run.line)).with(strip)?;
         let profile = self.profile_record(&scene)?;
         let (_, _, governing) = self.simulation.make_line(&scene)?;
         let mut loops = Vec::new();
@@ -62,7 +59,7 @@ impl<'p> Recorder<'p> {
         }
         let (mut each, mut zero_load) = (Vec::new(), None);
         if !loops.is_empty() || plan.records(Needs::Touch) {
-            (each, zero_load) = self.solve(&mut scene, &governing, loops)?;
+            (each, zero_load) = self.solve(&scene, &governing, loops)?;
         }
         let zero_force = each.get(count).filter(|_| needs_zero_force);
         let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
@@ -78,7 +75,7 @@ impl<'p> Recorder<'p> {
     /// Outcomes of loadings, each of which begins at separation, and F_a(0) by the touch protocol.
     fn solve(
         &mut self,
-        scene: &mut Scene,
+        scene: &CheckedScene,
         governing: &Governing,
         loops: Vec<Vec<Move>>,
     ) -> Result<(Vec<LoadingOutcome>, Option<f64>), RunError> {
@@ -103,31 +100,32 @@ impl<'p> Recorder<'p> {
         let loops = if loops.is_empty() { vec![vec![Move::ToTouch, Move::ToSeparation]] } else { loops };
         let (mut each, mut zero_load) = (Vec::with_capacity(loops.len()), None);
         for one in loops {
-            scene.loading = one;
-            let outcome = self.run(scene)?;
+            let outcome = self.run(&scene.with(|scene| scene.loading = one)?)?;
             zero_load = zero_load.or(outcome.zero_load_adhesion_force);
             each.push(LoadingOutcome::of_legs(outcome.history.legs));
         }
         Ok((each, zero_load))
     }
 
-    fn run(&mut self, scene: &Scene) -> Result<Outcome, RunError> {
+    fn run(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {
         self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
     }
 
-    fn profile_record(&mut self, scene: &Scene) -> Result<ProfileRecord, RunError> {
+    fn profile_record(&mut self, scene: &CheckedScene) -> Result<ProfileRecord, RunError> {
         let (heights, stiffness) = (self.plan.records(Needs::Heights), self.plan.records(Needs::Stiffness));
         if !heights && !stiffness {
             return Ok(ProfileRecord::default());
         }
         let amplitude = self.simulation.make_line(scene)?.2.amplitude;
-        let mut nonadhesive = Scene { adhesion: None, loading: Vec::new(), ..scene.clone() };
-        if let (Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }), Some(amplitude)) =
-            (&mut nonadhesive.roughness, amplitude)
-        {
-            // The amplitude may depend on the adhesion.
-            (*rms_height, *rms_gradient) = (Some(amplitude.rms_height), None);
-        }
+        let nonadhesive = scene.with(|scene| {
+            (scene.adhesion, scene.loading) = (None, vec![Move::ToTouch]);
+            if let (Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }), Some(amplitude)) =
+                (&mut scene.roughness, amplitude)
+            {
+                // The amplitude may depend on the adhesion.
+                (*rms_height, *rms_gradient) = (Some(amplitude.rms_height), None);
+            }
+        })?;
         if let Some((known, record)) = &self.profile
             && *known == nonadhesive
         {
@@ -136,7 +134,7 @@ impl<'p> Recorder<'p> {
         let mut record = ProfileRecord::default();
         if heights {
             // Without the form, which is the same on all profiles.
-            let (line, ..) = self.simulation.make_line(&Scene { form: None, ..nonadhesive.clone() })?;
+            let (line, ..) = self.simulation.make_line(&nonadhesive.with(|scene| scene.form = None)?)?;
             record = ProfileRecord::of_gaps(&line.gaps, line.deepest);
         }
         if stiffness {
@@ -148,14 +146,14 @@ impl<'p> Recorder<'p> {
 
     /// Exponents of the contact without adhesion, fitted in logarithms over the plan's range of forces. Without stretched
     /// springs the stiffness is E* times the length in contact.
-    fn exponents(&mut self, scene: &Scene) -> Result<Option<(f64, f64)>, RunError> {
+    fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
         let Some(unit) = governing.force_unit(scene.length) else { return Ok(None) };
         let StiffnessRange { from, to, count } = self.plan.stiffness;
         let step = (to / from).ln() / (count - 1) as f64;
         let force = |index: u64| unit * from * (step * index as f64).exp();
         let loading = (0..count).map(|index| Move::ToForce(force(index))).collect();
-        let outcome = self.run(&Scene { loading, ..scene.clone() })?;
+        let outcome = self.run(&scene.with(|scene| scene.loading = loading)?)?;
         let points = outcome.history.legs.iter().filter_map(|leg| leg.curve.last());
         let points: Vec<_> = points.filter(|point| point.force > 0.0 && point.indentation > 0.0).collect();
         let lengths: Vec<_> = points.iter().map(|at| (at.force.ln(), at.contact_length.ln())).collect();

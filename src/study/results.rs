@@ -343,18 +343,16 @@ mod tests {
     #[test]
     fn profiles_do_not_depend_on_how_many_threads_share_them() {
         let document = open("rough-sphere").unwrap();
-        let mut scene = document.scene().clone();
-        scene.numerics.points = 1024;
-        scene.set_seed(u64::MAX - 2);
+        let scene = document.scene().with_seed(u64::MAX - 2);
+        let scene = scene.with(|scene| scene.numerics.points = 1024).unwrap();
         let record = [Quantity::AdhesionForce, Quantity::DissipatedEnergy];
         let of = |jobs| Results::of_scene(&scene, &document.resolve(""), &record, 7, None, jobs).unwrap();
         let alone = of(1);
         assert_eq!((of(3), of(64)), (alone.clone(), alone.clone()));
         assert_eq!([0, 3].map(|line| alone.plan().seed_of(line)), [u64::MAX - 2, 0]);
         // Each record is that of the scene itself with that seed.
-        scene.set_seed(0);
-        let outcome =
-            Simulation::new(document.resolve("")).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let mut simulation = Simulation::new(document.resolve(""));
+        let outcome = simulation.run(&scene.with_seed(0), &|| false, &mut |_, _, _| Ok(())).unwrap();
         for (quantity, expected) in
             record.into_iter().zip([outcome.figures.adhesion_force, outcome.figures.dissipated_energy])
         {

@@ -5,7 +5,7 @@ use super::error::StudyError;
 use super::place::{numbers, scene_with};
 use super::quantity::Quantity;
 use super::results::Results;
-use crate::scene::{Scene, check};
+use crate::scene::Scene;
 use crate::simulation::Simulation;
 
 /// Share by which a number is made smaller and larger.
@@ -72,7 +72,7 @@ impl Sensitivity {
             let mut sides = [-1.0, 1.0].map(|sign| (changed(&axis, value, sign), None));
             for (changed, results) in &mut sides {
                 let neighbour = scene_with(scene, std::iter::once((&axis, *changed)));
-                if let Some(neighbour) = neighbour.ok().filter(|scene| check(scene).is_empty()) {
+                if let Some(neighbour) = neighbour.ok().and_then(|scene| scene.checked().ok()) {
                     *results = Some(solve(&neighbour, 1)?[0]);
                 }
             }
@@ -120,8 +120,7 @@ mod tests {
     use crate::scene::open;
 
     fn sensitivity(name: &str) -> Sensitivity {
-        let mut scene = open(name).unwrap().scene().clone();
-        scene.numerics.points = 1 << 14;
+        let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 1 << 14).unwrap();
         let mut reported = 0;
         let found = Sensitivity::of(&scene, &mut Simulation::default(), &|| false, &mut |part| {
             reported += 1;

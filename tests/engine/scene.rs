@@ -1,9 +1,10 @@
 //! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
 
 use asperity::scene::{
-    DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Move, Range, Span, Text, open, presets, to_ron,
+    DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Move, Range, Roughness, Scene, Span, Text, open,
+    presets, to_ron,
 };
-use asperity::simulation::{Plan, Stage};
+use asperity::simulation::{Plan, Simulation, Stage};
 
 fn locate(text: &str, path: &str) -> Option<Span> {
     Text::new(text).ok()?.span(path).cloned()
@@ -70,8 +71,8 @@ fn effects_are_on_where_their_stages_run() {
     }
     assert_eq!(loadings.len(), 7 + 49 + 343);
     for loading in loadings {
-        let mut scene = document.scene().clone();
-        scene.loading = loading;
+        // A loading that begins with a pull is refused.
+        let Ok(scene) = document.scene().with(|scene| scene.loading = loading) else { continue };
         let runs = Plan::of(&scene).runs(Stage::UnloadingPass);
         assert_eq!(Effect::Unloading.is_on(&scene), runs, "{:?}", scene.loading);
     }
@@ -225,5 +226,38 @@ fn presets_say_only_what_differs_from_the_defaults() {
             let written = |text: &str| locate(text, field.path).is_some();
             assert_eq!(written(preset.text), written(&canonical), "{}: {}", preset.name, field.path);
         }
+    }
+}
+
+/// What is refused where a scene is read is refused where it is computed: there is no other way to a checked scene.
+#[test]
+fn a_refused_scene_has_no_numbers() {
+    let document = asperity::scene::open("pressure-sensitive").unwrap();
+    let changes: [(&str, fn(&mut Scene)); 7] = [
+        ("roughness.modes", |scene| scene.numerics.points = 1),
+        ("roughness.modes", |scene| modes(scene, (10, 1))),
+        ("roughness.modes", |scene| modes(scene, (1, 1 << 40))),
+        ("roughness", |scene| {
+            scene.adhesion = None;
+            if let Some(Roughness::SelfAffine { rms_height, .. }) = &mut scene.roughness {
+                *rms_height = None;
+            }
+        }),
+        ("loading", |scene| scene.loading.clear()),
+        ("numerics.samples", |scene| scene.numerics.samples = 0),
+        ("length", |scene| scene.length = f64::NAN),
+    ];
+    for (field, change) in changes {
+        let refused = document.scene().with(change).unwrap_err();
+        assert!(refused.iter().any(|error| error.field == field), "{field}: {refused}");
+    }
+    let simulation = &mut Simulation::default();
+    let coarse = document.scene().with(|scene| scene.numerics.points = 1024).unwrap();
+    assert!(simulation.run(&coarse, &|| false, &mut |_, _, _| Ok(())).is_ok());
+}
+
+fn modes(scene: &mut Scene, wanted: (u64, u64)) {
+    if let Some(Roughness::SelfAffine { modes, .. }) = &mut scene.roughness {
+        *modes = Some(wanted);
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes through the library: what a simulation keeps changes no bit, counted work, and finer grids of one profile.
 
 use asperity::contact::{Move, Work};
-use asperity::scene::{Document, Scene};
+use asperity::scene::{CheckedScene, Document};
 use asperity::simulation::{Outcome, Simulation, Timings};
 
 /// A rough rubber face; each scene of these tests differs from it by its overrides.
@@ -22,11 +22,11 @@ fn with(document: &Document, overrides: Overrides) -> Document {
     document.set_all(&overrides.iter().map(owned).collect::<Vec<_>>()).unwrap()
 }
 
-fn scene(overrides: Overrides) -> Scene {
+fn scene(overrides: Overrides) -> CheckedScene {
     with(&Document::parse(SCENE, "scene").unwrap(), overrides).scene().clone()
 }
 
-fn outcome(simulation: &mut Simulation, scene: &Scene) -> Outcome {
+fn outcome(simulation: &mut Simulation, scene: &CheckedScene) -> Outcome {
     let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
     Outcome { timings: Timings::default(), ..outcome }
 }
@@ -77,7 +77,7 @@ fn kept_stages_do_not_change_results() {
 
         let zero_load = [found.zero_load_adhesion_force, found.zero_force_adhesion_force];
         for (force, turn) in zero_load.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
-            let turned = Scene { loading: vec![turn, Move::ToSeparation], ..scene.clone() };
+            let turned = scene.with(|scene| scene.loading = vec![turn, Move::ToSeparation]).unwrap();
             let turned = outcome(&mut Simulation::default(), &turned).figures.adhesion_force;
             assert_eq!(force, turned.filter(|_| scene.adhesion.is_some()), "{edit:?}, {turn:?}");
         }

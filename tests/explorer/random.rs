@@ -12,7 +12,7 @@ use asperity::explorer::parameters::parameters;
 use asperity::explorer::snapshot::Report;
 use asperity::explorer::update::{Effect, request, update};
 use asperity::explorer::{Opening, view};
-use asperity::scene::{Document, Solver, check};
+use asperity::scene::{Document, Scene, Solver};
 use asperity::study::Quantity;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -243,7 +243,7 @@ impl Explorer {
         if app.edit.generation > self.judged {
             self.judged = app.edit.generation;
             let document = &app.edit.document;
-            assert_eq!(check(document.scene()), []);
+            assert_eq!(Scene::clone(document.scene()).checked().as_ref(), Ok(document.scene()));
             let again = Document::parse(document.text(), document.name()).expect("the text is a scene");
             assert_eq!(again.scene(), document.scene());
             assert_eq!(app.edit.parameters, parameters(document));

@@ -129,8 +129,8 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
         }
         let Report::Solved(computed, Some(shown)) = served.report() else { panic!("not computed") };
         assert_eq!((shown.generation, shown.drive), (7, Drive::Leg(0)));
-        let mut scene = rough().scene().clone();
-        scene.observe.push(Observer::HeightHistogram);
+        let rough = rough();
+        let scene = rough.scene().with(|scene| scene.observe.push(Observer::HeightHistogram)).unwrap();
         let alone = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let timings = computed.outcome.timings;
         assert_eq!(computed.generation, 7);

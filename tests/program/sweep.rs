@@ -84,6 +84,7 @@ fn alone(scene: &Scene, loading: [Move; 2]) -> Outcome {
     let mut scene = scene.clone();
     scene.loading = loading.to_vec();
     scene.numerics.samples = 2;
+    let scene = scene.checked().unwrap();
     Simulation::new(PathBuf::new()).run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap()
 }
 

@@ -3,6 +3,7 @@
 use crate::cli::error::CliError;
 use crate::cli::output::OutputArguments;
 use crate::export::{Format, study_curves, study_figure, study_map};
+use crate::scene::Scene;
 use crate::study::{Results, Selected, Selection};
 use clap::Args;
 use std::io::Write;
@@ -51,6 +52,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     let figure = study_figure(&study.plan().title, &grid, charts);
     // The numbers that vary differ in the first and in the last cell.
     let cells = [0, study.plan().cells() - 1].map(|cell| study.plan().scene_of(cell));
-    let scenes: Vec<_> = cells.into_iter().flatten().map(|scene| (String::new(), scene)).collect();
+    let scenes: Vec<_> =
+        cells.into_iter().flatten().map(|scene| (String::new(), Scene::clone(&scene))).collect();
     arguments.output.write_figure(stdout, &figure, format, &scenes)
 }

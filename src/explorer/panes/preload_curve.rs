@@ -130,15 +130,14 @@ impl PreloadCurve {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Scene, open};
+    use crate::scene::{Edges, open};
     use std::cell::Cell;
     use std::sync::Arc;
 
     const LINEAR: PreloadAxis = PreloadAxis { scale: AxisScale::Linear, span: None };
 
     fn computed(name: &str) -> SolvedScene {
-        let mut scene = open(name).unwrap().scene().clone();
-        scene.numerics.points = 2048;
+        let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 2048).unwrap();
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         SolvedScene { generation: 1, scene: Arc::new(scene), outcome, full_contact: 0.0 }
     }
@@ -187,17 +186,17 @@ mod tests {
     fn scenes_without_preload_or_exact_solver_have_no_curve() {
         let mut one = computed("jkr-sphere");
         assert_eq!(curve(&one, LINEAR).unwrap().profiles(), 1);
-        let mut scene = Scene::clone(&one.scene);
-        scene.numerics.solver = Solver::Stepwise { step: 1e-9 };
-        one.scene = Arc::new(scene.clone());
+        let scene = Arc::clone(&one.scene);
+        let steps = scene.with(|scene| {
+            (scene.numerics.solver, scene.numerics.edges) = (Solver::Stepwise { step: 1e-9 }, Edges::Grid);
+        });
+        one.scene = Arc::new(steps.unwrap());
         assert!(curve(&one, LINEAR).unwrap_err().contains("exact solver"));
-        scene.numerics.solver = Solver::Exact;
-        scene.loading = vec![Move::ToIndentation(-1e-9)];
+        let scene = scene.with(|scene| scene.loading = vec![Move::ToIndentation(-1e-9)]).unwrap();
         one.outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         one.scene = Arc::new(scene.clone());
         assert!(curve(&one, LINEAR).unwrap_err().contains("presses"));
-        scene.adhesion = None;
-        one.scene = Arc::new(scene);
+        one.scene = Arc::new(scene.with(|scene| scene.adhesion = None).unwrap());
         assert!(curve(&one, LINEAR).unwrap_err().contains("adhesion"));
     }
 }

@@ -9,7 +9,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::reach::out_of_reach;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::Study;
-use crate::scene::{Document, Move, Scene};
+use crate::scene::{CheckedScene, Document, Move};
 use crate::simulation::RunError;
 use std::path::Path;
 use std::sync::Arc;
@@ -62,7 +62,7 @@ fn preview(document: &Document) -> Study {
 }
 
 /// Searches the fewest springs of a scene for a tolerance.
-fn choice(generation: u64, scene: Arc<Scene>, tolerance: f64) -> Study {
+fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     Study::new(generation, false, move |_, stop, report| {
         let found = choose(&scene, Path::new(FOLDER), tolerance, stop, &mut |points| {
             report(Choosing { tolerance, tried: Some(points), found: None });
