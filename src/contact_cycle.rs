@@ -72,6 +72,8 @@ impl Contact {
     /// the results of [`Contact::load`] for each stage followed by [`Move::ToSeparation`], at the cost of a few. A pulling force
     /// is an end as well: where the loading first reaches it, at touch or while adhesion draws the bodies together.
     ///
+    /// The reversals have no [`Reversal::forces`].
+    ///
     /// # Errors
     /// [`Error::Run`] for an end that is not finite, without contact, or out of reach.
     pub fn reversals(&self, ends: &[Move]) -> Result<Vec<Reversal>, Error> {
@@ -157,7 +159,8 @@ impl ContactBuilder<'_> {
 }
 
 impl Cycle {
-    /// Pull-off force, N: minus the smallest force on the last unloading stage; `None` without a tensile force.
+    /// Pull-off force, N: minus the smallest force of the last unloading, which may take several stages. `None` if that force
+    /// is above zero, or if the unloading ends in contact while the force still falls.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
@@ -169,7 +172,7 @@ impl Cycle {
         self.figures.pull_off_indentation
     }
 
-    /// Preload, N: largest force of the loading stages.
+    /// Preload, N: largest force while loading, since the last separation and before the last unloading.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload

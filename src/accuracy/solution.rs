@@ -1,6 +1,6 @@
 //! Solutions of a scene and its variants, and their relative differences.
 
-use crate::analysis::pull_off_point;
+use crate::analysis::{Branch, pull_off_point};
 use crate::contact::{ContactError, Direction, History, LegRecord};
 use crate::reference::{PowerLaw, smooth_adhesion_force};
 use crate::scene::{CheckedScene, Edges, Form, Move, Scene, SceneErrors, Solver};
@@ -219,8 +219,9 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         }
     };
     let legs = &outcome.history.legs;
-    let pulled = &legs[pull_off_point(legs)?.0];
-    let passes = pulled.start() >= pull_off && pulled.curve.last()?.springs == 0;
+    pull_off_point(legs)?;
+    let pulled = &legs[Branch::last_unloading(legs)?.stages];
+    let passes = pulled.first()?.start() >= pull_off && pulled.last()?.end_in_contact().is_none();
     // Lengths are sums with rounding errors.
     (passes && longest_contact(outcome) <= widest * (1.0 + 1e-9))
         .then(|| smooth_adhesion_force(form, length, modulus, work))

@@ -1,23 +1,21 @@
 //! The headline figures of a loading history, the remarkable points of its force curve, and the three regimes of adhesion of
 //! Fig. 4 with the rule for one loading.
 
+use super::branches::{Branch, ROUNDING, preload_point, pull_off_point};
 use crate::contact::{CurvePoint, Direction, History, LegRecord, Reversal};
 use crate::scene::Move;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Relative difference of equal forces, which are different sums.
-const ROUNDING: f64 = 1e-9;
-
 /// Figures of one history; `None` for a figure that the history does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n: largest force of a loading stage, N.
+    /// Preload F_n: largest force while loading, since the last separation and before the last unloading, N.
     pub preload: Option<f64>,
     /// Indentation at the preload, m.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a: minus the smallest force of the last unloading stage, N; `None` if that force is above
-    /// zero, or if the force still falls where the stage ends.
+    /// Adhesion force F_a: minus the smallest force of the last unloading, N, in any number of stages; `None` if that force is
+    /// above zero, or if the unloading ends in contact while the force still falls.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n; only under a preload.
     pub adhesion_coefficient: Option<f64>,
@@ -76,30 +74,6 @@ impl Figures {
     }
 }
 
-/// Stages with contact, and their numbers. Stages of a separated body have no extremes of the contact.
-fn touching(
-    legs: &[LegRecord],
-    direction: Direction,
-) -> impl DoubleEndedIterator<Item = (usize, &LegRecord)> {
-    let touches = |leg: &LegRecord| leg.curve.iter().any(|point| point.springs > 0);
-    legs.iter().enumerate().filter(move |(_, leg)| leg.direction == direction && touches(leg))
-}
-
-/// Finds the preload, the largest force of the loading stages with contact: the number of its stage, and its point.
-pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-    let largest = touching(legs, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
-    largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
-}
-
-/// Finds the pull-off, the smallest force of the last unloading stage with contact: the number of its stage, and its point.
-/// There is none if that force is above zero, or if the stage ends in contact while the force still falls.
-pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-    let (stage, leg) = touching(legs, Direction::Unloading).next_back()?;
-    let (least, end) = (leg.smallest, leg.curve.last()?);
-    let is_passed = end.springs == 0 || least.force < end.force - ROUNDING * leg.largest.force.abs();
-    Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
-}
-
 /// A remarkable point of a force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "kebab-case")]
@@ -110,7 +84,7 @@ pub enum Mark {
     Preload,
     /// See [`pull_off_point`]; at a tensile force.
     PullOff,
-    /// Last contact of the unloading stage of the pull-off, if not the pull-off: the contact is lost in a jump.
+    /// Last contact of the unloading of the pull-off, if not the pull-off: the contact is lost in a jump.
     JumpOut,
 }
 
@@ -123,15 +97,20 @@ impl Mark {
 
 /// Existing marks of a loading history, in their order.
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
-    let jump_in = touching(legs, Direction::Loading).next().and_then(|(_, leg)| {
+    let into_contact = |leg: &LegRecord| {
         let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
-        Some(pair[1])
-    });
+        Some(pair[1]).filter(|_| leg.direction == Direction::Loading)
+    };
+    let out_of_contact = |leg: &LegRecord| {
+        let pair = leg.curve.windows(2).rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
+        Some(pair[0])
+    };
+    let jump_in = legs.iter().find_map(into_contact);
     let pull_off = pull_off_point(legs);
-    let jump_out = pull_off.and_then(|(stage, least)| {
-        let mut pairs = legs[stage].curve.windows(2);
-        let pair = pairs.rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
-        Some(pair[0]).filter(|last| last.force > least.force * (1.0 - ROUNDING))
+    let jump_out = pull_off.and_then(|(_, least)| {
+        let unloading = Branch::last_unloading(legs)?;
+        let last = legs[unloading.stages].iter().rev().find_map(out_of_contact)?;
+        Some(last).filter(|last| last.force > least.force * (1.0 - ROUNDING))
     });
     let found = [
         (Mark::JumpIn, jump_in),

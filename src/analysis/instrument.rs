@@ -4,7 +4,8 @@
 //! d + F(d)/k reaches D; while D falls, the largest d at which the running minimum reaches D. Where d + F(d)/k turns
 //! back, dF/dd < −k, the body jumps at a fixed D to the next d at which the instrument can hold it.
 
-use super::figures::{Figures, pull_off_point};
+use super::branches::pull_off_point;
+use super::figures::Figures;
 use crate::contact::{CurvePoint, Direction, History, LegRecord};
 
 /// A point of a force curve over the displacement of the instrument.

@@ -15,9 +15,9 @@ pub struct LegRecord {
     /// The curve along the leg: its samples, and the points of the smallest force and the smallest displacement of an
     /// unloading leg. A jump into or out of contact has the points before and after.
     pub curve: Vec<CurvePoint>,
-    /// Largest force on the leg, exact to rounding (loading legs).
+    /// Largest force on a loading leg, exact to rounding; the beginning of an unloading leg.
     pub largest: CurvePoint,
-    /// Smallest force on the leg, exact to rounding (unloading legs).
+    /// Smallest force on an unloading leg, exact to rounding; the smallest of `curve` on a loading leg.
     pub smallest: CurvePoint,
     /// Springs that attached.
     pub attached: u64,

@@ -3,9 +3,10 @@
 
 use super::app::App;
 use super::snapshot::Drive;
+use crate::analysis::Branch;
 use crate::contact::{CurvePoint, Direction, LegRecord};
 
-/// Share of the indentation range of a stage within which a point is at its end or at its smallest force.
+/// Share of the indentation range of a branch within which a point is at its end or at its smallest force.
 const NEAR: f64 = 0.01;
 
 /// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and
@@ -14,28 +15,37 @@ pub fn caption(app: &App) -> Option<&'static str> {
     let snapshot = app.present()?;
     match snapshot.drive {
         Drive::Manual => Some("manual loading"),
-        Drive::Leg(index) => event(app.legs().get(index)?, snapshot.point),
+        Drive::Leg(index) => {
+            let branches = Branch::all(app.legs());
+            let branch = branches.iter().find(|branch| branch.stages.contains(&index))?;
+            let rests = app.legs()[index].curve.len() == 1;
+            event(app.legs(), branch, snapshot.point).filter(|_| !rests)
+        }
     }
 }
 
-fn event(stage: &LegRecord, point: CurvePoint) -> Option<&'static str> {
-    let (first, last) = (stage.curve.first()?, stage.curve.last()?);
+/// Event at a point of a branch of a history.
+fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
+    let stages = &legs[branch.stages.clone()];
+    let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);
+    let in_contact = |point: &&CurvePoint| point.springs > 0;
+    let smallest = branch.smallest(legs).map_or(*last, |(_, point)| point);
     let range = (last.indentation - first.indentation).abs();
     let is_near = |other: &CurvePoint| (point.indentation - other.indentation).abs() <= NEAR * range;
-    match stage.direction {
+    match branch.direction {
         _ if range == 0.0 => None,
         Direction::Loading => Some(match point {
             CurvePoint { springs: 0, .. } => "approach",
             _ if is_near(last) => "turning point",
-            _ if stage.curve.iter().find(|point| point.springs > 0).is_some_and(is_near) => "jump-in",
+            _ if stages.iter().flat_map(|stage| &stage.curve).find(in_contact).is_some_and(is_near) => "jump-in",
             CurvePoint { force, .. } if force < 0.0 => "spreads under tension",
             _ => "contact spreads",
         }),
         Direction::Unloading => Some(match point {
             CurvePoint { springs: 0, .. } => "separated",
             _ if is_near(first) => "turning point",
-            _ if is_near(&stage.smallest) => "pull-off",
-            _ if point.indentation < stage.smallest.indentation => "detachment",
+            _ if is_near(&smallest) => "pull-off",
+            _ if point.indentation < smallest.indentation => "detachment",
             CurvePoint { force, .. } if force < 0.0 => "under tension",
             _ => "contact shrinks",
         }),
@@ -49,15 +59,19 @@ mod tests {
     use crate::scene::open;
     use crate::simulation::Simulation;
 
-    fn history(name: &str) -> History {
-        let document = open(name).unwrap();
+    fn history(name: &str, loading: Option<&str>) -> History {
+        let mut document = open(name).unwrap();
+        if let Some(loading) = loading {
+            document = document.set("loading", loading).unwrap();
+        }
         Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap().history
     }
 
     /// Events along a stage in the order of their first occurrence: on a rough profile some recur.
-    fn events(stage: &LegRecord) -> Vec<&'static str> {
+    fn events(legs: &[LegRecord], branch: &Branch) -> Vec<&'static str> {
         let mut events = Vec::new();
-        for event in stage.curve.iter().filter_map(|&point| event(stage, point)) {
+        let points = legs[branch.stages.clone()].iter().flat_map(|leg| &leg.curve);
+        for event in points.filter_map(|&point| event(legs, branch, point)) {
             if !events.contains(&event) {
                 events.push(event);
             }
@@ -67,24 +81,28 @@ mod tests {
 
     #[test]
     fn a_loop_passes_its_events_in_order() {
-        let history = history("pressure-sensitive");
-        let [loading, unloading] = &history.legs[..] else { panic!("two stages") };
-        assert_eq!(
-            events(loading),
-            ["approach", "jump-in", "spreads under tension", "contact spreads", "turning point"]
-        );
-        assert_eq!(
-            events(unloading),
-            ["turning point", "contact shrinks", "under tension", "pull-off", "detachment", "separated"]
-        );
+        let cut = "[ToTouch, ToForce(1.0e-5), ToForce(5.0e-6), ToForce(-1.0e-5), ToSeparation]";
+        for loading in [None, Some(cut)] {
+            let legs = history("pressure-sensitive", loading).legs;
+            let [loading, unloading] = &Branch::all(&legs)[..] else { panic!("two branches") };
+            assert_eq!(
+                events(&legs, loading),
+                ["approach", "jump-in", "spreads under tension", "contact spreads", "turning point"]
+            );
+            assert_eq!(
+                events(&legs, unloading),
+                ["turning point", "contact shrinks", "under tension", "pull-off", "detachment", "separated"]
+            );
+        }
     }
 
     #[test]
     fn the_smallest_force_is_the_pull_off() {
-        let history = history("jkr-sphere");
-        let stage = &history.legs[1];
-        assert_eq!(event(stage, stage.smallest), Some("pull-off"));
-        let still = LegRecord { curve: vec![stage.smallest; 2], ..stage.clone() };
-        assert_eq!(event(&still, stage.smallest), None);
+        let legs = history("jkr-sphere", None).legs;
+        let unloading = Branch::last_unloading(&legs).unwrap();
+        let smallest = legs[1].smallest;
+        assert_eq!(event(&legs, &unloading, smallest), Some("pull-off"));
+        let still = [LegRecord { curve: vec![smallest; 2], ..legs[1].clone() }];
+        assert_eq!(event(&still, &Branch { stages: 0..1, ..unloading }, smallest), None);
     }
 }

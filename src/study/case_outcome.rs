@@ -26,7 +26,7 @@ pub(super) struct LoadingOutcome {
     pub figures: Figures,
     /// Largest length in contact, m.
     pub contact_length: Option<f64>,
-    /// Point of the largest force of a loading stage.
+    /// Point of the preload.
     pub preload: Option<CurvePoint>,
 }
 

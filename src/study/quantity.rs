@@ -108,7 +108,7 @@ quantities! {
         of: |case| case.share(case.zero_force),
     }
     PreloadForce {
-        name: "preload_force", meaning: "largest force of the loading",
+        name: "preload_force", meaning: "preload: largest force since the last separation, before the last unloading",
         symbol: "F_n", unit: "N", of: |case| case.loading.figures.preload,
     }
     PreloadIndentation {

@@ -5,6 +5,7 @@ mod common {
     pub mod effort;
 }
 mod body;
+mod branches;
 mod closed_forms;
 mod equilibrium;
 mod exhaustive;

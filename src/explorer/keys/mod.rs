@@ -155,7 +155,7 @@ static TABLE: &[Entry] = &[
     row("r", EXPLORE, "restart", Do(movement::restart), "restart", "play from the beginning", ANIMATION),
     row(">", EXPLORE, "next-stage", Do(|app| movement::go_to_leg(app, 1)), "", "jump to the start of the next loading stage", ANIMATION),
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
-    row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the last unloading stage", ANIMATION),
+    row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the last unloading", ANIMATION),
 
     row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL),
     row("]", EXPLORE, "press", Do(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),

@@ -74,7 +74,7 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
 pub fn go_to_pull_off(app: &mut App) {
     let legs = app.legs();
     let Some((leg, point)) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0) else {
-        app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading stage");
+        app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading");
         return;
     };
     // Rounding must not pass the indentation: below it springs detach.
