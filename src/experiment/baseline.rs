@@ -1,13 +1,4 @@
-//! The part of a curve before contact: where it ends, its straight line and the noise around it.
-
-/// Fewest points before contact.
-pub(super) const FEWEST: usize = 10;
-/// Share of the approach that is taken as free at first, and of its points in each mean that is compared with the line before.
-const FIRST: usize = 50;
-const MEAN: usize = 200;
-/// Deviation of a mean in standard errors: of two in a row, or of one, that is a contact.
-const TWO: f64 = 5.0;
-const ONE: f64 = 20.0;
+//! Straight lines, polynomials and columns through values, by least squares.
 
 /// Straight line through evenly spaced values, by least squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,36 +22,70 @@ impl Line {
         Line { count, mean, slope, noise }
     }
 
-    /// Standard error of the slope.
-    pub fn slope_error(&self) -> f64 {
-        self.noise / (self.count * (self.count * self.count - 1.0) / 12.0).sqrt()
+    /// Deviations of the values from the line; the first one is the first of the line.
+    pub fn rests(self, values: &[f64]) -> impl Iterator<Item = f64> {
+        let middle = 0.5 * (self.count - 1.0);
+        values
+            .iter()
+            .enumerate()
+            .map(move |(index, value)| value - self.mean - self.slope * (index as f64 - middle))
     }
 }
 
-/// Number of the first values of an approach, up to the first change: means of a few values that differ from the line
-/// before. `Some(0)` if the change comes at once, `None` without a change. The noise is `least` at least.
-pub(super) fn free_count(values: &[f64], least: f64) -> Option<usize> {
-    let block = values.len().div_ceil(MEAN).max(3);
-    let first = (values.len() / FIRST).max(2 * FEWEST);
-    let mut before = 0.0;
-    for end in (first..).step_by(block).take_while(|end| end + block <= values.len()) {
-        let line = Line::through(&values[..end]);
-        let ahead = 0.5 * (end + block) as f64;
-        let mean = values[end..end + block].iter().sum::<f64>() / block as f64;
-        let noise = line.noise.max(least);
-        let error = noise * (1.0 / block as f64 + 1.0 / end as f64).sqrt() + line.slope_error() * ahead;
-        let deviation = (mean - line.mean - line.slope * ahead) / error;
-        if deviation.abs() > TWO && (deviation * before > 0.0 || deviation.abs() > ONE) {
-            // The mean before may hold the beginning of the contact.
-            let free = end - if before == 0.0 { 0 } else { block };
-            return Some(if end <= first + block { 0 } else { free });
+/// Sums of the squared residuals of polynomials with this number of terms through the first value, the first two, and so on,
+/// by rotations of each row into the triangle of those before.
+pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
+    let count = values.len() as f64;
+    let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
+    let add = |(index, value): (usize, f64)| {
+        let at = index as f64 / count;
+        let mut row = [1.0, at, at * at, value];
+        for term in 0..terms {
+            let (old, new): (f64, f64) = (triangle[term][term], row[term]);
+            let length = old.hypot(new);
+            if length > 0.0 {
+                let (cosine, sine) = (old / length, new / length);
+                for column in term..4 {
+                    let (above, below) = (triangle[term][column], row[column]);
+                    triangle[term][column] = cosine * above + sine * below;
+                    row[column] = cosine * below - sine * above;
+                }
+            }
         }
-        before = if deviation.abs() > TWO { deviation } else { 0.0 };
+        sum += row[3] * row[3];
+        sum
+    };
+    values.enumerate().map(add).collect()
+}
+
+/// Columns of length 1 at right angles to each other that span these columns.
+pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for column in columns {
+        let mut column = column.clone();
+        basis.iter().for_each(|other| {
+            take_off(&mut column, other);
+        });
+        let length = dot(&column, &column).sqrt();
+        column.iter_mut().for_each(|one| *one = if length > 0.0 { *one / length } else { 0.0 });
+        basis.push(column);
     }
-    None
+    basis
+}
+
+/// Takes the part along a column of length 1 off, and returns its length.
+pub(super) fn take_off(values: &mut [f64], column: &[f64]) -> f64 {
+    let along = dot(values, column);
+    values.iter_mut().zip(column).for_each(|(value, one)| *value -= along * one);
+    along
 }
 
 /// Sum of products over the shorter length.
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+/// Smallest and largest value.
+pub(super) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }

@@ -1,7 +1,12 @@
 //! A measured force curve: its segments, with pressing positive, the zero of the force, its drift and its noise.
 
-use super::baseline::{FEWEST, Line, free_count};
-use super::read::{Columns, CurveOptions, Drift, Negate};
+use super::baseline::{ends, right_angled};
+use super::free::FEWEST;
+use super::options::{CurveOptions, Drift, Negate, Tilt};
+use super::points::{Points, kept};
+use super::read::Columns;
+use super::segment::{Segments, are_shuffled};
+use super::zero::FreeParts;
 use super::{ExperimentError, refused};
 use crate::scene::format_quantity;
 use crate::text::grouped;
@@ -11,9 +16,6 @@ use std::path::Path;
 const MOST_POINTS: usize = 4096;
 /// Fewest points of a curve.
 const FEWEST_POINTS: usize = 4 * FEWEST;
-/// Share of the range of the displacement by which it turns, and of the points in the mean that is looked at.
-const TURN: f64 = 0.05;
-const SMOOTHING: f64 = 1e-3;
 /// Noise over the range of the force in a curve without noise.
 const NO_NOISE: f64 = 1e-6;
 /// Mean force at the end of the approach in standard deviations of the noise below which the sign is in doubt.
@@ -31,14 +33,26 @@ pub struct MeasuredCurve {
     pub segment: Vec<usize>,
     /// Number of the first points, before contact.
     pub free: usize,
+    /// Displacement at which the contact seems to begin, m.
+    pub touch: f64,
     /// Standard deviation of the force, N.
     pub noise: f64,
+    /// Points of the file that are used.
+    pub points: usize,
     /// Points left out since a value is missing.
     pub missing: usize,
     /// Points of the file in each point.
     pub averaged: usize,
-    /// True if the zero of the force, and if a removed drift, are those before contact.
-    pub(super) is_estimated: [bool; 2],
+    /// Displacements at which the segments end, m.
+    turns: Vec<f64>,
+    /// True at the points of a pause.
+    pub(super) is_still: Vec<bool>,
+    /// Changes of the force over time and over the displacement that remain in the curve, N: 0 where there is none.
+    pub(super) remaining: [f64; 2],
+    /// Share of time and of displacement of each point in those of the whole curve.
+    pub(super) shares: [Vec<f64>; 2],
+    /// True if the zero of the force, a drift and a tilt are estimated from the points without contact and taken off.
+    is_estimated: [bool; 3],
     /// Statements on the changes of the curve.
     pub statements: Vec<String>,
 }
@@ -53,186 +67,142 @@ impl MeasuredCurve {
     }
 
     fn prepare(columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
-        let Columns { mut displacement, mut force, segment, missing } = columns;
-        let points = displacement.len();
-        if points < FEWEST_POINTS {
-            return refused(
-                format!("{points} points with displacement and force"),
-                format!("at least {FEWEST_POINTS}"),
-            );
+        let Columns { displacement, force, segment: labels, missing, mut statements, .. } = columns;
+        let count = displacement.len();
+        if count < FEWEST_POINTS {
+            let fault = format!("{count} points with displacement and force");
+            return refused(fault, format!("at least {FEWEST_POINTS}"));
         }
-        let mut segment = match segment.is_empty() {
-            true => by_turning_points(&displacement),
-            false => by_numbers(&segment, &displacement),
-        };
-        if segment[points - 1] == 0 {
-            let allowed = "an approach and a retraction; segments of several files joined in one";
-            return refused("the displacement does not turn: one segment", allowed);
+        if let Some(noise) = options.noise.filter(|noise| !(*noise > 0.0 && noise.is_finite())) {
+            return refused(format!("a noise of {noise} N"), "a standard deviation above 0");
         }
-        let first_end = segment.partition_point(|&number| number == 0);
-        let falls = displacement[first_end - 1] < displacement[0];
-        let negate = options.negate.unwrap_or(if falls { Negate::Displacement } else { Negate::None });
-        for (values, one) in [(&mut displacement, Negate::Displacement), (&mut force, Negate::Force)] {
-            if negate == one || negate == Negate::Both {
-                values.iter_mut().for_each(|value| *value = -*value);
-            }
-        }
-        if displacement[first_end - 1] < displacement[0] {
-            let allowed = "an approach first; --negate displacement for a distance between the bodies";
-            return refused(
-                format!("the body moves away in the first segment with --negate {negate}"),
-                allowed,
-            );
-        }
-        let averaged = points.div_ceil(MOST_POINTS);
-        if averaged > 1 {
-            let (mut ranges, mut start) = (Vec::new(), 0);
-            for chunk in segment.chunk_by(|one, next| one == next).flat_map(|part| part.chunks(averaged)) {
-                ranges.push(start..start + chunk.len());
-                start += chunk.len();
-            }
-            let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-            [displacement, force] = [displacement, force]
-                .map(|values| ranges.iter().map(|range| mean(&values[range.clone()])).collect());
-            segment = ranges.iter().map(|range| segment[range.start]).collect();
-        }
-        let approach = segment.partition_point(|&number| number == 0);
-        let (low, high) = ends(force.iter().copied());
-        let least = NO_NOISE * (high - low);
-        let free = options.free_points.map(|free| free / averaged);
-        let Some(free) = free.or_else(|| free_count(&force[..approach], least)) else {
-            let allowed = "a part before contact, then a change by more than the noise; --free-points COUNT for \
-                           a weak contact";
-            return refused("no contact: the force follows one straight line in the approach", allowed);
-        };
-        if !(FEWEST..approach).contains(&free) {
-            let fault = format!("no part before contact: {free} of {approach} points of the approach");
-            return refused(fault, format!("at least {FEWEST}, found or by --free-points"));
-        }
-        let line = Line::through(&force[..free]);
-        let last = (force.len() - 1) as f64;
-        let (slope, drift) = match options.drift {
-            Drift::Keep => (0.0, "stays (--drift remove takes it off)"),
-            Drift::Remove => (line.slope, "was removed"),
-            Drift::Known(drift) => (drift / last, "was removed as given"),
-        };
-        let (zero, middle) = (options.zero.unwrap_or(line.mean), 0.5 * (free - 1) as f64);
-        force
-            .iter_mut()
-            .enumerate()
-            .for_each(|(index, force)| *force -= zero + slope * (index as f64 - middle));
-        let noise = options.noise.unwrap_or(line.noise).max(least);
-        let pressed = &force[approach - (approach / 20).max(1)..approach];
-        let pressed = pressed.iter().sum::<f64>() / pressed.len() as f64;
-        let newton = |force: f64| format_quantity(force, "N");
-        if options.negate.is_none() && pressed < PULLS * noise {
-            let fault = format!(
-                "the force is negative where the body presses: {} at the end of the approach",
-                newton(pressed)
-            );
+        if are_shuffled(&displacement) {
+            let fault = "the displacement goes to and fro from point to point";
             return refused(
                 fault,
-                "--negate force where tension counts as positive, --negate none for a body that is pulled there",
+                "points in the order of time, and the column of the displacement by --columns",
             );
         }
-        let count = |count: usize| grouped(count as u64);
-        let mut statements = vec![format!(
-            "{} points in {} segments, {} left out since a value is missing, {} before contact.",
-            count(points),
-            segment[force.len() - 1] + 1,
-            count(missing),
-            count(free * averaged)
-        )];
+        let averaged = count.div_ceil(MOST_POINTS);
+        let segments = Segments::of(&displacement, &labels);
+        let mut points = Points::averaged(&displacement, &force, &segments, averaged);
+        let (low, high) = ends(points.force.iter().copied());
+        let least = NO_NOISE * (high - low);
+        let is_single = points.segment.last() == Some(&0);
+        if is_single && points.is_retraction(least) {
+            points.segment.fill(1);
+            statements.push("A retraction alone: the model is loaded up to its first point.".to_owned());
+        } else if is_single && options.segments != [1] {
+            let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without                            contact; --segments 1 for an approach alone";
+            return refused("the displacement does not turn: one segment", allowed);
+        }
+        let negate = points.reverse(options.negate)?;
+        let free = FreeParts::of(&points, options, averaged, least)?;
+        let noise = options.noise.unwrap_or(free.line(&points).noise).max(least);
+        let (slopes, text) = free.take_off_lines(&mut points, options, noise)?;
+        check_sign(&points, options, noise)?;
+        let kept = kept(&points, options)?;
+        let grouped_of = |count: usize| grouped(count as u64);
+        let sum = |kept: &dyn Fn(usize) -> bool| {
+            grouped_of(
+                (0..points.counts.len()).filter(|index| kept(*index)).map(|index| points.counts[index]).sum(),
+            )
+        };
+        let last = points.segment[points.segment.len() - 1];
+        let place = match (points.segment[0], free.before) {
+            (0, Some(free)) => format!("{} before contact", sum(&|index| index < free)),
+            _ => format!("{} after contact", sum(&|index| index >= points.counts.len() - free.after)),
+        };
+        statements.push(format!(
+            "{} points in {} segments, {} left out since a value is missing, {place}.",
+            grouped_of(count),
+            last + 1 - points.segment[0],
+            grouped_of(missing)
+        ));
         if averaged > 1 {
-            statements
-                .push(format!("Means of {averaged} points each are used: {} of them.", count(force.len())));
+            statements.push(format!(
+                "Means of {averaged} points each are used: {} of them.",
+                grouped_of(points.force.len())
+            ));
+        }
+        let pauses = points.is_still.contains(&true).then(|| sum(&|index| points.is_still[index]));
+        if !options.segments.is_empty() {
+            let numbers: Vec<String> = options.segments.iter().map(ToString::to_string).collect();
+            let without =
+                pauses.map_or_else(String::new, |count| format!(", without {count} points of pauses"));
+            let used = sum(&|index| kept.binary_search(&index).is_ok());
+            statements.push(format!("Segments used: {}, {used} points{without}.", numbers.join(", ")));
+        } else if let Some(count) = pauses {
+            statements.push(format!("{count} points are of pauses; --segments 1,2 leaves them out."));
         }
         if negate != Negate::None {
             statements.push(format!("Reversed, so that pressing is positive: {negate}."));
         }
-        let found = if options.noise.is_some() { "given" } else { "that before contact" };
-        statements.push(format!(
-            "Zero of the force at {}. Drift over the whole curve, by the part before contact: {} ± {}; it {drift}. Noise {}, \
-             {found}.",
-            newton(zero), newton(line.slope * last), newton(line.slope_error() * last), newton(noise)
-        ));
-        let is_estimated = [options.zero.is_none(), options.drift == Drift::Remove];
+        let found = match (options.noise, free.before) {
+            (Some(_), _) => "given",
+            (None, Some(_)) => "that before contact",
+            (None, None) => "that after contact",
+        };
+        statements.push(format!("{text} Noise {}, {found}.", format_quantity(noise, "N")));
+        let chosen = options.segments.iter().max().map_or(last, |most| (most - 1).min(last));
+        // After the last approach that is used the body is pulled off.
+        let turns =
+            points.turns(chosen + usize::from(chosen.is_multiple_of(2) && (chosen < last || last == 0)));
+        let of_kept = |values: &[f64]| kept.iter().map(|index| values[*index]).collect::<Vec<f64>>();
         Ok(MeasuredCurve {
-            displacement,
-            force,
-            segment,
-            free,
+            displacement: of_kept(&points.displacement),
+            force: of_kept(&points.force),
+            segment: kept.iter().map(|index| points.segment[*index]).collect(),
+            free: kept.partition_point(|index| free.before.is_some_and(|before| *index < before)),
+            touch: free.touch(&points),
             noise,
+            points: kept.iter().map(|index| points.counts[*index]).sum(),
             missing,
             averaged,
-            is_estimated,
+            turns,
+            is_still: kept.iter().map(|index| points.is_still[*index]).collect(),
+            remaining: slopes,
+            shares: free.shares.each_ref().map(|shares| of_kept(shares)),
+            is_estimated: [
+                options.zero.is_none(),
+                options.drift == Drift::Remove,
+                options.tilt == Tilt::Remove,
+            ],
             statements,
         })
     }
 
     /// Displacements at which the segments end, m.
     pub fn turns(&self) -> Vec<f64> {
-        let points = self.segment.iter().zip(&self.displacement);
-        let of = |number| points.clone().filter(move |(segment, _)| **segment == number).map(|(_, at)| *at);
-        let end = |number| if number % 2 == 0 { ends(of(number)).1 } else { ends(of(number)).0 };
-        (0..=self.segment.last().copied().unwrap_or(0)).map(end).collect()
+        self.turns.clone()
+    }
+
+    /// Straight lines of the zero of the force, of a removed drift and of a removed tilt, of length 1 and at right angles,
+    /// if they are estimated from the curve: they are refined with each model.
+    pub(super) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
+        let [time, displacement] = self.shares.clone();
+        let columns = [vec![1.0; time.len()], time, displacement];
+        let [zero, drift, tilt] = self.is_estimated;
+        let used = columns.into_iter().zip([zero && !has_zero, drift, tilt]);
+        right_angled(&used.filter_map(|(column, is_used)| is_used.then_some(column)).collect::<Vec<_>>())
     }
 }
 
-/// Smallest and largest value.
-pub(super) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-}
-
-/// Numbers of the segments between the turning points of the smoothed displacement: those from which it comes back by a
-/// share of its range.
-fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
-    let last = displacement.len() - 1;
-    let half = (0.5 * SMOOTHING * last as f64) as usize;
-    let smooth = |index: usize| {
-        let half = half.min(index).min(last - index);
-        displacement[index - half..=index + half].iter().sum::<f64>() / (2 * half + 1) as f64
-    };
-    let smooth: Vec<f64> = (0..=last).map(smooth).collect();
-    let (low, high) = ends(smooth.iter().copied());
-    let least = TURN * (high - low);
-    // Highest and lowest place since the last turn, and the direction, 0 at the beginning.
-    let (mut places, mut direction, mut number) = ([0, 0], 0.0, 0);
-    let mut numbers = vec![0; displacement.len()];
-    for (index, &value) in smooth.iter().enumerate() {
-        for (place, sign) in places.iter_mut().zip([1.0, -1.0]) {
-            if sign * (value - smooth[*place]) > 0.0 {
-                *place = index;
-            }
-        }
-        let back = places.map(|place| (value - smooth[place]).abs() >= least && least > 0.0);
-        let turned = if back[0] && direction >= 0.0 {
-            0
-        } else if back[1] && direction <= 0.0 {
-            1
-        } else {
-            continue;
-        };
-        if direction != 0.0 {
-            number += 1;
-            numbers[places[turned] + 1..].fill(number);
-        }
-        direction = if turned == 0 { -1.0 } else { 1.0 };
-        places = [index, index];
+/// Refuses a force that is negative where the body presses most.
+fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
+    let first = points.of(points.segment[0]);
+    let count = (first.len() / 20).max(1);
+    let pressed = if points.segment[0] == 0 { first.end - count..first.end } else { 0..count };
+    let pressed = points.force[pressed].iter().sum::<f64>() / count as f64;
+    if options.negate.is_some() || pressed >= PULLS * noise {
+        return Ok(());
     }
-    numbers
-}
-
-/// Numbers of the segments from those of a column: parts of one direction are one segment.
-fn by_numbers(segment: &[f64], displacement: &[f64]) -> Vec<usize> {
-    let (mut numbers, mut number, mut before) = (Vec::with_capacity(segment.len()), 0, None);
-    for part in segment.chunk_by(|one, next| one == next) {
-        let of = &displacement[numbers.len()..numbers.len() + part.len()];
-        let presses = of[of.len() - 1] >= of[0];
-        number += usize::from(before.replace(presses).is_some_and(|before| before != presses));
-        numbers.extend(std::iter::repeat_n(number, part.len()));
-    }
-    numbers
+    let place = if points.segment[0] == 0 { "end of the approach" } else { "beginning of the retraction" };
+    let found = format_quantity(pressed, "N");
+    refused(
+        format!("the force is negative where the body presses: {found} at the {place}"),
+        "--negate force where tension counts as positive, --negate none for a body that is pulled there",
+    )
 }
 
 #[cfg(test)]

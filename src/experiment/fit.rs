@@ -1,7 +1,6 @@
 //! The parameters of a scene that describe a measured curve, their errors, and those that the curve does not separate.
 
-use super::baseline::dot;
-use super::curve::ends;
+use super::baseline::{dot, ends};
 use super::model::Model;
 use super::parameter::{Coordinate, Free, Parameter, Values};
 use super::scene::{most_on_closing, radius_of, values_of, with_values, written_out, wrong};
@@ -188,7 +187,7 @@ fn prepare<'a>(
         );
     }
     let mut base = values_of(document.scene(), &governing);
-    let (touch, turn) = (curve.displacement[curve.free], curve.turns()[0]);
+    let (touch, turn) = (curve.touch, curve.turns()[0]);
     base[Parameter::Offset as usize] = touch;
     let stiffness = &mut base[Parameter::Stiffness as usize];
     if is_free(Parameter::Stiffness) && stiffness.is_infinite() {
@@ -235,7 +234,7 @@ fn other_profiles(
 
 #[cfg(test)]
 mod tests {
-    use super::super::read::{CurveOptions, Drift};
+    use super::super::options::{CurveOptions, Drift};
     use super::*;
     use crate::contact::CurvePoint;
     use crate::scene::{Adhesion, Material, Move, Scene, open};

@@ -1,19 +1,25 @@
 //! The experiment beside the model: measured force curves, and the parameters of a scene that describe them.
 
 mod baseline;
+mod columns;
 mod curve;
 mod fit;
+mod free;
 mod model;
+mod options;
 mod parameter;
+mod points;
 mod read;
 mod scene;
 mod search;
+mod segment;
 mod statistics;
+mod zero;
 
 pub use curve::MeasuredCurve;
 pub use fit::{Fit, FitOptions, FittedParameter, fit};
+pub use options::{CurveOptions, Drift, Negate, Tilt};
 pub use parameter::{Free, Parameter};
-pub use read::{CurveOptions, Drift};
 
 use crate::contact::ContactError;
 use crate::simulation::RunError;

@@ -7,8 +7,7 @@
 //! out, and all move by differences of others, which have the extent and the directions of the population. In the end the
 //! members are distributed as the parameters are by the noise.
 
-use super::baseline::dot;
-use super::curve::ends;
+use super::baseline::{dot, ends};
 use super::model::Model;
 use super::parameter::{Coordinate, Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
@@ -93,25 +92,10 @@ impl Space<'_> {
         values
     }
 
-    /// Straight lines of the zero of the force and of a removed drift, of length 1 and at right angles, if they are
-    /// estimated from the curve: they are refined with each model.
+    /// Straight lines of the curve that are refined with each model, see [`MeasuredCurve::lines`].
     pub fn lines(&self) -> Vec<Vec<f64>> {
-        let (count, [zero, drift]) = (self.curve.force.len(), self.curve.is_estimated);
         let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
-        let middle = 0.5 * (self.curve.free - 1) as f64;
-        let mut lines: Vec<Vec<f64>> = Vec::new();
-        for (is_used, slope) in [(zero && !has_zero, 0.0), (drift, 1.0)] {
-            let mut line: Vec<f64> =
-                (0..count).map(|index| 1.0 + slope * (index as f64 - middle - 1.0)).collect();
-            for other in &lines {
-                let along = dot(&line, other);
-                line.iter_mut().zip(other).for_each(|(one, other)| *one -= along * other);
-            }
-            let length = dot(&line, &line).sqrt();
-            line.iter_mut().for_each(|one| *one /= length);
-            lines.extend(is_used.then_some(line));
-        }
-        lines
+        self.curve.lines(has_zero)
     }
 
     /// Root mean square residual in contact, in units of the noise; a point on the wrong side of a jump counts as

@@ -17,8 +17,7 @@ pub struct Measured {
 
 impl Measured {
     pub fn new(name: String, curve: MeasuredCurve, options: &CurveOptions) -> Self {
-        let offset = curve.displacement[curve.free];
-        Measured { name, curve: curve.into(), options: options.to_string(), offset }
+        Measured { name, offset: curve.touch, curve: curve.into(), options: options.to_string() }
     }
 
     /// The points on the curve of a scene with an instrument of this stiffness, N/m.

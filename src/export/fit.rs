@@ -92,7 +92,7 @@ impl Report for FitReport<'_> {
             "residual": fit.residual,
             "noise": curve.noise,
             "misfit": fit.misfit,
-            "points_used": curve.force.len() * curve.averaged,
+            "points_used": curve.points,
             "points_left_out": curve.missing,
             "correlations": fit.correlations.iter().map(correlation).collect::<Vec<_>>(),
             "not_distinguished": fit.not_distinguished.iter().map(pair).collect::<Vec<_>>(),

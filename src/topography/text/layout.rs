@@ -57,6 +57,10 @@ pub(crate) struct Decimal(Option<char>);
 
 impl Decimal {
     pub fn read(&mut self, cell: &str, separator: Separator) -> Cell {
+        // The minus sign of spreadsheets and papers.
+        if cell.contains('\u{2212}') {
+            return self.read(&cell.replace('\u{2212}', "-"), separator);
+        }
         let (value, mark) = if let Ok(value) = cell.parse::<f64>() {
             (value, cell.contains('.').then_some('.'))
         } else if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {

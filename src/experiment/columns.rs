@@ -1,0 +1,254 @@
+//! The columns of a curve: their names and units in a header, and those of displacement, force and segment.
+
+use super::options::CurveOptions;
+use crate::scene::parse_quantity;
+use crate::topography::text::{COMMENT, Separator};
+use crate::topography::{Place, TopographyError, refused, shown};
+
+/// Term, SI unit and an example of a unit of each quantity, and the letters of the names of its column, the preferred ones
+/// first: the displacement of the instrument before that of the body, which lacks the deflection of the instrument.
+const QUANTITIES: [(&str, &str, &str, &[&str]); 2] = [
+    (
+        "displacement",
+        "m",
+        "nm",
+        &[
+            "displacement",
+            "heightmeasured",
+            "measuredheight",
+            "smoothedmeasuredheight",
+            "zsense",
+            "zsensor",
+            "piezo",
+            "position",
+            "height",
+            "distance",
+            "heightpiezo",
+            "indentation",
+            "tipposition",
+            "d",
+            "z",
+            "x",
+        ],
+    ),
+    ("force", "N", "nN", &["force", "load", "vdeflection", "verticaldeflection", "f"]),
+];
+/// Names of a displacement of the body alone.
+const OF_BODY: [&str; 2] = ["indentation", "tipposition"];
+/// Words for the direction in the names of columns side by side.
+const DIRECTIONS: [&[&str]; 2] = [
+    &["approach", "extend", "extension", "ext", "ex", "trace", "loading", "advance", "forward"],
+    &["retraction", "retract", "ret", "rt", "retrace", "withdraw", "unloading", "backward"],
+];
+/// Remedy for unknown columns.
+const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3";
+/// Shortest word in round brackets that is part of a name, as in `height (measured)`, unless it is a unit.
+const WORD: usize = 5;
+
+/// Name of a column and the unit that its file states.
+type Heading = (String, Option<String>);
+
+/// Columns of displacement and force with the values of 1 in them in SI units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub places: [usize; 2],
+    pub units: [f64; 2],
+}
+
+/// The chosen columns.
+#[derive(Debug)]
+pub(super) struct Choice {
+    /// One pair, or that of an approach and that of a retraction beside it.
+    pub pairs: Vec<Pair>,
+    pub segment: Option<usize>,
+    /// What was chosen by names, and units of the file that were overruled.
+    pub statements: Vec<String>,
+}
+
+impl Choice {
+    /// Chooses from `count` columns with these names and units; those of a file in SI units need no unit.
+    pub fn new(
+        headings: &[Heading],
+        count: usize,
+        is_si: bool,
+        options: &CurveOptions,
+    ) -> Result<Self, TopographyError> {
+        let wrong = |fault: String| refused(Place::File, fault, COLUMNS);
+        let all: Vec<_> = headings.iter().map(|(name, _)| shown(name)).collect();
+        let all = format!("{count} columns {}", all.join(", "));
+        let place = |wanted: &String| {
+            let letters = letters(wanted);
+            let named =
+                headings.iter().position(|(name, _)| !letters.is_empty() && self::letters(name) == letters);
+            let number = || wanted.parse().ok().filter(|number| (1..=count).contains(number));
+            let place = named.or_else(|| Some(number()? - 1));
+            place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
+        };
+        let mut statements = Vec::new();
+        let (pairs, segment) = match &options.columns[..] {
+            [] if count == 2
+                && (headings.is_empty() || are_unknown(headings) && options.units.len() == 2) =>
+            {
+                (vec![[0, 1]], None)
+            }
+            [] => {
+                let pairs =
+                    known(headings).map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
+                let name = |place: usize| shown(&headings[place].0);
+                if count > 2 {
+                    let mut text = format!("Displacement and force from the columns {}", name(pairs[0][0]));
+                    text += &format!(" and {}", name(pairs[0][1]));
+                    if let Some(beside) = pairs.get(1) {
+                        let [at, force] = beside.map(name);
+                        text += &format!(", beside them the retraction from {at} and {force}");
+                    }
+                    statements.push(text + ".");
+                }
+                if OF_BODY.contains(&&*letters(&headings[pairs[0][0]].0)) {
+                    statements.push(format!(
+                        "The column {} is a displacement of the body: the deflection of the instrument is taken off already, \
+                         and --set loading_stiffness=None fits it.",
+                        name(pairs[0][0])
+                    ));
+                }
+                (pairs, None)
+            }
+            [at, force] => (vec![[place(at)?, place(force)?]], None),
+            [at, force, segment] => (vec![[place(at)?, place(force)?]], Some(place(segment)?)),
+            [at, force, back, back_force] => {
+                (vec![[place(at)?, place(force)?], [place(back)?, place(back_force)?]], None)
+            }
+            other => return Err(wrong(format!("--columns with {}", other.len()))),
+        };
+        let pair = |places: [usize; 2]| {
+            let mut units = [1.0; 2];
+            for (quantity, place) in places.into_iter().enumerate() {
+                let stated = headings.get(place).and_then(|(_, unit)| unit.as_deref());
+                units[quantity] = of_one(quantity, stated, is_si, options, &mut statements)?;
+            }
+            Ok(Pair { places, units })
+        };
+        let pairs = pairs.into_iter().map(pair).collect::<Result<_, TopographyError>>()?;
+        statements.dedup();
+        Ok(Choice { pairs, segment, statements })
+    }
+}
+
+/// Value of 1 in a column of a quantity in SI units: by the options, else as the file states.
+fn of_one(
+    quantity: usize,
+    stated: Option<&str>,
+    is_si: bool,
+    options: &CurveOptions,
+    statements: &mut Vec<String>,
+) -> Result<f64, TopographyError> {
+    let (term, si, example, _) = QUANTITIES[quantity];
+    let option = options.units.get(quantity).map(String::as_str);
+    let wrong = |fault: String, allowed: &str| refused(Place::File, fault, allowed);
+    let text = option.or(stated).or(is_si.then_some(si)).ok_or_else(|| {
+        wrong(format!("no unit of the {term} is stated"), "--units nm,nN for displacement and force")
+    })?;
+    let is_multiple = text.starts_with(|first: char| first.is_ascii_digit());
+    let value = if is_multiple && option.is_some() {
+        parse_quantity(text, si).ok().filter(|of_one| *of_one > 0.0)
+    } else {
+        unit(text, si)
+    };
+    let value = value.ok_or_else(|| {
+        wrong(
+            format!("{:?} is not a unit of the {term}", shown(text)),
+            &format!("{example} and the like, or the value of 1, such as --units nm,3.01nN"),
+        )
+    })?;
+    let file = stated.or(is_si.then_some(si)).filter(|file| unit(file, si) != Some(value));
+    if let Some((file, option)) = file.zip(option) {
+        let file = shown(file);
+        statements.push(format!("Unit of the {term} by --units: {}; the file states {file}.", shown(option)));
+    }
+    Ok(value)
+}
+
+/// The known columns of displacement and force, twice if approach and retraction are side by side, or the term of the
+/// quantity that no column is known as.
+fn known(headings: &[Heading]) -> Result<Vec<[usize; 2]>, &'static str> {
+    let words: Vec<_> = headings.iter().map(|(name, _)| direction(name)).collect();
+    let of = |quantity: usize, direction: Option<usize>| {
+        let is = |known: &&str| words.iter().position(|(of, rest)| *of == direction && rest == known);
+        QUANTITIES[quantity].3.iter().find_map(is)
+    };
+    let beside = |of_direction: usize| {
+        let displacement = of(0, Some(of_direction)).or_else(|| of(0, None))?;
+        Some([displacement, of(1, Some(of_direction))?])
+    };
+    if let Some(pairs) = beside(0).zip(beside(1)) {
+        return Ok(vec![pairs.0, pairs.1]);
+    }
+    let one = |quantity: usize| of(quantity, None).ok_or(QUANTITIES[quantity].0);
+    Ok(vec![[one(0)?, one(1)?]])
+}
+
+fn are_unknown(headings: &[Heading]) -> bool {
+    let is_known = |name: &str| QUANTITIES.iter().any(|row| row.3.contains(&&*letters(name)));
+    !headings.iter().any(|(name, _)| is_known(name))
+}
+
+/// The letters of a name in lower case: `Z-Sense` and `z_sense` are one name.
+fn letters(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// Direction in the name of a column, 0 for an approach and 1 for a retraction, and the letters of its other words.
+fn direction(name: &str) -> (Option<usize>, String) {
+    let words: Vec<String> = name.split(|c: char| !c.is_alphanumeric()).map(letters).collect();
+    let of = |word: &String| DIRECTIONS.iter().position(|words| words.contains(&&**word));
+    let rest: String = words.iter().filter(|word| of(word).is_none()).map(String::as_str).collect();
+    (words.iter().find_map(of), rest)
+}
+
+/// A unit of length or force, such as nm, in SI units.
+fn unit(text: &str, si: &str) -> Option<f64> {
+    parse_quantity(&format!("1 {text}"), si).ok().filter(|_| text.ends_with(si))
+}
+
+/// Returns true for a header of the table that PyJibe and afmformats write, the columns of which are in SI units.
+pub(super) fn is_afmformats(header: &[String]) -> bool {
+    header.iter().any(|line| line.trim_start_matches(COMMENT).trim() == "BEGIN METADATA")
+}
+
+/// Names and units of `count` columns from the last lines of a header that have as many: names with units, such as
+/// `force [nN]`, and a row of units.
+pub(super) fn headings(header: &[String], separator: Separator, count: usize) -> Vec<Heading> {
+    let bare = |cell: &str| cell.trim_matches(['[', ']', '(', ')', '"', ' ']).to_owned();
+    let mut units: Option<Vec<String>> = None;
+    for line in header.iter().rev() {
+        let line = line.trim_start_matches(COMMENT).trim_start();
+        let line = line.split_once("columns:").or(line.split_once("units:")).map_or(line, |(_, cells)| cells);
+        // Between a name and its unit there may be a blank.
+        let line = match separator {
+            Separator::SPACE => line.replace(" [", "[").replace(" (", "("),
+            _ => line.to_owned(),
+        };
+        let cells: Vec<&str> = separator.split(line.trim()).collect();
+        let of_units = |si: &str| cells.iter().any(|cell| unit(&bare(cell), si).is_some());
+        if cells.len() != count {
+            continue;
+        } else if units.is_none() && of_units("m") && of_units("N") {
+            units = Some(cells.iter().map(|cell| bare(cell)).collect());
+            continue;
+        }
+        let of_row = |column: usize| units.as_ref().map(|units| units[column].clone());
+        let heading = |(column, cell): (usize, &&str)| {
+            let is_unit = |text: &str| {
+                let text = bare(text);
+                text.chars().count() < WORD || QUANTITIES.iter().any(|row| unit(&text, row.1).is_some())
+            };
+            let in_round = || cell.rsplit_once('(').filter(|(_, text)| is_unit(text));
+            match cell.split_once('[').or_else(in_round).or_else(|| cell.split_once('/')) {
+                Some((name, unit)) => (bare(name), Some(bare(unit))),
+                None => (cell.trim_matches(['"', ' ']).to_owned(), of_row(column)),
+            }
+        };
+        return cells.iter().enumerate().map(heading).collect();
+    }
+    units.unwrap_or_default().into_iter().map(|unit| (String::new(), Some(unit))).collect()
+}

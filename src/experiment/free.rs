@@ -1,0 +1,142 @@
+//! The parts of a curve without contact: where they end, and the drift and the tilt of their force.
+
+use super::baseline::{Line, dot, ends, growing, right_angled, take_off};
+use super::statistics::correlated;
+
+/// Fewest points without contact, and fewest points in contact.
+pub(super) const FEWEST: usize = 10;
+const FEWEST_IN_CONTACT: usize = 4;
+/// Gain of the logarithm of the sum of squared residuals, times the number of points, of a contact that is no noise.
+const GAIN: f64 = 40.0;
+/// Deviation of the last points from the line before, in standard errors, that is a contact.
+const DEVIATES: f64 = 4.0;
+/// Parts of the points without contact of which the last one is compared with those before.
+const PARTS: [usize; 3] = [5, 10, 20];
+/// Slope before the contact over that in contact, and change of the force before contact over its range, of a line that is in
+/// contact from the first point on.
+const STEEP: f64 = 0.5;
+const NOTABLE: f64 = 0.05;
+
+/// Reason why a segment has no part without contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum NoBaseline {
+    /// So few points.
+    Few,
+    /// A straight line, with this range and this noise, N.
+    Straight(f64, f64),
+    /// A force that changes from the first point on.
+    InContact,
+}
+
+/// Number of the first values of a segment, those before contact. The noise is `least` at least.
+///
+/// The contact begins where a straight line before and a parabola behind describe the segment best. This finds the strong
+/// part of the contact; its weak beginning is found from there back: the last points without contact do not deviate from the
+/// line through those before.
+pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
+    let count = values.len();
+    if count < 2 * FEWEST {
+        return Err(NoBaseline::Few);
+    }
+    let before = growing(values.iter().copied(), 2);
+    let mut behind = growing(values.iter().rev().copied(), 3);
+    behind.reverse();
+    // Sums of squares below those of the least noise say nothing.
+    let floor = count as f64 * least * least;
+    let sum = |end: &usize| before[*end - 1] + behind[*end] + floor;
+    let places = FEWEST..=count - FEWEST_IN_CONTACT;
+    let best = places.min_by(|one, other| sum(one).total_cmp(&sum(other))).unwrap_or(FEWEST);
+    let whole = before[count - 1] + floor;
+    if count as f64 * (whole / sum(&best)).ln() < GAIN {
+        let (low, high) = ends(values.iter().copied());
+        return Err(NoBaseline::Straight(high - low, Line::through(values).noise));
+    }
+    let free = without_weak_contact(values, best, least);
+    let slope = Line::through(&values[..free]).slope.abs();
+    let range = |values: &[f64]| -> f64 {
+        let (low, high) = ends(values.iter().copied());
+        high - low
+    };
+    let is_steep = slope > STEEP * range(&values[free..]) / (count - free) as f64;
+    if free <= FEWEST || is_steep && slope * free as f64 > NOTABLE * range(values) {
+        return Err(NoBaseline::InContact);
+    }
+    Ok(free)
+}
+
+/// The number of first values without the last ones that deviate from the line through those before.
+fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
+    let deviates = |free: usize, last: usize| {
+        let line = Line::through(&values[..free - last]);
+        let rests: Vec<f64> = line.rests(&values[..free]).collect();
+        let (before, behind) = rests.split_at(free - last);
+        let count = before.len() as f64;
+        let mean = behind.iter().sum::<f64>() / last as f64;
+        // The error of the line grows beyond its end.
+        let ahead = 0.5 * free as f64;
+        let variance = 1.0 / last as f64 + 1.0 / count + ahead * ahead * 12.0 / count.powi(3);
+        mean.abs() > DEVIATES * line.noise.max(least) * (correlated(before) * variance).sqrt()
+    };
+    while free > 2 * FEWEST {
+        let parts = PARTS.map(|part| (free / part).max(3));
+        let Some(last) = parts.into_iter().chain([1]).find(|last| deviates(free, *last)) else { break };
+        free -= last.div_ceil(3);
+    }
+    free
+}
+
+/// Drift and tilt of the force at points without contact: changes of the force over the whole curve, N, with their standard
+/// errors, from the first to the last point and over the range of the displacement.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Slopes {
+    pub zero: f64,
+    pub drift: (f64, f64),
+    pub tilt: (f64, f64),
+}
+
+impl Slopes {
+    /// Slopes through points of time and displacement, as shares of the whole curve, and force; only those asked for differ
+    /// from 0. `None` if the points do not tell them apart.
+    pub fn through(points: &[[f64; 3]], has_drift: bool, has_tilt: bool) -> Option<Slopes> {
+        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
+        let mut columns = vec![vec![1.0; points.len()]];
+        columns.extend(has_drift.then(|| column(0)));
+        columns.extend(has_tilt.then(|| column(1)));
+        let mut found = least_squares(&columns, &column(2))?.into_iter();
+        let zero = found.next()?.0;
+        let mut slope = |is_asked: bool| if is_asked { found.next() } else { Some((0.0, 0.0)) };
+        Some(Slopes { zero, drift: slope(has_drift)?, tilt: slope(has_tilt)? })
+    }
+}
+
+/// Coefficients of columns that describe values by least squares, with their standard errors; `None` if a column depends on
+/// those before it.
+pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
+    let basis = right_angled(columns);
+    let mut rests = values.to_vec();
+    let along: Vec<f64> = basis.iter().map(|column| take_off(&mut rests, column)).collect();
+    let count = (values.len().max(columns.len() + 1) - columns.len()) as f64;
+    let noise = (correlated(&rests) * dot(&rests, &rests) / count).sqrt();
+    // Back from the columns at right angles: each coefficient, and its share of each error.
+    let mut found = vec![(0.0, 0.0); columns.len()];
+    let triangle: Vec<Vec<f64>> =
+        basis.iter().map(|one| columns.iter().map(|column| dot(one, column)).collect()).collect();
+    for index in (0..columns.len()).rev() {
+        let own = triangle[index][index];
+        if own.abs() <= 1e-6 * dot(&columns[index], &columns[index]).sqrt() {
+            return None;
+        }
+        let others: f64 =
+            (index + 1..columns.len()).map(|other| triangle[index][other] * found[other].0).sum();
+        let value = (along[index] - others) / own;
+        // Squares of a row of the inverse of the triangle.
+        let mut row = vec![0.0; columns.len()];
+        row[index] = 1.0 / own;
+        for other in index + 1..columns.len() {
+            let sum: f64 = (index..other).map(|between| row[between] * triangle[between][other]).sum();
+            row[other] = -sum / triangle[other][other];
+        }
+        found[index] = (value, noise * dot(&row, &row).sqrt());
+    }
+    Some(found)
+}

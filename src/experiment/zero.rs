@@ -1,0 +1,193 @@
+//! The points of a curve without contact, and the zero, drift and tilt of its force that they give.
+
+use super::baseline::{Line, ends};
+use super::free::{FEWEST, NoBaseline, Slopes, free_count};
+use super::options::{CurveOptions, Drift, Tilt};
+use super::points::Points;
+use super::{ExperimentError, refused};
+use crate::scene::format_quantity;
+use std::ops::Range;
+
+/// Drift or tilt in standard errors that remains in a curve.
+const REMAINS: f64 = 5.0;
+
+/// The points without contact: the first ones of an approach and the last ones of a retraction.
+pub(super) struct FreeParts {
+    pub before: Option<usize>,
+    /// Number of the last ones; 0 where there are few.
+    pub after: usize,
+    /// Share of time and of displacement of each point in those of the whole curve.
+    pub shares: [Vec<f64>; 2],
+}
+
+impl FreeParts {
+    pub fn of(
+        points: &Points,
+        options: &CurveOptions,
+        averaged: usize,
+        least: f64,
+    ) -> Result<Self, ExperimentError> {
+        let count = points.force.len();
+        let approach = &points.force[points.of(0)];
+        let is_retraction = approach.is_empty();
+        let asked = options.free_points.map(|free| free / averaged);
+        let before = match asked.filter(|_| !is_retraction) {
+            Some(free) => Ok(free),
+            None => free_count(approach, least),
+        };
+        let ends_apart = points.segment[count - 1] % 2 == 1;
+        let after = ends_apart.then(|| points.free_at_the_end(least)).flatten();
+        let after = asked.filter(|_| is_retraction).or(after).unwrap_or(0);
+        let needs_approach = !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
+        let (number, of) =
+            if needs_approach { (before, approach.len()) } else { (before.or(Ok(after)), count) };
+        let free = number.map_or_else(|why| refuse_baseline(why, points, approach, least), Ok)?;
+        if !(FEWEST..of).contains(&free) {
+            let fault = format!("no part without contact: {free} of {of} points");
+            return refused(fault, format!("at least {FEWEST}, found or by --free-points"));
+        }
+        let (low, high) = ends(points.displacement.iter().copied());
+        let time = (0..count).map(|index| index as f64 / (count - 1) as f64).collect();
+        let displacement = points.displacement.iter().map(|at| (at - low) / (high - low)).collect();
+        Ok(FreeParts { before: before.ok(), after, shares: [time, displacement] })
+    }
+
+    /// Place of the points without contact that give zero and noise.
+    fn base(&self) -> Range<usize> {
+        let count = self.shares[0].len();
+        self.before.map_or(count - self.after..count, |before| 0..before)
+    }
+
+    pub fn line(&self, points: &Points) -> Line {
+        Line::through(&points.force[self.base()])
+    }
+
+    /// Displacement at which the contact seems to begin, m: behind the part before contact, or where a retraction alone
+    /// leaves compression, or half way to its end.
+    pub fn touch(&self, points: &Points) -> f64 {
+        if let Some(before) = self.before {
+            return points.displacement[before];
+        }
+        let in_contact = &points.force[points.of(1)];
+        let end = in_contact.len().saturating_sub(self.after).max(1);
+        let crossing = in_contact[..end].iter().position(|force| *force <= 0.0).filter(|place| *place > 0);
+        points.displacement[points.of(1).start + crossing.unwrap_or(end / 2)]
+    }
+
+    /// Takes zero, drift and tilt off as asked for. Returns the slopes that remain, N, and says all that.
+    pub fn take_off_lines(
+        &self,
+        points: &mut Points,
+        options: &CurveOptions,
+        noise: f64,
+    ) -> Result<([f64; 2], String), ExperimentError> {
+        let [time, displacement] = &self.shares;
+        let (count, base) = (points.force.len(), self.base());
+        let mean = |values: &[f64]| values[base.clone()].iter().sum::<f64>() / base.len() as f64;
+        let middle = [mean(time), mean(displacement)];
+        if let Drift::Known(drift) = options.drift {
+            points.force.iter_mut().zip(time).for_each(|(force, at)| *force -= drift * (at - middle[0]));
+        }
+        let has_both = self.before.is_some() && self.after >= FEWEST;
+        let ends = if has_both { count - self.after..count } else { 0..0 };
+        let free: Vec<[f64; 3]> = base
+            .clone()
+            .chain(ends)
+            .map(|index| [time[index], displacement[index], points.force[index]])
+            .collect();
+        let is_removed = [options.drift == Drift::Remove, options.tilt == Tilt::Remove];
+        let Some(slopes) = Slopes::through(&free, is_removed[0], is_removed[1]) else {
+            let fault = "drift and tilt are one line in the part before contact, and there is none after it";
+            return refused(fault, "one of --drift remove and --tilt remove");
+        };
+        let both = Slopes::through(&free, true, true).filter(|_| has_both);
+        let stated = both.or_else(|| Slopes::through(&free, true, false)).unwrap_or_default();
+        let taken = [slopes.drift.0, slopes.tilt.0];
+        let found = slopes.zero + taken[0] * middle[0] + taken[1] * middle[1];
+        let zero = options.zero.unwrap_or(if is_removed == [false; 2] { mean(&points.force) } else { found });
+        for (index, force) in points.force.iter_mut().enumerate() {
+            let lines = taken[0] * (time[index] - middle[0]) + taken[1] * (displacement[index] - middle[1]);
+            *force -= zero + lines;
+        }
+        let newton = |force: f64| format_quantity(force, "N");
+        let does = |is_removed: bool| if is_removed { "was removed" } else { "stays" };
+        let is_known = matches!(options.drift, Drift::Known(_));
+        let drift = if is_known { "was removed as given" } else { does(is_removed[0]) };
+        let (value, error) = stated.drift;
+        let mut text = format!("Zero of the force at {}. ", newton(zero));
+        if has_both {
+            let (tilt, tilt_error) = stated.tilt;
+            text += &format!(
+                "Drift over the whole curve, by the parts before and after contact: {} ± {}; it {drift}. Tilt over the range of \
+                 the displacement: {} ± {}; it {}.",
+                newton(value),
+                newton(error),
+                newton(tilt),
+                newton(tilt_error),
+                does(is_removed[1])
+            );
+        } else {
+            let place = if self.before.is_some() { "before" } else { "after" };
+            text += &format!(
+                "Drift over the whole curve, or tilt, by the part {place} contact alone: {} ± {}; it {}.",
+                newton(value),
+                newton(error),
+                if is_removed[1] { "was removed" } else { drift }
+            );
+        }
+        let remains = |(value, error): (f64, f64)| value.abs() > noise.max(REMAINS * error);
+        let mut remaining = [0.0; 2];
+        if has_both {
+            for (of, (slope, name)) in
+                [(stated.drift, "drift"), (stated.tilt, "tilt")].into_iter().enumerate()
+            {
+                if remains(slope) && !is_removed[of] {
+                    remaining[of] = slope.0;
+                    text += &format!(" A {name} remains: --{name} remove takes it off.");
+                }
+            }
+        } else if remains(stated.drift) && is_removed == [false; 2] && !is_known {
+            text += " A line remains: --drift remove takes it off if it is over time, --tilt remove if it is over the displacement.";
+        }
+        Ok((remaining, text))
+    }
+}
+
+/// Refuses a curve without a part before contact, by its reason.
+fn refuse_baseline<T>(
+    why: NoBaseline,
+    points: &Points,
+    approach: &[f64],
+    least: f64,
+) -> Result<T, ExperimentError> {
+    let newton = |force: f64| format_quantity(force, "N");
+    let first: Vec<f64> = approach.iter().rev().copied().collect();
+    match why {
+        NoBaseline::Few if approach.is_empty() => {
+            refused("no part without contact after the retraction", "a retraction that ends without contact")
+        }
+        NoBaseline::Few => refused(
+            format!("{} points in the approach are too few to find the contact", approach.len()),
+            format!("at least {}, or --free-points COUNT", 2 * FEWEST),
+        ),
+        NoBaseline::InContact if points.segment.contains(&1) && free_count(&first, least).is_ok() => refused(
+            "the first segment begins in contact and ends without it: a retraction",
+            "an approach first, in the order of time",
+        ),
+        NoBaseline::InContact => refused(
+            "no part before contact: the force changes from the first point on",
+            "an approach that begins farther away; --free-points COUNT; --segments 2 for the retraction alone",
+        ),
+        NoBaseline::Straight(range, noise) if range > 20.0 * noise => refused(
+            format!(
+                "no contact, or contact from the first point on: the force changes by {} along one straight line",
+                newton(range)
+            ),
+            "a part before contact, then another slope; --free-points COUNT for a weak contact",
+        ),
+        NoBaseline::Straight(_, noise) => refused(
+            format!("no contact: in the approach the force stays within its noise of {}", newton(noise)),
+            "a change by more than the noise; --free-points COUNT for a weak contact",
+        ),
+    }
+}
