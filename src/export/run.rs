@@ -2,7 +2,7 @@
 
 use super::loop_chart::force_figure;
 use super::report::{Json, Report};
-use super::summary::summary;
+use super::summary::{summary, warning};
 use crate::accuracy::{Choice, Estimate};
 use crate::analysis::displacements;
 use crate::contact::CurvePoint;
@@ -71,6 +71,7 @@ impl Report for RunReport<'_> {
             "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
             "tabor_number": outcome.tabor_number,
             "steep_waves"?: outcome.steep_waves,
+            "warnings"?: warning(scene, outcome).map(|warning| [warning]),
             "curve": self.table(),
             "contacts": &history.contacts,
             "fragments": fragments,

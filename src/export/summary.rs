@@ -1,6 +1,7 @@
 //! Summary of a computed scene for a reader.
 
 use super::sheet::Sheet;
+use super::surface::steep;
 use crate::accuracy::{Choice, Estimate};
 use crate::analysis::{
     INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,
@@ -24,7 +25,7 @@ pub(super) fn summary(
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
-    line(&mut sheet, outcome);
+    line(&mut sheet, scene, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
     contact(&mut sheet, outcome);
@@ -54,7 +55,12 @@ fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
     value.map(|value| format_quantity(value, unit))
 }
 
-fn line(sheet: &mut Sheet, outcome: &Outcome) {
+/// Warning of a measured surface whose unit may be wrong.
+pub(super) fn warning(scene: &Scene, outcome: &Outcome) -> Option<String> {
+    scene.measured().and(outcome.governing.amplitude).and_then(|amplitude| steep(amplitude.rms_gradient))
+}
+
+fn line(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
     let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
     sheet.heading("Profile");
     sheet.row("springs N", grouped(facts.points as u64));
@@ -74,6 +80,7 @@ fn line(sheet: &mut Sheet, outcome: &Outcome) {
             let dense = quantity(dense, "1")
                 .map_or_else(String::new, |gradient| format!(" (by the integrals of eq. 12: {gradient})"));
             sheet.row("rms gradient ⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1") + &dense);
+            warning(scene, outcome).iter().for_each(|warning| sheet.row("", warning));
         }
     }
 }

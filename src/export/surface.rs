@@ -26,6 +26,11 @@ const MANY_PROFILES: u64 = 100;
 /// Least and largest factor by which adhesion near its boundary varies between single profiles, as `docs/surfaces.md` states.
 const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
+/// Rms gradient above which slopes are not small, and least ratio of the rms heights of two samples of one roughness: beyond both,
+/// a wrong unit is likely.
+const LARGEST_GRADIENT: f64 = 1.0;
+const FAR_APART: f64 = 30.0;
+
 const LINE: &str = "equivalent line";
 
 /// A surface and its file.
@@ -39,6 +44,8 @@ pub struct SurfaceFile {
     pub points: [usize; 2],
     /// Lengths along and between rows, m; only the first one for a profile.
     pub lengths: [f64; 2],
+    /// Columns and rows without measured points that are left out at the borders; points at the ends of a profile.
+    pub cropped: [usize; 2],
     pub interpolated: usize,
 }
 
@@ -49,7 +56,15 @@ impl SurfaceFile {
         let spacing = surface.spacing().unwrap_or_default();
         let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
         let (name, interpolated) = (surface.name.clone(), surface.interpolated());
-        SurfaceFile { path, name, format: surface.format, points, lengths, interpolated }
+        let cropped = surface.cropped.counts();
+        SurfaceFile { path, name, format: surface.format, points, lengths, cropped, interpolated }
+    }
+
+    /// Name of the file, and of the measurement in a container.
+    fn name(&self) -> String {
+        let name =
+            if self.name.is_empty() { String::new() } else { format!(" {:?}", printable(&self.name)) };
+        path_name(&self.path) + &name
     }
 }
 
@@ -117,7 +132,7 @@ impl Report for SurfaceReport {
         let warnings = self.faces.iter().enumerate().flat_map(|(number, face)| {
             let of_face =
                 move |warning| if number == 0 { warning } else { format!("opposite face: {warning}") };
-            warnings(&face.analysis).into_iter().map(of_face)
+            warnings(face).into_iter().map(of_face)
         });
         let warnings: Vec<String> = warnings.collect();
         if !warnings.is_empty() {
@@ -252,8 +267,18 @@ fn describe(file: &SurfaceFile) -> String {
         0 => String::new(),
         some => format!(", {:.2} % interpolated", 100.0 * some as f64 / (columns * rows) as f64),
     };
-    let name = if file.name.is_empty() { String::new() } else { format!(" {:?}", printable(&file.name)) };
-    format!("{}{name} ({}): {shape}{interpolated}", path_name(&file.path), file.format)
+    let counted = |(count, name): (usize, &str)| match count {
+        0 => None,
+        1 => Some(format!("1 {name}")),
+        _ => Some(format!("{count} {name}s")),
+    };
+    let names = if rows > 1 { ["column", "row"] } else { ["point", ""] };
+    let parts: Vec<String> = file.cropped.into_iter().zip(names).filter_map(counted).collect();
+    let cropped = match &parts[..] {
+        [] => String::new(),
+        parts => format!(", {} without measured points left out at the border", parts.join(" and ")),
+    };
+    format!("{} ({}): {shape}{cropped}{interpolated}", file.name(), file.format)
 }
 
 fn measured(sheet: &mut Sheet, analysis: &Analysis) {
@@ -287,9 +312,48 @@ fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
     sheet.table(&rows);
 }
 
+/// Warning of an rms gradient that is not small.
+pub(super) fn steep(rms_gradient: f64) -> Option<String> {
+    (rms_gradient > LARGEST_GRADIENT).then(|| {
+        format!(
+            "the rms gradient {} is above {LARGEST_GRADIENT}, where the theory of small slopes does not hold: is the unit of \
+             positions or of heights wrong? --unit and --height-unit, in a scene roughness.unit and roughness.height_unit, \
+             state them",
+            format_quantity(rms_gradient, "1")
+        )
+    })
+}
+
+/// Warning of files whose rms heights are far apart, although they are samples of one roughness.
+fn far_apart(MeasuredFace { files, analysis }: &MeasuredFace) -> Option<String> {
+    let heights = || analysis.rms_heights.iter().zip(files);
+    let (least, flat) = heights().min_by(|one, other| one.0.total_cmp(other.0))?;
+    let (most, rough) = heights().max_by(|one, other| one.0.total_cmp(other.0))?;
+    (most / least > FAR_APART).then(|| {
+        format!(
+            "the rms heights of {} ({}) and {} ({}) are {}-fold apart: is the unit of one of them wrong, or are they no samples \
+             of the same roughness?",
+            flat.name(),
+            format_quantity(*least, "m"),
+            rough.name(),
+            format_quantity(*most, "m"),
+            format_quantity(most / least, "1"),
+        )
+    })
+}
+
 /// Limits of an analysis that affect the user.
-fn warnings(analysis: &Analysis) -> Vec<String> {
-    let mut warnings = Vec::new();
+fn warnings(face: &MeasuredFace) -> Vec<String> {
+    let analysis = &face.analysis;
+    let mut warnings: Vec<String> =
+        [steep(analysis.line.rms_gradient.value), far_apart(face)].into_iter().flatten().collect();
+    if let Some(distance) = analysis.displaced {
+        warnings.push(format!(
+            "odd rows are displaced by {} along even ones, as trace and retrace are: the gradient is too large; give the rows \
+             of one direction",
+            format_quantity(distance, "m")
+        ));
+    }
     let long = analysis.long_wave_share();
     if long > MANY_LONG_WAVES {
         warnings.push(format!(
@@ -340,11 +404,12 @@ fn with_error(estimate: Estimate, unit: &str) -> String {
 /// JSON object of the surfaces of a face in SI units. That of the first face holds the results of both faces
 /// together, and the object of the opposite face.
 fn face_json<'a>(
-    MeasuredFace { files, analysis }: &'a MeasuredFace,
+    face: &'a MeasuredFace,
     equivalent_line: Option<impl Serialize + 'a>,
     adhesion: Option<impl Serialize + 'a>,
     opposite: Option<impl Serialize + 'a>,
 ) -> impl Serialize + 'a {
+    let MeasuredFace { files, analysis } = face;
     let (statistics, fit) = (&analysis.statistics, analysis.power_law);
     let file = |file: &'a SurfaceFile| {
         let axes = if file.points[1] > 1 { 2 } else { 1 };
@@ -354,6 +419,7 @@ fn face_json<'a>(
             "format": file.format,
             "points": &file.points[..axes],
             "lengths": &file.lengths[..axes],
+            "cropped": &file.cropped[..axes],
             "interpolated": file.interpolated,
         }
     };
@@ -386,7 +452,7 @@ fn face_json<'a>(
         "spectrum": analysis.isotropic.nodes().map(node).collect::<Vec<_>>(),
         "profile_spectra": analysis.spectra.iter().map(spectrum).collect::<Vec<_>>(),
         "ends_inside_scan": analysis.ends_inside,
-        "warnings": warnings(analysis),
+        "warnings": warnings(face),
         "opposite"?: opposite,
     }
 }

@@ -1,6 +1,7 @@
 //! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
 
 use super::fit::{Model, PowerLaw, fit_power_law};
+use super::interlaced;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
 use super::observation::{self, Observation};
 use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
@@ -54,6 +55,8 @@ pub struct Options {
 pub struct Analysis {
     /// Statistics of the points.
     pub statistics: Statistics,
+    /// Rms height of each surface, m.
+    pub rms_heights: Vec<f64>,
     /// Spectra of the measured surfaces, in bins.
     pub spectra: Vec<(Direction, Vec<Bin>)>,
     /// Underlying isotropic spectrum.
@@ -80,6 +83,8 @@ pub struct Analysis {
     /// Share of the squared gradient by which the waves along one axis depart from their neighbours in the plane although they
     /// are not left out; 0 for chance.
     pub apart: f64,
+    /// Distance, m, by which odd rows of a map are displaced along even ones, as those of two scans are; the largest one.
+    pub displaced: Option<f64>,
 }
 
 /// Powers of all surfaces, profiles of equal points together.
@@ -104,11 +109,17 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let mut sums = Sums::default();
     // Only the longest scans hold the height of the line, and only the finest ones its gradient.
     let (mut of_longest, mut of_finest) = ((0.0, Sums::default()), (0.0, Sums::default()));
-    let mut reliability: Option<f64> = None;
+    let (mut reliability, mut displaced): (Option<f64>, Option<f64>) = (None, None);
+    let mut rms_heights = Vec::new();
     let powers = Powers::of(surfaces, options, 0, |surface, heights, distances| {
         let columns = surface.columns;
         check_rough(&surface.heights, heights)?;
         sums.add(heights, columns, distances);
+        let mut alone = Sums::default();
+        alone.add(heights, columns, distances);
+        rms_heights.push(alone.statistics().rms_height);
+        let points = interlaced::displacement(heights, columns).map(|points| points * distances[0]);
+        displaced = displaced.into_iter().chain(points).reduce(f64::max);
         let scan = columns as f64 * distances[0];
         for ((most, sums), size) in [(&mut of_longest, scan), (&mut of_finest, 1.0 / distances[0])] {
             if size > *most * (1.0 + SAME) {
@@ -190,6 +201,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     }
     Ok(Analysis {
         statistics: sums.statistics(),
+        rms_heights,
         spectra: powers.spectra(),
         power_law,
         isotropic,
@@ -202,6 +214,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
         ends_inside,
         offsets: powers.maps.iter().any(|map| map.offsets),
         apart,
+        displaced,
     })
 }
 

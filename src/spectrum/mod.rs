@@ -15,6 +15,7 @@
 
 mod analysis;
 mod fit;
+mod interlaced;
 mod isotropic;
 mod linear;
 mod observation;

@@ -1,14 +1,19 @@
 //! Numbers of binary files, each read only if the file has its bytes, the limits of their decompression, and archives
 //! (ZIP) in memory, unpacked up to these limits.
 
+use super::reading::MOST_POINTS;
 use super::{Place, TopographyError, refused, shown};
 use crate::io::read_limited;
 use crate::memory::gathered;
+use std::collections::HashMap;
 use std::io::Cursor;
 use zip::ZipArchive;
-use zip::result::ZipError;
 
-/// Decompressed bytes allowed per byte of the file: texts of numbers expand by factors of three to six.
+/// Most bytes of a file.
+pub const MOST_BYTES: usize = 1 << 30;
+
+/// Decompressed bytes allowed per byte of the file where no header states them: texts of numbers expand by factors of
+/// three to six.
 pub(super) const MOST_EXPANSION: usize = 32;
 
 /// Decompressed bytes allowed in addition.
@@ -19,6 +24,16 @@ pub(super) fn most_expanded(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
 }
 
+/// Returns the bytes of compressed heights, whose number a header states: they may have been compressed to any size.
+pub(super) fn unpacked_size(points: usize, number: Number, place: Place) -> Result<usize, TopographyError> {
+    let bytes = points.saturating_mul(number.size());
+    if points <= MOST_POINTS && bytes <= MOST_BYTES {
+        return Ok(bytes);
+    }
+    let fault = format!("{points} compressed heights of {} bytes", number.size());
+    Err(refused(place, fault, format!("at most {MOST_POINTS} heights and {MOST_BYTES} bytes")))
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     Little,
@@ -26,7 +41,7 @@ pub(super) enum Order {
 }
 
 macro_rules! numbers {
-    ($($name:ident $code:literal: $type:ty),*) => {
+    ($($name:ident $code:literal: $type:ty $(= $value:path)?),*) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(super) enum Number {
             $($name),*
@@ -56,7 +71,9 @@ macro_rules! numbers {
                         if order == Order::Big {
                             little.reverse();
                         }
-                        <$type>::from_le_bytes(little) as f64
+                        let value = <$type>::from_le_bytes(little);
+                        $(let value = $value(value);)?
+                        value as f64
                     })*
                 }
             }
@@ -65,7 +82,19 @@ macro_rules! numbers {
 }
 
 numbers!(U8 "u1": u8, I8 "i1": i8, U16 "u2": u16, I16 "i2": i16, U32 "u4": u32, I32 "i4": i32, U64 "u8": u64,
-    I64 "i8": i64, F32 "f4": f32, F64 "f8": f64);
+    I64 "i8": i64, F16 "f2": u16 = half, F32 "f4": f32, F64 "f8": f64);
+
+/// Returns the number of these 16 bits: the sign, 5 bits of an exponent, 10 of a fraction.
+fn half(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023));
+    let size = match exponent {
+        0 => fraction * 2.0_f64.powi(-24),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        _ => (1024.0 + fraction) * 2.0_f64.powi(exponent - 25),
+    };
+    if bits >> 15 == 0 { size } else { -size }
+}
 
 /// Part of a binary file, read in sequence.
 #[derive(Clone, Copy, Debug)]
@@ -141,10 +170,21 @@ impl<'a> Bytes<'a> {
 
 pub(super) const ZIP: &[u8] = b"PK\x03\x04";
 
-/// Archive in memory, and the most bytes to which its further files may expand.
+/// Archive in memory.
 pub(super) struct Archive<'a> {
     archive: ZipArchive<Cursor<&'a [u8]>>,
+    /// Places of its files by their [`plain_name`].
+    places: HashMap<String, usize>,
+    /// Folder of the index, from which the files are named.
+    folder: String,
+    /// Most bytes to which further files of unknown size may expand.
     most: usize,
+}
+
+/// Returns the name of a file of an archive in one spelling: slashes between folders, none of them `.`.
+fn plain_name(name: &str) -> String {
+    let parts = name.split(['/', '\\']).filter(|part| !matches!(*part, "" | "."));
+    parts.collect::<Vec<_>>().join("/")
 }
 
 impl<'a> Archive<'a> {
@@ -152,30 +192,52 @@ impl<'a> Archive<'a> {
         let archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| {
             refused(Place::File, format!("a damaged archive ({error})"), "an archive of ZIP")
         })?;
-        Ok(Archive { archive, most: most_expanded(bytes.len()) })
+        let named = |place: usize| Some((plain_name(&archive.name_for_index(place)?.ok()?), place));
+        let places = (0..archive.len()).filter_map(named).collect();
+        Ok(Archive { archive, places, folder: String::new(), most: most_expanded(bytes.len()) })
     }
 
-    /// Returns the first of these names that a file of the archive has.
-    pub fn first_of(&self, names: &[&'static str]) -> Option<&'static str> {
-        names.iter().find(|name| self.archive.index_for_name(name).is_some()).copied()
+    /// Returns the name of the index, one of these names, of the file nearest to the root of the archive. Further files are
+    /// named from its folder.
+    pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, TopographyError> {
+        let of_path = |path: &String| {
+            let (folder, file) = path.rsplit_once('/').unwrap_or(("", path));
+            let name = names.iter().position(|name| *name == file)?;
+            Some((path.matches('/').count(), name, folder.to_owned()))
+        };
+        let mut found: Vec<_> = self.places.keys().filter_map(of_path).collect();
+        found.sort();
+        if let [(depth, name, one), (other_depth, other_name, other), ..] = &found[..]
+            && (depth, name) == (other_depth, other_name)
+        {
+            let fault = format!("{} in the folders {} and {}", names[*name], shown(one), shown(other));
+            return Err(refused(Place::File, fault, "an archive with one surface, or a container"));
+        }
+        Ok(found.into_iter().next().map(|(_, name, folder)| {
+            self.folder = folder;
+            names[name]
+        }))
     }
 
-    /// Returns the content of a file of the archive, at most `most` bytes.
+    /// Returns the content of a file of unknown size, at most `most` bytes.
     pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
+        let content = self.unpacked_up_to(name, most.min(self.most))?;
+        self.most -= content.len();
+        Ok(content)
+    }
+
+    /// Returns the content of a file of at most `most` bytes, as a header states them.
+    pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
         let damaged = |error: &dyn std::fmt::Display| {
             let fault = format!("cannot be unpacked ({error})");
             refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
         };
-        let entry = self.archive.by_name(name).map_err(|error| match error {
-            ZipError::FileNotFound => {
-                let fault = format!("no file {} in the archive", shown(name));
-                refused(Place::File, fault, "an archive with all files that it names")
-            }
-            error => damaged(&error),
+        let place = self.places.get(&plain_name(&format!("{}/{name}", self.folder))).ok_or_else(|| {
+            let fault = format!("no file {} in the archive", shown(name));
+            refused(Place::File, fault, "an archive with all files that it names")
         })?;
-        let content = read_limited(entry, most.min(self.most)).map_err(|error| damaged(&error))?;
-        self.most -= content.len();
-        Ok(content)
+        let entry = self.archive.by_index(*place).map_err(|error| damaged(&error))?;
+        read_limited(entry, most).map_err(|error| damaged(&error))
     }
 }
 
@@ -187,11 +249,14 @@ pub(super) mod tests {
 
     #[test]
     fn numbers_have_their_values_in_either_order() {
-        let cases: [(Number, Vec<u8>, f64); 6] = [
+        let cases: [(Number, Vec<u8>, f64); 9] = [
             (Number::U8, vec![200], 200.0),
             (Number::I8, vec![200], -56.0),
             (Number::I16, (-2_i16).to_le_bytes().into(), -2.0),
             (Number::U32, u32::MAX.to_le_bytes().into(), 4_294_967_295.0),
+            (Number::F16, vec![0, 0xbe], -1.5),
+            (Number::F16, vec![1, 0], 2.0_f64.powi(-24)),
+            (Number::F16, vec![0xff, 0x7b], 65_504.0),
             (Number::F32, 1.5_f32.to_le_bytes().into(), 1.5),
             (Number::F64, (-0.1_f64).to_le_bytes().into(), -0.1),
         ];

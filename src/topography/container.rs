@@ -142,7 +142,7 @@ impl Measurement {
             reading.spacing = Some([width / reading.columns as f64, height / rows]);
         }
         match self.height_scale.filter(|_| self.is_original()) {
-            Some(scale) => reading.scaled(None, scale),
+            Some(scale) => reading.scaled(|_| false, scale),
             None => reading,
         }
     }

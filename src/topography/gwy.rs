@@ -8,8 +8,8 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field of a channel: `/N/data` for number N; without a number, of the only channel whose heights
-/// have a unit of length.
+/// Reads the data field of a channel: `/N/data` for number N; without a number, of the only channel whose heights have a
+/// unit of length, or where there is none, no unit.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
     let mut file = Bytes::new(bytes, Order::Little);
     file.take(SIGNATURE.len())?;
@@ -21,9 +21,16 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
             fields.push((number, Field::parse(content)?));
         }
     }
-    let numbers = fields.iter().map(|(number, _)| number.to_string()).collect::<Vec<_>>().join(", ");
+    let names = fields.iter().map(|(number, field)| match field.unit_z {
+        "" => format!("{number} (no unit)"),
+        unit => format!("{number} ({unit})"),
+    });
+    let names = names.collect::<Vec<_>>().join(", ");
+    let is_length = |field: &Field| field.unit_z.parse::<Unit>().is_ok();
+    let has_length = fields.iter().any(|(_, field)| is_length(field));
+    let is_height = |field: &Field| if has_length { is_length(field) } else { field.unit_z.is_empty() };
     let is_chosen =
-        |(number, field): &(u32, Field)| channel.map_or(field.unit_z == "m", |one| one == *number);
+        |(number, field): &(u32, Field)| channel.map_or(is_height(field), |one| one == *number);
     let mut chosen: Vec<_> = fields.into_iter().filter(is_chosen).collect();
     let (fault, allowed) = match (chosen.pop(), chosen.is_empty(), channel) {
         (Some((number, field)), true, _) => return field.into_reading(number),
@@ -31,9 +38,9 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
             ("several channels of heights; all channels".to_owned(), "--channel with the number of one")
         }
         (None, _, Some(channel)) => (format!("no channel {channel}; channels"), "a channel of heights"),
-        (None, ..) => ("no channel with heights in m; channels".to_owned(), "a channel of heights"),
+        (None, ..) => ("no channel in a unit of length; channels".to_owned(), "a channel of heights"),
     };
-    Err(refused(Place::File, format!("{fault}: {}", shown(&numbers)), allowed))
+    Err(refused(Place::File, format!("{fault}: {}", shown(&names)), allowed))
 }
 
 /// Value of a component, as far as needed.
@@ -142,4 +149,63 @@ fn unit_text<'a>(mut content: Bytes<'a>) -> Result<&'a str, TopographyError> {
         }
     }
     Ok(unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{ReadOptions, TopographyError};
+    use super::*;
+
+    fn component(name: &str, kind: u8, content: &[u8]) -> Vec<u8> {
+        [name.as_bytes(), b"\0", &[kind], content].concat()
+    }
+
+    fn object(name: &str, content: &[u8]) -> Vec<u8> {
+        [name.as_bytes(), b"\0", &(content.len() as u32).to_le_bytes(), content].concat()
+    }
+
+    /// A file with channels of 2 × 2 heights in these units.
+    fn file(units: &[&str]) -> Vec<u8> {
+        let channel = |(number, unit): (usize, &&str)| {
+            let unit_of = |unit: &str| {
+                object("GwySIUnit", &component("unitstr", b's', &[unit.as_bytes(), b"\0"].concat()))
+            };
+            let heights = [1.0_f64, 2.0, 3.0, 4.0].map(f64::to_le_bytes).concat();
+            let content = [
+                component("xres", b'i', &2_i32.to_le_bytes()),
+                component("yres", b'i', &2_i32.to_le_bytes()),
+                component("xreal", b'd', &2.0_f64.to_le_bytes()),
+                component("yreal", b'd', &2.0_f64.to_le_bytes()),
+                component("si_unit_xy", b'o', &unit_of("m")),
+                component("si_unit_z", b'o', &unit_of(unit)),
+                component("data", b'D', &[&4_u32.to_le_bytes(), &heights[..]].concat()),
+            ];
+            component(&format!("/{number}/data"), b'o', &object("GwyDataField", &content.concat()))
+        };
+        let channels: Vec<u8> = units.iter().enumerate().flat_map(channel).collect();
+        [SIGNATURE, &object("GwyContainer", &channels)].concat()
+    }
+
+    #[test]
+    fn heights_without_a_unit_are_those_of_the_channel_whose_unit_is_asked_for() {
+        let height = |units: &[&str], unit: Option<&str>| {
+            let options =
+                ReadOptions { height_unit: unit.map(|unit| unit.parse().unwrap()), ..ReadOptions::default() };
+            let read = read(&file(units), None).and_then(|reading| reading.resolve(&options));
+            read.map(|surface| surface.heights[3]).map_err(|error: TopographyError| error.to_string())
+        };
+        assert_eq!(height(&[""], Some("nm")), Ok(4e-9));
+        let error = height(&[""], None).unwrap_err();
+        assert!(error.starts_with("no unit of heights is stated") && error.contains("--unit"), "{error}");
+        assert_eq!(height(&["nm"], None), Ok(4e-9));
+        assert_eq!(height(&["deg", "", "um"], None), Ok(4e-6));
+        for (units, expected) in [
+            (&["deg", "V"][..], "no channel in a unit of length; channels: 0 (deg), 1 (V); allowed: "),
+            (&["m", "nm"], "several channels of heights; all channels: 0 (m), 1 (nm); allowed: --channel"),
+            (&["", ""], "several channels of heights; all channels: 0 (no unit), 1 (no unit); allowed: --channel"),
+        ] {
+            let error = height(units, Some("m")).unwrap_err();
+            assert!(error.starts_with(expected), "{error}");
+        }
+    }
 }

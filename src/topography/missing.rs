@@ -2,7 +2,8 @@
 //! instrument and grains of dust are.
 
 use super::{Place, TopographyError, refused};
-use crate::memory::{OutOfMemory, emptied, gathered};
+use crate::memory::{OutOfMemory, gathered};
+use std::ops::Range;
 
 /// Smallest share of measured points for interpolation.
 const LEAST_MEASURED: f64 = 0.5;
@@ -11,12 +12,23 @@ pub(super) fn count(heights: &[f64]) -> usize {
     heights.iter().filter(|height| !height.is_finite()).count()
 }
 
+/// Returns the columns and the rows from the first to the last one with a measured point; empty ranges if there is none.
+pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2] {
+    let range = |places: &mut dyn Iterator<Item = usize>| {
+        let reach = |(low, high): (usize, usize), place| (low.min(place), high.max(place + 1));
+        let (low, high) = places.fold((usize::MAX, 0), reach);
+        low.min(high)..high
+    };
+    let measured = || (0..heights.len()).filter(|index| heights[*index].is_finite());
+    [range(&mut measured().map(|index| index % columns)), range(&mut measured().map(|index| index / columns))]
+}
+
 /// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one row. Returns the indices
 /// of the interpolated heights.
 ///
-/// A missing height is the mean of two linear interpolations, one along its row and one along its column, each from
-/// the nearest measured point before to the nearest one behind. Before the first or behind the last measured point
-/// of a row or column the height is constant; a row or column without any measured point does not contribute.
+/// In a profile a missing height is on the straight line from the nearest measured point before to the nearest one behind, and
+/// as high as the first or the last one at its ends. In a map it is the mean of its neighbours, as on a soap film that hangs on
+/// the measured points: see [`fill`].
 pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, TopographyError> {
     let missing = count(heights);
     let share = 1.0 - missing as f64 / heights.len() as f64;
@@ -24,52 +36,67 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usi
         let fault = format!("{:.1} % of the points are measured", 100.0 * share);
         return Err(refused(Place::File, fault, format!("at least {:.0} %", 100.0 * LEAST_MEASURED)));
     }
-    let rows = heights.len() / columns;
-    let mut filled: Vec<(usize, f64)> = emptied(Vec::new(), missing)?;
-    for row in 0..rows {
-        for_each_gap(heights, row * columns, 1, columns, |index, height| filled.push((index, height)));
-    }
-    // Heights along rows are in order; those along columns are added to them, or appended.
-    let along_rows = filled.len();
-    for column in (0..columns).filter(|_| rows > 1) {
-        for_each_gap(heights, column, columns, rows, |index, height| {
-            match filled[..along_rows].binary_search_by_key(&index, |(index, _)| *index) {
-                Ok(place) => filled[place].1 = 0.5 * (filled[place].1 + height),
-                Err(_) => filled.push((index, height)),
-            }
-        });
-    }
-    filled.iter().for_each(|(index, height)| heights[*index] = *height);
-    match heights.iter().position(|height| !height.is_finite()) {
-        Some(index) => Err(refused(
-            Place::Point(index + 1),
-            "missing like all points of its row and its column",
-            "a measured point in the row or the column",
-        )),
-        None => Ok(filled.into_iter().map(|(index, _)| index).collect()),
+    let places = gathered(missing, (0..heights.len()).filter(|index| !heights[*index].is_finite()))?;
+    if heights.len() > columns { fill(heights, columns, &places)? } else { fill_profile(heights) }
+    Ok(places)
+}
+
+fn fill_profile(heights: &mut [f64]) {
+    let (mut before, mut place) = (None, 0);
+    while place < heights.len() {
+        let end = (place..heights.len()).find(|place| heights[*place].is_finite());
+        for gap in place..end.unwrap_or(heights.len()) {
+            heights[gap] = match (before, end) {
+                (Some(from), Some(to)) => {
+                    heights[from] + (gap - from) as f64 / (to - from) as f64 * (heights[to] - heights[from])
+                }
+                (Some(near), None) | (None, Some(near)) => heights[near],
+                (None, None) => continue,
+            };
+        }
+        before = end;
+        place = end.map_or(heights.len(), |end| end + 1);
     }
 }
 
-/// Calls `fill` with the index and the interpolated height of each missing one of `count` heights, `step` indices apart.
-fn for_each_gap(heights: &[f64], first: usize, step: usize, count: usize, mut fill: impl FnMut(usize, f64)) {
-    let at = |place: usize| heights[first + place * step];
-    let mut before = None;
-    let mut place = 0;
-    while place < count {
-        let end = (place..count).find(|place| at(*place).is_finite());
-        for gap in place..end.unwrap_or(count) {
-            let height = match (before, end) {
-                (Some(from), Some(to)) => {
-                    at(from) + (gap - from) as f64 / (to - from) as f64 * (at(to) - at(from))
-                }
-                (Some(near), None) | (None, Some(near)) => at(near),
-                (None, None) => continue,
-            };
-            fill(first + gap * step, height);
-        }
-        before = end;
-        place = end.map_or(count, |end| end + 1);
+/// Passes over the missing points at each size.
+const PASSES: usize = 12;
+
+/// Fills missing points, at these places, from all sides: begins with the means of blocks of 2 × 2 points, filled in the same
+/// way, and then replaces each height by the mean of its neighbours, several times. This nearly solves Laplace's equation in the
+/// gaps, without a slope across the borders of the map.
+fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), OutOfMemory> {
+    let rows = heights.len() / columns;
+    let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
+    let block = |index: usize| {
+        let (row, column) = (2 * (index / half_columns), 2 * (index % half_columns));
+        let points = (row..rows.min(row + 2)).flat_map(|y| (column..columns.min(column + 2)).map(move |x| (x, y)));
+        let known = points.map(|(x, y)| heights[y * columns + x]).filter(|height| height.is_finite());
+        let (sum, count) = known.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
+        // Not a number without any.
+        sum / f64::from(count)
+    };
+    if places.is_empty() {
+        return Ok(());
     }
+    let mut halved = gathered(half_columns * half_rows, (0..half_columns * half_rows).map(block))?;
+    let gaps: Vec<usize> = (0..halved.len()).filter(|index| !halved[*index].is_finite()).collect();
+    fill(&mut halved, half_columns, &gaps)?;
+    for &index in places {
+        let (row, column) = (index / columns, index % columns);
+        heights[index] = halved[row / 2 * half_columns + column / 2];
+    }
+    for _ in 0..PASSES {
+        for &index in places {
+            let (row, column) = (index / columns, index % columns);
+            let beside = [(column > 0, 1), (row > 0, columns)].into_iter().filter(|side| side.0).map(|side| index - side.1);
+            let behind = [(column + 1 < columns, 1), (row + 1 < rows, columns)].into_iter().filter(|side| side.0);
+            let around = beside.chain(behind.map(|side| index + side.1)).map(|index| heights[index]);
+            let (sum, count) = around.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
+            heights[index] = sum / f64::from(count);
+        }
+    }
+    Ok(())
 }
 
 /// Points around a point on either side along each axis.
@@ -159,26 +186,50 @@ mod tests {
     }
 
     #[test]
-    fn a_point_of_a_map_is_the_mean_of_row_and_column() {
+    fn a_point_of_a_map_is_the_mean_of_its_neighbours() {
         let mut heights = [0.0, 1.0, 2.0, 3.0, NONE, 7.0, 6.0, 9.0, 8.0];
-        assert!(interpolate(&mut heights, 3).is_ok());
-        assert_eq!(heights[4], 0.5 * (5.0 + 5.0));
-        // A row without any measured point is interpolated from its columns.
-        let mut heights = [0.0, 1.0, NONE, NONE, 4.0, 5.0];
-        assert!(interpolate(&mut heights, 2).is_ok());
-        assert_eq!(heights, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(interpolate(&mut heights, 3), Ok(vec![4]));
+        assert_eq!(heights[4], 0.25 * (1.0 + 3.0 + 7.0 + 9.0));
+        let mut corner = [NONE, 1.0, 3.0, 4.0];
+        assert!(interpolate(&mut corner, 2).is_ok());
+        assert_eq!(corner[0], 2.0);
+    }
+
+    #[test]
+    fn wide_gaps_are_filled_from_all_sides() {
+        // A plane solves Laplace's equation; beyond its rim the surface is level.
+        let columns = 60;
+        let plane = |index: usize| (index % columns) as f64 + 2.0 * (index / columns) as f64;
+        let place = |index: usize| (index % columns, index / columns);
+        let is_hole = |index: usize| {
+            let (x, y) = place(index);
+            // Also a row and a column without any measured point.
+            (20..40).contains(&x) && (15..35).contains(&y) || x == 50 || y == 10
+        };
+        let mut heights: Vec<f64> =
+            (0..columns * 50).map(|index| if is_hole(index) { NONE } else { plane(index) }).collect();
+        let filled = interpolate(&mut heights, columns).unwrap();
+        assert!(filled.into_iter().eq((0..heights.len()).filter(|index| is_hole(*index))));
+        let off = |index: usize| (heights[index] - plane(index)).abs();
+        let largest = (0..heights.len()).map(off).fold(0.0, f64::max);
+        // Of 140 from corner to corner.
+        assert!(largest < 1.0, "{largest}");
     }
 
     #[test]
     fn too_few_points_are_refused() {
         let mut few = [NONE, NONE, 1.0];
         assert!(interpolate(&mut few, 3).unwrap_err().to_string().contains("allowed: at least 50 %"));
-        let mut cross = [NONE, NONE, NONE, 1.0, NONE, 2.0, 3.0, 4.0, NONE, 6.0, 7.0, 8.0];
-        cross[1] = NONE;
-        assert!(interpolate(&mut cross, 3).is_ok());
         let mut corner = [NONE, NONE, NONE, 1.0, NONE, 3.0];
-        // The middle column and the upper row are empty.
         assert!(interpolate(&mut corner, 3).unwrap_err().to_string().contains("33.3 % of the points"));
+    }
+
+    #[test]
+    fn the_measured_part_has_a_measured_point_in_each_row_and_column_of_its_border() {
+        let map = [NONE, NONE, NONE, NONE, 1.0, NONE, NONE, NONE, 2.0, NONE, NONE, NONE];
+        assert_eq!(measured_part(&map, 3), [1..3, 1..3]);
+        assert_eq!(measured_part(&map, 4), [0..1, 1..3]);
+        assert_eq!(measured_part(&[NONE; 4], 2), [0..0, 0..0]);
     }
 
     #[test]

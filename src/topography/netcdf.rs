@@ -23,7 +23,8 @@ struct Variable<'a> {
     name: &'a [u8],
     /// Indices of its dimensions, the fastest last.
     dimensions: Vec<usize>,
-    unit: Option<Unit>,
+    /// Text of the unit; empty if it has none.
+    unit: &'a [u8],
     /// Values that mark missing points; NaN where there is none.
     missing: [f64; 2],
     scale: f64,
@@ -55,11 +56,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         let is_position = |variable: &&Variable| [&b"x"[..], b"y"].contains(&variable.name);
         dataset.variables.iter().filter(is_position).find(|variable| variable.dimensions == [dimension])
     };
-    let position_unit = dataset.variable(b"x").and_then(|x| x.unit);
-    let units = [position_unit, heights.unit.or(position_unit)];
+    // Each variable has its own unit, or none.
+    let unit_over = |dimension: usize| over(dimension).map_or(Ok(None), Variable::unit);
+    let height_unit = heights.unit()?;
     let (slow, fast) = match heights.dimensions[..] {
         [slow, fast] => (slow, fast),
         [along] => {
+            let units = [unit_over(along)?, height_unit];
             let Some(x) = over(along) else {
                 let points = values.len();
                 return Ok(Reading::even("NetCDF", values, points, None, units));
@@ -76,14 +79,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     };
     let mut columns = dataset.length(fast)?;
     let mut spacing = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
+    let mut axis_units = [unit_over(fast)?, unit_over(slow)?];
     if over(slow).is_some_and(|variable| variable.name == b"x") {
         // Rows are along x.
         let turned = (0..columns).flat_map(|x| values.iter().skip(x).step_by(columns).copied());
         values = gathered(values.len(), turned)?;
         columns = dataset.length(slow)?;
         spacing = spacing.map(|[fast, slow]| [slow, fast]);
+        axis_units.reverse();
     }
-    Ok(Reading::even("NetCDF", values, columns, spacing, units))
+    Ok(Reading::on_axes("NetCDF", values, columns, spacing, axis_units, height_unit))
 }
 
 impl<'a> Dataset<'a> {
@@ -135,6 +140,13 @@ impl<'a> Dataset<'a> {
             *value = if is_missing { f64::NAN } else { variable.offset + variable.scale * *value };
         }
         Ok(values)
+    }
+}
+
+impl Variable<'_> {
+    fn unit(&self) -> Result<Option<Unit>, TopographyError> {
+        let place = Place::Part(format!("variable {}", String::from_utf8_lossy(self.name)));
+        Unit::stated(String::from_utf8_lossy(self.unit).trim_matches([' ', '\0']), place)
     }
 }
 
@@ -194,13 +206,11 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
     for _ in 0..header.size(Number::U32)? {
         dimensions.push(header.size(Number::U32)?);
     }
-    let (mut unit, mut missing, mut scale, mut offset) = (None, [f64::NAN; 2], 1.0, 0.0);
+    let (mut unit, mut missing, mut scale, mut offset) = (&b""[..], [f64::NAN; 2], 1.0, 0.0);
     for (name, of, content) in list(header, ATTRIBUTES, attribute)? {
         let number = of.and_then(|of| Bytes::new(content, Order::Big).number(of).ok());
         match (name, number) {
-            (b"unit" | b"units", None) if of.is_none() => {
-                unit = str::from_utf8(content).ok().and_then(|text| text.trim().parse().ok());
-            }
+            (b"unit" | b"units" | b"length_unit", None) if of.is_none() => unit = content,
             (b"missing_value", Some(value)) => missing[0] = value,
             (b"_FillValue", Some(value)) => missing[1] = value,
             (b"scale_factor", Some(value)) => scale = value,

@@ -8,7 +8,7 @@ use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
 use super::{Place, TopographyError, refused, shown};
 pub(super) use crate::io::npy::SIGNATURE;
-use crate::memory::emptied;
+use crate::memory::{emptied, gathered};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let (mut header, mut data) = Header::read(bytes)?;
@@ -116,7 +116,7 @@ impl Header {
             order = order.or(of_field);
             let number = Number::named(name).ok_or_else(|| {
                 let fault = format!("numbers of type {:?}", shown(descr));
-                refused(Place::Byte(10), fault, "real and whole numbers: f4, f8, i1 to u8")
+                refused(Place::Byte(10), fault, "real and whole numbers: f2 to f8, i1 to u8")
             })?;
             fields.push((field.to_owned(), number));
         }
@@ -140,12 +140,16 @@ impl Header {
 
     fn into_reading(self, values: Vec<f64>) -> Result<Reading, TopographyError> {
         let even = |values, columns| Ok(Reading::even("NumPy array", values, columns, None, [None; 2]));
-        // A transposed array has exchanged axes, and with them rows and columns.
         let (points, fast, slow) = match (&self.shape[..], self.is_column_major) {
             (&[points], _) => return even(values, points),
             (&[points, 2], true) => (points, 1, points),
             (&[points, 2], false) => (points, 2, 1),
-            (&[columns, _], true) | (&[_, columns], false) => return even(values, columns),
+            (&[_, columns], false) => return even(values, columns),
+            (&[rows, columns], true) => {
+                let of_row = |row: usize| values.iter().skip(row).step_by(rows).copied();
+                let in_rows = gathered(values.len(), (0..rows).flat_map(of_row))?;
+                return even(in_rows, columns);
+            }
             (shape, _) => {
                 let fault = format!("an array with {} axes", shape.len());
                 return Err(refused(Place::Byte(10), fault, "1 or 2 axes"));
@@ -171,4 +175,38 @@ fn field_types(list: &str) -> Option<Vec<(&str, &str)>> {
             Some((quoted(name)?, quoted(of.trim_start())?))
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn array(descr: &str, is_column_major: bool, shape: &str, numbers: &[u8]) -> Vec<u8> {
+        let order = if is_column_major { "True" } else { "False" };
+        let header = format!("{{'descr': {descr}, 'fortran_order': {order}, 'shape': {shape}, }}\n");
+        [SIGNATURE, b"\x01\0", &(header.len() as u16).to_le_bytes(), header.as_bytes(), numbers].concat()
+    }
+
+    #[test]
+    fn both_orders_of_the_indices_hold_the_same_map_and_columns() {
+        let by_rows = array("'|u1'", false, "(2, 3)", &[1, 2, 3, 4, 5, 6]);
+        let by_columns = array("'|u1'", true, "(2, 3)", &[1, 4, 2, 5, 3, 6]);
+        let found = read(&by_columns).unwrap();
+        assert_eq!((found.columns, &found.heights[..]), (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..]));
+        assert_eq!(read(&by_rows).unwrap(), found);
+        assert_eq!(columns(&by_columns).unwrap(), columns(&by_rows).unwrap());
+        let profile = read(&array("'|u1'", true, "(3, 2)", &[1, 2, 3, 7, 8, 9])).unwrap();
+        assert_eq!((profile.positions, profile.heights), (Some(vec![1.0, 2.0, 3.0]), vec![7.0, 8.0, 9.0]));
+    }
+
+    #[test]
+    fn numbers_have_any_order_of_bytes_and_fields_of_points_are_positions_and_heights() {
+        // 1.0 and -2.0 of 16 bits.
+        for (descr, bytes) in [("'>f2'", [0x3c, 0, 0xc0, 0]), ("'<f2'", [0, 0x3c, 0, 0xc0])] {
+            assert_eq!(read(&array(descr, false, "(2,)", &bytes)).unwrap().heights, [1.0, -2.0]);
+        }
+        let pairs = array("[('x', '>i2'), ('z', '>i2')]", false, "(2,)", &[0, 1, 0, 7, 0, 2, 0, 8]);
+        let found = read(&pairs).unwrap();
+        assert_eq!((found.positions, found.heights), (Some(vec![1.0, 2.0]), vec![7.0, 8.0]));
+    }
 }

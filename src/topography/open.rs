@@ -1,6 +1,6 @@
 //! The format of a file, determined by its first bytes, and its reader.
 
-use super::bytes::{Archive, MOST_EXPANSION, ZIP, most_expanded};
+use super::bytes::{Archive, MOST_BYTES, MOST_EXPANSION, ZIP, most_expanded};
 use super::reading::{ReadOptions, Reading};
 use super::{Place, TopographyError, refused};
 use super::{Topography, container, gwy, netcdf, npy, sdf, sur, text, x3p};
@@ -9,24 +9,18 @@ use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Most bytes of a file.
-pub const MOST_BYTES: usize = 1 << 30;
-
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
-/// First bytes of the binary formats. All others but archives are text.
-const SIGNATURES: [(&[u8], BinaryReader); 9] = [
+/// First bytes of the binary formats. All others but SDF and archives are text.
+const SIGNATURES: [(&[u8], BinaryReader); 6] = [
     (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
     (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
     (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
     (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
     (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
-    (b"aISO-1.0", |bytes, _| sdf::read_text(bytes)),
-    (b"aBCR-1.0", |bytes, _| sdf::read_text(bytes)),
-    (b"bISO-1.0", |bytes, _| sdf::read_binary(bytes)),
 ];
 
 /// Reads a surface, or all measurements of a surface in a container, from a regular file of at most 1 GiB.
@@ -70,7 +64,7 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     }
     let mut archive = Archive::new(bytes)?;
     let [in_json, in_yaml] = container::INDICES;
-    let index = archive.first_of(&[x3p::INDEX, in_json, in_yaml]).ok_or_else(|| {
+    let index = archive.index(&[x3p::INDEX, in_json, in_yaml])?.ok_or_else(|| {
         let allowed = format!("{} of X3P, or {in_json} or {in_yaml} of a container", x3p::INDEX);
         refused(Place::File, "an archive without an index", allowed)
     })?;
@@ -99,7 +93,12 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
 fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
     let content = unpacked(bytes)?;
     if content.starts_with(ZIP) {
-        return x3p::read(Archive::new(&content)?);
+        let mut archive = Archive::new(&content)?;
+        archive.index(&[x3p::INDEX])?;
+        return x3p::read(archive);
+    }
+    if sdf::is_sdf(&content) {
+        return sdf::read(&content);
     }
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
     reader.map_or_else(|| text::read(&content), |(_, read)| read(&content, options))
@@ -137,7 +136,7 @@ pub(crate) fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topography::Unit;
+    use crate::topography::{Cut, Unit};
     use flate2::Compression;
     use flate2::write::GzEncoder;
     use std::fmt::Write as _;
@@ -164,7 +163,8 @@ mod tests {
     /// Options that suit a file without units and distances.
     fn bare(name: &str) -> ReadOptions {
         let unit = name.ends_with(".npy").then_some(Unit::METRE);
-        ReadOptions { unit, spacing: Some(0.5), interpolate: true, ..ReadOptions::default() }
+        let height_unit = (name == "points.nc").then_some(Unit::METRE);
+        ReadOptions { unit, height_unit, spacing: Some(0.5), interpolate: true, ..ReadOptions::default() }
     }
 
     #[test]
@@ -195,12 +195,21 @@ mod tests {
             (read("map.nc", b"", b"", &bare("")), read("map.nc", along_x, along_y, &bare("")));
         assert_eq!((turned.columns, straight.columns), (6, 6));
         assert_eq!((turned.heights[1], turned.heights[6]), (straight.heights[4], straight.heights[1]));
-        assert_eq!(read("map.npy", b"True, ", b"False,", &bare(".npy")).columns, 4);
+        // Each axis of a map, and its heights, have a unit of their own.
+        let before = b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0\0\0\0\0\x04unit\0\0\0\x02\0\0\0";
+        let (metre, nanometre) = ([&before[..], b"\x01m\0"].concat(), [&before[..], b"\x02nm"].concat());
+        let [along, between] = straight.spacing().unwrap();
+        let found = read("map.nc", &metre, &nanometre, &bare("")).spacing().unwrap();
+        assert_eq!((found[0] / along, (found[1] / between * 1e9).round()), (1.0, 1.0));
+        for (name, change) in [("map.nc", (&b"unit"[..], &b"note"[..])), ("points.nc", (b"", b""))] {
+            let error = parse(&file(name, change.0, change.1), &bare("")).unwrap_err().to_string();
+            assert!(error.starts_with("no unit of heights is stated"), "{name}: {error}");
+        }
         let chosen = ReadOptions { channel: Some(0), ..bare("") };
         assert_eq!(read("map.gwy", b"", b"", &chosen), read("map.gwy", b"", b"", &bare("")));
         let none = ReadOptions { channel: Some(4), ..bare("") };
         let error = parse(&file("map.gwy", b"", b""), &none).unwrap_err().to_string();
-        assert_eq!(error, "no channel 4; channels: 0; allowed: a channel of heights");
+        assert_eq!(error, "no channel 4; channels: 0 (m); allowed: a channel of heights");
     }
 
     #[test]
@@ -331,5 +340,29 @@ mod tests {
         let options = ReadOptions { interpolate: true, ..metres() };
         let surface = parse(text, &options).unwrap();
         assert_eq!((&surface.heights[..], surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
+    }
+
+    #[test]
+    fn empty_rows_and_columns_at_the_border_are_left_out_and_counted() {
+        let spaced = ReadOptions { spacing: Some(1.0), ..metres() };
+        let read = |text: &str, cut: Option<Cut>| {
+            parse(text.as_bytes(), &ReadOptions { cut, ..spaced.clone() }).map_err(|error| error.to_string())
+        };
+        let map = "nan nan nan nan nan\nnan 1 2 3 nan\nnan 4 5 6 nan\nnan nan nan nan nan\nnan nan nan nan nan\n";
+        let found = read(map, None).unwrap();
+        assert_eq!((found.columns, &found.heights[..]), (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..]));
+        assert_eq!((found.cropped.counts(), found.interpolated()), ([2, 3], 0));
+        // Rows, columns and points keep their numbers.
+        let (row, column) = (read(map, Some(Cut::Row(3))).unwrap(), read(map, Some(Cut::Column(2))).unwrap());
+        assert_eq!((row.heights, row.cropped.counts()), (vec![4.0, 5.0, 6.0], [2, 0]));
+        assert_eq!((column.heights, column.cropped.counts()), (vec![1.0, 4.0], [3, 0]));
+        assert_eq!(read(map, Some(Cut::Row(1))).unwrap_err(), "row 1; allowed: rows 2 to 3");
+        let error = read(&map.replace('5', "nan"), None).unwrap_err();
+        assert!(error.starts_with("point 13: 1 of 6 points are missing (16.67 %), the first here"), "{error}");
+        let profile = read("0 nan\n1 5\n2 6\n3 4\n4 nan\n", None).unwrap();
+        assert_eq!((profile.cropped.counts(), profile.into_profile()), ([2, 0], Ok((vec![1.0, 2.0, 3.0], vec![5.0, 6.0, 4.0]))));
+        // A single measured row is no profile.
+        let error = read("nan nan nan nan\n1 2 3 4\nnan nan nan nan\n", None).unwrap_err();
+        assert!(error.contains("8 of 12 points are missing"), "{error}");
     }
 }

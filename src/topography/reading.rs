@@ -1,11 +1,12 @@
 //! From the numbers of a file to heights in m: units, distances between points, missing points.
 
-use super::surface::{Cut, Grid, LARGEST, Topography};
+use super::surface::{Cropped, Cut, Grid, LARGEST, Topography};
 use super::{Place, TopographyError, refused};
 use super::{Unit, missing};
+use std::ops::Range;
 
 /// Most points of a surface: 2 GiB of heights.
-const MOST_POINTS: usize = 1 << 28;
+pub(super) const MOST_POINTS: usize = 1 << 28;
 
 /// Values of the user that a file may omit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,6 +49,8 @@ pub(super) struct Reading {
     pub spacing: Option<[f64; 2]>,
     /// Units of positions and of heights, if the file states them.
     pub units: [Option<Unit>; 2],
+    /// Unit of the distance between rows, which may differ from the unit along them.
+    pub unit_between: Option<Unit>,
     /// Place of the first missing point, if the reader knows a better one than its number.
     pub first_missing: Option<Place>,
 }
@@ -59,15 +62,28 @@ impl Reading {
         heights: Vec<f64>,
         columns: usize,
         spacing: Option<[f64; 2]>,
-        units: [Option<Unit>; 2],
+        [lateral, height]: [Option<Unit>; 2],
+    ) -> Reading {
+        Reading::on_axes(format, heights, columns, spacing, [lateral; 2], height)
+    }
+
+    /// The same with a unit of its own for the distances along and between rows.
+    pub fn on_axes(
+        format: &'static str,
+        heights: Vec<f64>,
+        mut columns: usize,
+        mut spacing: Option<[f64; 2]>,
+        [mut along, mut between]: [Option<Unit>; 2],
+        height: Option<Unit>,
     ) -> Reading {
         let rows = heights.len() / columns.max(1);
-        let (columns, spacing) = match spacing {
-            Some([along, _]) if rows == 1 => (columns, Some([along; 2])),
-            Some([_, between]) if columns == 1 => (rows, Some([between; 2])),
-            spacing => (if columns == 1 { rows } else { columns }, spacing),
-        };
-        Reading { format, heights, columns, positions: None, spacing, units, first_missing: None }
+        if rows == 1 {
+            (spacing, between) = (spacing.map(|[along, _]| [along; 2]), along);
+        } else if columns == 1 {
+            (columns, spacing, along) = (rows, spacing.map(|[_, between]| [between; 2]), between);
+        }
+        let (units, unit_between) = ([along, height], between);
+        Reading { format, heights, columns, positions: None, spacing, units, unit_between, first_missing: None }
     }
 
     /// Profile at positions in the order of the file: one scanned backwards is reversed.
@@ -85,10 +101,10 @@ impl Reading {
         Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
     }
 
-    /// Multiplies the heights by a scale; those of the value `missing` mark missing points.
-    pub fn scaled(mut self, missing: Option<f64>, scale: f64) -> Reading {
+    /// Multiplies the heights by a scale, but for those that mark missing points.
+    pub fn scaled(mut self, is_missing: impl Fn(f64) -> bool, scale: f64) -> Reading {
         for height in &mut self.heights {
-            *height = if Some(*height) == missing { f64::NAN } else { *height * scale };
+            *height = if is_missing(*height) { f64::NAN } else { *height * scale };
         }
         self
     }
@@ -102,11 +118,18 @@ impl Reading {
         let [lateral_unit, height_unit] = self.units;
         let height_option = options.height_unit.or(options.unit);
         let height_unit = unit("heights", height_unit, height_option, options.convention)?;
-        let missing = self.heights_in_metres(height_unit, options.interpolate)?;
-        let Reading { format, mut heights, columns, positions, spacing, .. } = self;
-        let unit = |name: &str| unit(name, lateral_unit, options.unit, options.convention);
+        self.heights.iter_mut().for_each(|height| *height = height_unit.to_metres(*height));
+        check_range("height", &self.heights, f64::is_finite)?;
+        let cropped = self.crop();
+        let missing = self.has_missing(&cropped, options.interpolate)?;
+        let Reading { format, mut heights, columns, positions, spacing, unit_between, .. } = self;
+        let unit =
+            |name: &str, stated: Option<Unit>| unit(name, stated, options.unit, options.convention);
         let even = |axis: usize| match (spacing, options.spacing) {
-            (Some(spacing), _) => check_spacing(unit("distances")?.to_metres(spacing[axis])),
+            (Some(spacing), _) => {
+                let unit = unit("distances", [lateral_unit, unit_between][axis])?;
+                check_spacing(unit.to_metres(spacing[axis]))
+            }
             (None, Some(spacing)) => check_spacing(spacing),
             (None, None) => {
                 let fault = format!("{format} without a distance between points");
@@ -116,7 +139,7 @@ impl Reading {
         };
         let grid = match positions {
             Some(mut positions) => {
-                let unit = unit("positions")?;
+                let unit = unit("positions", lateral_unit)?;
                 positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
                 check_positions(&positions)?;
                 Grid::Positions(positions)
@@ -134,25 +157,48 @@ impl Reading {
         let has_gaps = missing || outliers > 0;
         let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
         let surface = Topography::new(format, heights, columns, grid, interpolated)?;
-        Ok(Topography { aligned: options.align_rows, ..surface })
+        Ok(Topography { aligned: options.align_rows, cropped, ..surface })
     }
 
-    /// Converts heights to m. Returns true if some are missing.
-    fn heights_in_metres(&mut self, unit: Unit, interpolate: bool) -> Result<bool, TopographyError> {
-        let points = self.heights.len();
-        let first = self.heights.iter().position(|height| !height.is_finite());
-        if let (Some(first), false) = (first, interpolate) {
-            let missing = missing::count(&self.heights);
-            let share = 100.0 * missing as f64 / points as f64;
-            return Err(refused(
-                self.first_missing.take().unwrap_or(Place::Point(first + 1)),
-                format!("{missing} of {points} points are missing ({share:.2} %), the first here"),
-                "--interpolate, in a scene roughness.interpolate, which fills them from their neighbours",
-            ));
+    /// Leaves out the rows and columns without a measured point at the borders of a map, or the points at the ends of a profile.
+    fn crop(&mut self) -> Cropped {
+        let (columns, rows) = (self.columns, self.heights.len() / self.columns);
+        let [across, down] = missing::measured_part(&self.heights, columns);
+        // A map stays a map.
+        let is_map = |part: &Range<usize>, count: usize| part.len() >= count.min(2);
+        if across.len() * down.len() == self.heights.len() || !is_map(&across, columns) || !is_map(&down, rows) {
+            return Cropped::default();
         }
-        self.heights.iter_mut().for_each(|height| *height = unit.to_metres(*height));
-        check_range("height", &self.heights, f64::is_finite)?;
-        Ok(first.is_some())
+        let (mut index, mut place) = (0, 0);
+        self.heights.retain(|_| {
+            let is_inside = across.contains(&(index % columns)) && down.contains(&(index / columns));
+            index += 1;
+            is_inside
+        });
+        if let Some(positions) = &mut self.positions {
+            positions.retain(|_| {
+                place += 1;
+                across.contains(&(place - 1))
+            });
+        }
+        self.columns = across.len();
+        // A line of the file may be the line of a point that is left out.
+        self.first_missing = None;
+        Cropped { before: [across.start, down.start], after: [columns - across.end, rows - down.end] }
+    }
+
+    /// Returns true if points are missing, which are refused unless they are interpolated.
+    fn has_missing(&self, cropped: &Cropped, interpolate: bool) -> Result<bool, TopographyError> {
+        let first = self.heights.iter().position(|height| !height.is_finite());
+        let (Some(first), false) = (first, interpolate) else { return Ok(first.is_some()) };
+        let (missing, points) = (missing::count(&self.heights), self.heights.len());
+        let share = 100.0 * missing as f64 / points as f64;
+        let in_file = cropped.place_in_file(first, self.columns);
+        Err(refused(
+            self.first_missing.clone().unwrap_or(Place::Point(in_file + 1)),
+            format!("{missing} of {points} points are missing ({share:.2} %), the first here"),
+            "--interpolate, in a scene roughness.interpolate, which fills them from their neighbours",
+        ))
     }
 }
 

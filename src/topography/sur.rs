@@ -1,7 +1,7 @@
 //! Digital Surf SUR: a header of 512 bytes, comments, and integers, plain or compressed.
 
 use super::Unit;
-use super::bytes::{Bytes, Number, Order, most_expanded};
+use super::bytes::{Bytes, Number, Order, unpacked_size};
 use super::reading::Reading;
 use super::{Place, TopographyError, refused};
 use crate::io::read_limited;
@@ -60,12 +60,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     };
     let scale = if is_inverted { -scale } else { scale };
     let missing = has_missing.then_some(lowest - MISSING_BELOW);
-    // Distances in the unit of the rows; another unit between rows is rare, and converted.
-    let units = unit_along.zip(unit_between);
-    let between_factor = units.map_or(1.0, |(along, between)| between.to_metres(1.0) / along.to_metres(1.0));
-    let spacing = [along, between * between_factor];
-    let reading = Reading::even("SUR", heights, columns, Some(spacing), [unit_along, height_unit]);
-    Ok(reading.scaled(missing, scale))
+    let (spacing, axis_units) = (Some([along, between]), [unit_along, unit_between]);
+    let reading = Reading::on_axes("SUR", heights, columns, spacing, axis_units, height_unit);
+    Ok(reading.scaled(|height| Some(height) == missing, scale))
 }
 
 fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
@@ -89,13 +86,8 @@ fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> 
 
 /// Decompresses heights: a table of the sizes of the parts before and after, then the parts.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, TopographyError> {
-    let expected = points.saturating_mul(number.size());
-    let most = most_expanded(data.left());
     let place = data.place();
-    if expected > most {
-        let fault = format!("{expected} bytes of heights");
-        return Err(refused(place, fault, format!("at most 32 times the compressed size and 1 MiB, {most}")));
-    }
+    let expected = unpacked_size(points, number, place.clone())?;
     let parts = data.size(Number::U32)?;
     if parts > MOST_PARTS {
         return Err(refused(place, format!("{parts} compressed parts"), format!("at most {MOST_PARTS}")));

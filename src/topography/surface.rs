@@ -37,6 +37,27 @@ pub(super) enum Grid {
     Even([f64; 2]),
 }
 
+/// Numbers of columns and of rows without a measured point that are left out at the borders of a map, before and after its
+/// measured part. Of a profile they are points at its ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cropped {
+    pub(super) before: [usize; 2],
+    pub(super) after: [usize; 2],
+}
+
+impl Cropped {
+    /// Numbers of columns and of rows left out in all.
+    pub fn counts(&self) -> [usize; 2] {
+        [0, 1].map(|axis| self.before[axis] + self.after[axis])
+    }
+
+    /// Place in the file of a point that is left, in rows of `columns` points.
+    pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
+        let (row, column) = (index / columns + self.before[1], index % columns + self.before[0]);
+        row * (columns + self.counts()[0]) + column
+    }
+}
+
 /// Measured heights of a profile or a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topography {
@@ -47,6 +68,8 @@ pub struct Topography {
     /// Points of a row; all points of a profile.
     pub columns: usize,
     pub(super) grid: Grid,
+    /// Parts of the file that are left out, since they are empty.
+    pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
     /// True if the rows were levelled one by one.
@@ -83,6 +106,7 @@ impl Topography {
                 heights,
                 columns,
                 grid,
+                cropped: Cropped::default(),
                 interpolated,
                 aligned,
                 name,
@@ -145,13 +169,16 @@ impl Topography {
         let (Grid::Even([along, between]), 2..) = (&self.grid, rows) else {
             return Err(refused(Place::File, "a profile, which has no rows and columns", "a map"));
         };
-        let (name, number, count) = match cut {
-            Cut::Row(number) => ("row", number, rows),
-            Cut::Column(number) => ("column", number, columns),
+        // Rows and columns are those of the file.
+        let [first_column, first_row] = self.cropped.before;
+        let (name, number, first, count) = match cut {
+            Cut::Row(number) => ("row", number, first_row, rows),
+            Cut::Column(number) => ("column", number, first_column, columns),
         };
-        let index = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
+        let index = usize::try_from(number).ok().and_then(|number| number.checked_sub(1 + first));
         let Some(index) = index.filter(|index| *index < count) else {
-            return Err(refused(Place::File, format!("{name} {number}"), format!("{name}s 1 to {count}")));
+            let allowed = format!("{name}s {} to {}", first + 1, first + count);
+            return Err(refused(Place::File, format!("{name} {number}"), allowed));
         };
         let (first, step, points, spacing) = match cut {
             Cut::Row(_) => (index * columns, 1, columns, *along),
@@ -161,7 +188,10 @@ impl Topography {
             let offset = index.checked_sub(first).filter(|offset| offset % step == 0)?;
             Some(offset / step).filter(|place| *place < points)
         };
+        let axis = usize::from(matches!(cut, Cut::Column(_)));
+        let ends = |of: [usize; 2]| [of[axis], 0];
         Ok(Topography {
+            cropped: Cropped { before: ends(self.cropped.before), after: ends(self.cropped.after) },
             heights: gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?,
             columns: points,
             grid: Grid::Even([spacing; 2]),

@@ -1,10 +1,10 @@
 //! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths are in m.
 
 use super::Unit;
-use super::bytes::{Archive, Bytes, Number, Order};
+use super::bytes::{Archive, Bytes, Number, Order, unpacked_size};
 use super::reading::Reading;
 use super::{Place, TopographyError, refused, shown};
-use crate::io::into_text;
+use encoding_rs::{Encoding, UTF_8};
 use roxmltree::{Document, Node, ParsingOptions};
 
 const LONGEST_INDEX: usize = 1 << 26;
@@ -19,8 +19,9 @@ const TYPES: [(&str, Number); 4] =
     [("I", Number::I16), ("L", Number::I32), ("F", Number::F32), ("D", Number::F64)];
 
 pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, TopographyError> {
-    let index = into_text(archive.unpacked(INDEX, LONGEST_INDEX)?)
-        .map_err(|error| wrong(error.to_string(), "XML in UTF-8"))?;
+    let content = archive.unpacked(INDEX, LONGEST_INDEX)?;
+    // A byte order mark overrules the declaration.
+    let (index, ..) = declared_encoding(&content).unwrap_or(UTF_8).decode(&content);
     check_index(&index)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&index, options)
@@ -47,6 +48,13 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, TopographyError>
     heights.iter_mut().for_each(|height| *height = *height * scale + offset);
     let spacing = along.zip(between).map(|(along, between)| [along, between]);
     Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 2]))
+}
+
+/// Encoding that the declaration of XML states, in a file of one of the encodings that contain ASCII.
+fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
+    let declaration = content.strip_prefix(b"<?xml")?.split(|byte| *byte == b'>').next()?;
+    let (_, rest) = str::from_utf8(declaration).ok()?.split_once("encoding")?;
+    Encoding::for_label(rest.trim_start().strip_prefix('=')?.split(['"', '\'']).nth(1)?.as_bytes())
 }
 
 /// Refuses an index that takes the parser much more time or memory than its length.
@@ -79,11 +87,11 @@ fn linked(
     let Some((_, number)) = TYPES.into_iter().find(|(letter, _)| *letter == kind) else {
         return Err(wrong(format!("heights of type {:?}", shown(kind)), "I, L, F or D"));
     };
-    let mut read = |name: &str, bytes: usize, allowed: String| match archive.unpacked(name, bytes)? {
+    let mut read = |name: &str, bytes: usize, allowed: String| match archive.unpacked_up_to(name, bytes)? {
         content if content.len() == bytes => Ok(content),
         content => Err(refused(Place::Part(name.to_owned()), format!("{} bytes", content.len()), allowed)),
     };
-    let expected = points.saturating_mul(number.size());
+    let expected = unpacked_size(points, number, Place::Part(INDEX.to_owned()))?;
     let content = read(link, expected, format!("{expected} bytes for {points} points"))?;
     let mut heights = Bytes::new(&content, Order::Little).numbers(points, number)?;
     if let Some(link) = find(root, "ValidPointsLink") {
@@ -130,8 +138,9 @@ fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
     find(node, name).map_or("", trimmed)
 }
 
+/// Returns the number of an element; `None` without the element or its content.
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, TopographyError> {
-    let Some(text) = find(axis, name).map(trimmed) else { return Ok(None) };
+    let Some(text) = find(axis, name).map(trimmed).filter(|text| !text.is_empty()) else { return Ok(None) };
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shown(text));
     number.map(Some).ok_or_else(|| wrong(fault(), "a number"))
@@ -159,10 +168,67 @@ mod tests {
         <ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink></Record3></p:ISO5436_2>";
 
     fn with(main: &str) -> Result<Reading, String> {
+        in_folders(main.as_bytes(), ["", ""])
+    }
+
+    /// The surface with an index in one folder, and its files in another one.
+    fn in_folders(main: &[u8], [folder, bindata]: [&str; 2]) -> Result<Reading, String> {
         let heights = [1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0];
-        let files: [(&str, &[u8]); 3] =
-            [(INDEX, main.as_bytes()), ("bindata/data.bin", &heights), ("bindata/valid.bin", &[0b10_1111])];
-        read(Archive::new(&archive(&files)).unwrap()).map_err(|error| error.to_string())
+        let name = |folder: &str, name: &str| format!("{folder}{name}");
+        let names = [name(folder, INDEX), name(bindata, "bindata/data.bin"), name(bindata, "bindata/valid.bin")];
+        let files = [(&*names[0], main), (&names[1], &heights[..]), (&names[2], &[0b10_1111])];
+        let bytes = archive(&files);
+        let mut archive = Archive::new(&bytes).unwrap();
+        archive.index(&[INDEX]).map_err(|error| error.to_string())?;
+        read(archive).map_err(|error| error.to_string())
+    }
+
+    fn same(one: &Reading, other: &Reading) -> bool {
+        let bits = |reading: &Reading| reading.heights.iter().map(|z| z.to_bits()).collect::<Vec<_>>();
+        bits(one) == bits(other) && (one.columns, one.spacing) == (other.columns, other.spacing)
+    }
+
+    #[test]
+    fn archives_and_indices_of_other_programs_are_read() {
+        let plain = with(MAIN).unwrap();
+        let backslashes = MAIN.replace("bindata/", "bindata\\");
+        let empty = MAIN.replacen("<Offset>0</Offset>", "<Offset/>", 1);
+        for (main, folders) in [
+            (MAIN, ["sample/", "sample/"]),
+            (MAIN, ["./", ""]),
+            (MAIN, ["a/b/", "a\\b\\"]),
+            (&*backslashes, ["", ""]),
+            (&*empty, ["", ""]),
+        ] {
+            assert!(same(&in_folders(main.as_bytes(), folders).unwrap(), &plain), "{folders:?}");
+        }
+        let (head, rest) = MAIN.split_once("<Record1>").unwrap();
+        let head = head.replacen("UTF-8", "ISO-8859-1", 1);
+        let in_latin = [head.as_bytes(), b"<!-- 5 \xb5m --><Record1>", rest.as_bytes()].concat();
+        assert!(same(&in_folders(&in_latin, ["", ""]).unwrap(), &plain));
+        let in_utf_16: Vec<u8> = format!("\u{feff}{MAIN}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        assert!(same(&in_folders(&in_utf_16, ["", ""]).unwrap(), &plain));
+        // The scale of heights that is not stated is 1, the distance between points is asked for.
+        let no_scale = with(&MAIN.replacen("<Increment>1e-9</Increment>", "<Increment/>", 1)).unwrap();
+        assert_eq!(no_scale.heights[0], 1.0 + 5e-9);
+        assert_eq!(with(&MAIN.replacen("<Increment>1e-6", "<Increment>", 1)).unwrap().spacing, None);
+    }
+
+    #[test]
+    fn heights_may_be_compressed_to_any_size() {
+        let (columns, rows) = (2000, 500);
+        let main = MAIN.replacen("<SizeX>3", &format!("<SizeX>{columns}"), 1);
+        let main = main.replacen("<SizeY>2", &format!("<SizeY>{rows}"), 1).replacen("<DataType>I", "<DataType>D", 1);
+        let (before, rest) = main.split_once("<ValidPointsLink>").unwrap();
+        let main = format!("{before}{}", rest.split_once("</ValidPointsLink>").unwrap().1);
+        let heights = vec![0; 8 * columns * rows];
+        let bytes = archive(&[(INDEX, main.as_bytes()), ("bindata/data.bin", &heights)]);
+        assert!(heights.len() > 500 * bytes.len(), "{}", bytes.len());
+        assert_eq!(read(Archive::new(&bytes).unwrap()).unwrap().heights.len(), columns * rows);
+        let longer = [&heights[..], &[0]].concat();
+        let bytes = archive(&[(INDEX, main.as_bytes()), ("bindata/data.bin", &longer)]);
+        let error = read(Archive::new(&bytes).unwrap()).unwrap_err().to_string();
+        assert!(error.starts_with("bindata/data.bin: cannot be unpacked (longer than 8000000 bytes"), "{error}");
     }
 
     #[test]
@@ -186,7 +252,7 @@ mod tests {
         for (from, to, expected) in [
             ("<SizeX>3", "<SizeX>0", "main.xml: SizeX = \"0\"; allowed: a whole number above 0"),
             ("<SizeX>3", "<SizeX>4", "bindata/data.bin: 12 bytes; allowed: 16 bytes for 8 points"),
-            ("<SizeX>3", "<SizeX>99999999999", "bindata/data.bin: 12 bytes; allowed: "),
+            ("<SizeX>3", "<SizeX>99999999999", "main.xml: 199999999998 compressed heights of 2 bytes; allowed: "),
             ("<CX><AxisType>I", "<CX><AxisType>A", "main.xml: the axis CX is of type \"A\""),
             ("<DataType>I", "<DataType>X", "main.xml: heights of type \"X\"; allowed: I, L, F or D"),
             ("bindata/data.bin", "data", "no file data in the archive"),
