@@ -10,6 +10,7 @@ mod ensemble;
 mod fit;
 mod loop_chart;
 mod map;
+mod measured_face;
 mod parameters;
 mod preloads;
 mod provenance;
@@ -39,6 +40,7 @@ pub(crate) use fit::FitReport;
 pub(crate) use loop_chart::{
     ForceLoop, LoopQuantities, LoopUnits, force_figure, force_panels, loop_chart, sign,
 };
+pub(crate) use measured_face::{MeasuredFace, SurfaceFile};
 pub(crate) use parameters::parameter_lines;
 pub(crate) use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 pub(crate) use provenance::{check_measured_files, files_provenance, named_from};
@@ -49,5 +51,5 @@ pub(crate) use sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, 
 pub(crate) use spectrum_figure::Spectra;
 pub(crate) use study_figure::{study_curves, study_figure, study_map};
 pub(crate) use summary::brief_summary;
-pub(crate) use surface::{MeasuredFace, SurfaceFile, SurfaceReport, measured_adhesion_text};
+pub(crate) use surface::{SurfaceReport, measured_adhesion_text};
 pub(crate) use work_precision::work_precision;

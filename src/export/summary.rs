@@ -1,7 +1,7 @@
 //! Summary of a computed scene for a reader.
 
+use super::measured_face::steep;
 use super::sheet::Sheet;
-use super::surface::steep;
 use crate::accuracy::{Choice, Estimate};
 use crate::analysis::{
     INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,

@@ -1,5 +1,6 @@
 //! Analysed surfaces: text for readers, JSON, and their spectra as a table and as a figure.
 
+use super::measured_face::{MeasuredFace, SurfaceFile};
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
@@ -9,72 +10,14 @@ use crate::scene::{CheckedScene, Move, Scene, format_quantity, format_range};
 use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
 use crate::study::MeasuredAdhesion;
 use crate::surface::EquivalentLine;
-use crate::text::{grouped, path_name, per_cent, printable};
-use crate::topography::Topography;
+use crate::text::{grouped, path_name, per_cent};
 use serde::Serialize;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const LINE_PER_DECADE: f64 = 10.0;
 
-/// Share of the squared height in long waves above which it depends on the length of the scan.
-const MANY_LONG_WAVES: f64 = 0.3;
-
-/// Number of profiles from which on the moments are as accurate as those of a map.
-const MANY_PROFILES: u64 = 100;
-
-/// Least and largest factor by which adhesion near its boundary varies between single profiles, as `docs/surfaces.md` states.
-const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
-
-/// Rms gradient above which slopes are not small, and least ratio of the rms heights of two samples of one roughness: beyond both,
-/// a wrong unit is likely.
-const LARGEST_GRADIENT: f64 = 1.0;
-const FAR_APART: f64 = 30.0;
-
 const LINE: &str = "equivalent line";
-
-/// A surface and its file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SurfaceFile {
-    pub path: PathBuf,
-    /// Name of the measurement in a container; empty for a file of its own.
-    pub name: String,
-    pub format: &'static str,
-    /// Points of a row, and number of rows.
-    pub points: [usize; 2],
-    /// Lengths along and between rows, m; only the first one for a profile.
-    pub lengths: [f64; 2],
-    /// Columns and rows without measured points that are left out at the borders; points at the ends of a profile.
-    pub cropped: [usize; 2],
-    pub interpolated: usize,
-}
-
-impl SurfaceFile {
-    /// Facts of a surface with evenly spaced points; lengths of others are 0.
-    pub fn new(path: PathBuf, surface: &Topography) -> Self {
-        let points = [surface.columns, surface.rows()];
-        let spacing = surface.spacing().unwrap_or_default();
-        let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
-        let (name, interpolated) = (surface.name.clone(), surface.interpolated());
-        let cropped = surface.cropped.counts();
-        SurfaceFile { path, name, format: surface.format, points, lengths, cropped, interpolated }
-    }
-
-    /// Name of the file, and of the measurement in a container.
-    fn name(&self) -> String {
-        let name =
-            if self.name.is_empty() { String::new() } else { format!(" {:?}", printable(&self.name)) };
-        path_name(&self.path) + &name
-    }
-}
-
-/// Surfaces of one face: files that are samples of the same roughness, and their analysis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MeasuredFace {
-    pub files: Vec<SurfaceFile>,
-    /// Common analysis of the files.
-    pub analysis: Analysis,
-}
 
 /// Median, quartiles and range of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
@@ -104,7 +47,7 @@ impl Report for SurfaceReport {
         let mut sheet = Sheet::default();
         for (number, MeasuredFace { files, analysis }) in self.faces.iter().enumerate() {
             sheet.heading(if number == 0 { "Measured surface" } else { "Opposite face" });
-            files.iter().for_each(|file| sheet.row("file", describe(file)));
+            files.iter().for_each(|file| sheet.row("file", file.describe()));
             measured(&mut sheet, analysis);
             sheet.heading("Self-affine fit");
             self_affine(&mut sheet, analysis);
@@ -132,7 +75,7 @@ impl Report for SurfaceReport {
         let warnings = self.faces.iter().enumerate().flat_map(|(number, face)| {
             let of_face =
                 move |warning| if number == 0 { warning } else { format!("opposite face: {warning}") };
-            warnings(face).into_iter().map(of_face)
+            face.warnings().into_iter().map(of_face)
         });
         let warnings: Vec<String> = warnings.collect();
         if !warnings.is_empty() {
@@ -254,33 +197,6 @@ fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.row("roll-off wavelength", wavelength.unwrap_or_else(|| "none found inside the scan".to_owned()));
 }
 
-fn describe(file: &SurfaceFile) -> String {
-    let [columns, rows] = file.points;
-    let length = |axis: usize| format_quantity(file.lengths[axis], "m");
-    let shape = if rows > 1 {
-        let (columns, rows) = (grouped(columns as u64), grouped(rows as u64));
-        format!("map of {columns} × {rows} points, {} × {}", length(0), length(1))
-    } else {
-        format!("profile of {} points, {}", grouped(columns as u64), length(0))
-    };
-    let interpolated = match file.interpolated {
-        0 => String::new(),
-        some => format!(", {:.2} % interpolated", 100.0 * some as f64 / (columns * rows) as f64),
-    };
-    let counted = |(count, name): (usize, &str)| match count {
-        0 => None,
-        1 => Some(format!("1 {name}")),
-        _ => Some(format!("{count} {name}s")),
-    };
-    let names = if rows > 1 { ["column", "row"] } else { ["point", ""] };
-    let parts: Vec<String> = file.cropped.into_iter().zip(names).filter_map(counted).collect();
-    let cropped = match &parts[..] {
-        [] => String::new(),
-        parts => format!(", {} without measured points left out at the border", parts.join(" and ")),
-    };
-    format!("{} ({}): {shape}{cropped}{interpolated}", file.name(), file.format)
-}
-
 fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     let statistics = &analysis.statistics;
     sheet.quantity("rms height Rq, Sq", statistics.rms_height, "m");
@@ -310,90 +226,6 @@ fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
         rows.push([label, value, statistical, method, missing]);
     }
     sheet.table(&rows);
-}
-
-/// Warning of an rms gradient that is not small.
-pub(super) fn steep(rms_gradient: f64) -> Option<String> {
-    (rms_gradient > LARGEST_GRADIENT).then(|| {
-        format!(
-            "the rms gradient {} is above {LARGEST_GRADIENT}, where the theory of small slopes does not hold: is the unit of \
-             positions or of heights wrong? --unit and --height-unit, in a scene roughness.unit and roughness.height_unit, \
-             state them",
-            format_quantity(rms_gradient, "1")
-        )
-    })
-}
-
-/// Warning of files whose rms heights are far apart, although they are samples of one roughness.
-fn far_apart(MeasuredFace { files, analysis }: &MeasuredFace) -> Option<String> {
-    let heights = || analysis.rms_heights.iter().zip(files);
-    let (least, flat) = heights().min_by(|one, other| one.0.total_cmp(other.0))?;
-    let (most, rough) = heights().max_by(|one, other| one.0.total_cmp(other.0))?;
-    (most / least > FAR_APART).then(|| {
-        format!(
-            "the rms heights of {} ({}) and {} ({}) are {}-fold apart: is the unit of one of them wrong, or are they no samples \
-             of the same roughness?",
-            flat.name(),
-            format_quantity(*least, "m"),
-            rough.name(),
-            format_quantity(*most, "m"),
-            format_quantity(most / least, "1"),
-        )
-    })
-}
-
-/// Limits of an analysis that affect the user.
-fn warnings(face: &MeasuredFace) -> Vec<String> {
-    let analysis = &face.analysis;
-    let mut warnings: Vec<String> =
-        [steep(analysis.line.rms_gradient.value), far_apart(face)].into_iter().flatten().collect();
-    if let Some(distance) = analysis.displaced {
-        warnings.push(format!(
-            "odd rows are displaced by {} along even ones, as trace and retrace are: the gradient is too large; give the rows \
-             of one direction",
-            format_quantity(distance, "m")
-        ));
-    }
-    let long = analysis.long_wave_share();
-    if long > MANY_LONG_WAVES {
-        warnings.push(format!(
-            "waves longer than a quarter of the scan carry {:.0} % of the squared height: rms height and elastic \
-             energy depend on the length of the scan",
-            100.0 * long
-        ));
-    }
-    if analysis.maps == 0 && analysis.profiles < MANY_PROFILES {
-        let [low, high] = BOUNDARY_FACTORS;
-        warnings.push(format!(
-            "from few profiles adhesion near its boundary is uncertain by a factor from {low} to {high}, up or down; \
-             {MANY_PROFILES} profiles or a map are better"
-        ));
-    }
-    if analysis.end == End::Ends && !analysis.ends_inside {
-        warnings.push(
-            "the spectrum does not end inside the scan: shorter waves may be missing, and in samples of points add \
-             to the longer ones; --continue-to, in a scene roughness.continue_to, continues it as a power law"
-                .to_owned(),
-        );
-    }
-    if analysis.offsets {
-        warnings.push(
-            "rows or columns are offset against each other, or were levelled one by one: waves along that axis \
-             alone are left out of the fit"
-                .to_owned(),
-        );
-    }
-    if analysis.apart > 0.0 {
-        warnings.push(format!(
-            "waves along one axis differ from their neighbours by {:.0} % of the squared gradient: rows or columns \
-             are offset against each other, or the surface has a lay; level the rows before, or choose one by --row",
-            100.0 * analysis.apart
-        ));
-    }
-    if let Some(cutoff) = analysis.reliability_cutoff {
-        warnings.push(format!("waves below {cutoff:.3e} m may be artefacts of the tip"));
-    }
-    warnings
 }
 
 fn with_error(estimate: Estimate, unit: &str) -> String {
@@ -452,19 +284,7 @@ fn face_json<'a>(
         "spectrum": analysis.isotropic.nodes().map(node).collect::<Vec<_>>(),
         "profile_spectra": analysis.spectra.iter().map(spectrum).collect::<Vec<_>>(),
         "ends_inside_scan": analysis.ends_inside,
-        "warnings": warnings(face),
+        "warnings": face.warnings(),
         "opposite"?: opposite,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn warnings_promise_what_the_documentation_states() {
-        let [low, high] = BOUNDARY_FACTORS;
-        let stated = format!("by a factor from {low} to {high} either way");
-        assert!(include_str!("../../docs/surfaces.md").contains(&stated), "{stated}");
     }
 }

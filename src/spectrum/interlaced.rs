@@ -69,7 +69,8 @@ mod tests {
         // Noise, and rows at two levels in turn.
         let noise: Vec<f64> = (0..64 * 48_u32).map(|i| f64::from(i * i % 8191)).collect();
         assert_eq!(displacement(&noise, 64), None);
-        let levels: Vec<f64> = rows(|_| 0.0).iter().enumerate().map(|(i, z)| z + 5.0 * parity(i / 64)).collect();
+        let levels: Vec<f64> =
+            rows(|_| 0.0).iter().enumerate().map(|(i, z)| z + 5.0 * parity(i / 64)).collect();
         assert_eq!(displacement(&levels, 64), None);
     }
 }

@@ -38,7 +38,7 @@ impl FormTable {
         let convention = Some(Unit::METRE);
         let options = ReadOptions { unit, convention, interpolate: true, ..ReadOptions::default() };
         let surface = parse(&content(path)?, &options)?;
-        if let Some(row) = surface.interpolated.first() {
+        if let Some(row) = surface.first_missing() {
             return Err(refused(Place::Point(row + 1), "the depth is missing", "a number in each row"));
         }
         let (radii, depths) = surface.into_profile()?;

@@ -29,8 +29,7 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
     let is_length = |field: &Field| field.unit_z.parse::<Unit>().is_ok();
     let has_length = fields.iter().any(|(_, field)| is_length(field));
     let is_height = |field: &Field| if has_length { is_length(field) } else { field.unit_z.is_empty() };
-    let is_chosen =
-        |(number, field): &(u32, Field)| channel.map_or(is_height(field), |one| one == *number);
+    let is_chosen = |(number, field): &(u32, Field)| channel.map_or(is_height(field), |one| one == *number);
     let mut chosen: Vec<_> = fields.into_iter().filter(is_chosen).collect();
     let (fault, allowed) = match (chosen.pop(), chosen.is_empty(), channel) {
         (Some((number, field)), true, _) => return field.into_reading(number),
@@ -202,7 +201,10 @@ mod tests {
         for (units, expected) in [
             (&["deg", "V"][..], "no channel in a unit of length; channels: 0 (deg), 1 (V); allowed: "),
             (&["m", "nm"], "several channels of heights; all channels: 0 (m), 1 (nm); allowed: --channel"),
-            (&["", ""], "several channels of heights; all channels: 0 (no unit), 1 (no unit); allowed: --channel"),
+            (
+                &["", ""],
+                "several channels of heights; all channels: 0 (no unit), 1 (no unit); allowed: --channel",
+            ),
         ] {
             let error = height(units, Some("m")).unwrap_err();
             assert!(error.starts_with(expected), "{error}");

@@ -37,7 +37,11 @@ pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usi
         return Err(refused(Place::File, fault, format!("at least {:.0} %", 100.0 * LEAST_MEASURED)));
     }
     let places = gathered(missing, (0..heights.len()).filter(|index| !heights[*index].is_finite()))?;
-    if heights.len() > columns { fill(heights, columns, &places)? } else { fill_profile(heights) }
+    if heights.len() > columns {
+        fill(heights, columns, &places)?
+    } else {
+        fill_profile(heights)
+    }
     Ok(places)
 }
 
@@ -70,7 +74,8 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
     let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
     let block = |index: usize| {
         let (row, column) = (2 * (index / half_columns), 2 * (index % half_columns));
-        let points = (row..rows.min(row + 2)).flat_map(|y| (column..columns.min(column + 2)).map(move |x| (x, y)));
+        let points =
+            (row..rows.min(row + 2)).flat_map(|y| (column..columns.min(column + 2)).map(move |x| (x, y)));
         let known = points.map(|(x, y)| heights[y * columns + x]).filter(|height| height.is_finite());
         let (sum, count) = known.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
         // Not a number without any.
@@ -89,8 +94,12 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
     for _ in 0..PASSES {
         for &index in places {
             let (row, column) = (index / columns, index % columns);
-            let beside = [(column > 0, 1), (row > 0, columns)].into_iter().filter(|side| side.0).map(|side| index - side.1);
-            let behind = [(column + 1 < columns, 1), (row + 1 < rows, columns)].into_iter().filter(|side| side.0);
+            let beside = [(column > 0, 1), (row > 0, columns)]
+                .into_iter()
+                .filter(|side| side.0)
+                .map(|side| index - side.1);
+            let behind =
+                [(column + 1 < columns, 1), (row + 1 < rows, columns)].into_iter().filter(|side| side.0);
             let around = beside.chain(behind.map(|side| index + side.1)).map(|index| heights[index]);
             let (sum, count) = around.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
             heights[index] = sum / f64::from(count);

@@ -3,7 +3,7 @@
 //! [`read`] finds the format by the content, not by the name. Units are never guessed: if a file states none,
 //! [`ReadOptions`] has to. Every error names the place within the file and the allowed content. A file of n bytes
 //! takes at most 1 MiB + 64 n bytes of memory, n counted after decompression, and decompression ends at 1 MiB + 32
-//! bytes for each byte of the file.
+//! bytes for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
 
 mod bytes;
 mod container;

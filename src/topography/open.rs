@@ -196,7 +196,8 @@ mod tests {
         assert_eq!((turned.columns, straight.columns), (6, 6));
         assert_eq!((turned.heights[1], turned.heights[6]), (straight.heights[4], straight.heights[1]));
         // Each axis of a map, and its heights, have a unit of their own.
-        let before = b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0\0\0\0\0\x04unit\0\0\0\x02\0\0\0";
+        let before =
+            b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0\0\0\0\0\x04unit\0\0\0\x02\0\0\0";
         let (metre, nanometre) = ([&before[..], b"\x01m\0"].concat(), [&before[..], b"\x02nm"].concat());
         let [along, between] = straight.spacing().unwrap();
         let found = read("map.nc", &metre, &nanometre, &bare("")).spacing().unwrap();
@@ -348,7 +349,8 @@ mod tests {
         let read = |text: &str, cut: Option<Cut>| {
             parse(text.as_bytes(), &ReadOptions { cut, ..spaced.clone() }).map_err(|error| error.to_string())
         };
-        let map = "nan nan nan nan nan\nnan 1 2 3 nan\nnan 4 5 6 nan\nnan nan nan nan nan\nnan nan nan nan nan\n";
+        let map =
+            "nan nan nan nan nan\nnan 1 2 3 nan\nnan 4 5 6 nan\nnan nan nan nan nan\nnan nan nan nan nan\n";
         let found = read(map, None).unwrap();
         assert_eq!((found.columns, &found.heights[..]), (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..]));
         assert_eq!((found.cropped.counts(), found.interpolated()), ([2, 3], 0));
@@ -358,9 +360,15 @@ mod tests {
         assert_eq!((column.heights, column.cropped.counts()), (vec![1.0, 4.0], [3, 0]));
         assert_eq!(read(map, Some(Cut::Row(1))).unwrap_err(), "row 1; allowed: rows 2 to 3");
         let error = read(&map.replace('5', "nan"), None).unwrap_err();
-        assert!(error.starts_with("point 13: 1 of 6 points are missing (16.67 %), the first here"), "{error}");
+        assert!(
+            error.starts_with("point 13: 1 of 6 points are missing (16.67 %), the first here"),
+            "{error}"
+        );
         let profile = read("0 nan\n1 5\n2 6\n3 4\n4 nan\n", None).unwrap();
-        assert_eq!((profile.cropped.counts(), profile.into_profile()), ([2, 0], Ok((vec![1.0, 2.0, 3.0], vec![5.0, 6.0, 4.0]))));
+        assert_eq!(
+            (profile.cropped.counts(), profile.into_profile()),
+            ([2, 0], Ok((vec![1.0, 2.0, 3.0], vec![5.0, 6.0, 4.0])))
+        );
         // A single measured row is no profile.
         let error = read("nan nan nan nan\n1 2 3 4\nnan nan nan nan\n", None).unwrap_err();
         assert!(error.contains("8 of 12 points are missing"), "{error}");

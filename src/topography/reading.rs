@@ -83,7 +83,16 @@ impl Reading {
             (columns, spacing, along) = (rows, spacing.map(|[_, between]| [between; 2]), between);
         }
         let (units, unit_between) = ([along, height], between);
-        Reading { format, heights, columns, positions: None, spacing, units, unit_between, first_missing: None }
+        Reading {
+            format,
+            heights,
+            columns,
+            positions: None,
+            spacing,
+            units,
+            unit_between,
+            first_missing: None,
+        }
     }
 
     /// Profile at positions in the order of the file: one scanned backwards is reversed.
@@ -117,14 +126,14 @@ impl Reading {
         }
         let [lateral_unit, height_unit] = self.units;
         let height_option = options.height_unit.or(options.unit);
-        let height_unit = unit("heights", height_unit, height_option, options.convention)?;
+        let height_unit = unit("heights", height_unit, height_option, options.convention, lateral_unit)?;
         self.heights.iter_mut().for_each(|height| *height = height_unit.to_metres(*height));
         check_range("height", &self.heights, f64::is_finite)?;
         let cropped = self.crop();
         let missing = self.has_missing(&cropped, options.interpolate)?;
         let Reading { format, mut heights, columns, positions, spacing, unit_between, .. } = self;
         let unit =
-            |name: &str, stated: Option<Unit>| unit(name, stated, options.unit, options.convention);
+            |name: &str, stated: Option<Unit>| unit(name, stated, options.unit, options.convention, None);
         let even = |axis: usize| match (spacing, options.spacing) {
             (Some(spacing), _) => {
                 let unit = unit("distances", [lateral_unit, unit_between][axis])?;
@@ -166,7 +175,10 @@ impl Reading {
         let [across, down] = missing::measured_part(&self.heights, columns);
         // A map stays a map.
         let is_map = |part: &Range<usize>, count: usize| part.len() >= count.min(2);
-        if across.len() * down.len() == self.heights.len() || !is_map(&across, columns) || !is_map(&down, rows) {
+        if across.len() * down.len() == self.heights.len()
+            || !is_map(&across, columns)
+            || !is_map(&down, rows)
+        {
             return Cropped::default();
         }
         let (mut index, mut place) = (0, 0);
@@ -219,24 +231,33 @@ fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
     Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"))
 }
 
-/// Returns the unit of a quantity: stated by the file, else by the user, else by convention.
+/// Returns the unit of a quantity: stated by the file, else by the user, else by convention. `beside` is the unit that the
+/// file states of the positions alone.
 fn unit(
     name: &str,
     stated: Option<Unit>,
     option: Option<Unit>,
     convention: Option<Unit>,
+    beside: Option<Unit>,
 ) -> Result<Unit, TopographyError> {
     let (fault, allowed) = match (stated, option) {
         (Some(stated), Some(option)) if stated != option => (
             format!("the file states {stated} as the unit of {name}, the options state {option}"),
-            "the unit of the file, or none",
+            "the unit of the file, or none".to_owned(),
         ),
-        _ => match stated.or(option).or(convention) {
-            Some(unit) => return Ok(unit),
-            None => (
-                format!("no unit of {name} is stated"),
-                "a unit in the file or beside it: --unit um, in a scene roughness.unit",
-            ),
+        _ => match (stated.or(option).or(convention), beside) {
+            (Some(unit), _) => return Ok(unit),
+            (None, beside) => {
+                let (unit, options, fields) = match beside {
+                    Some(unit) => {
+                        (unit.name(), " or --height-unit nm", "roughness.unit or roughness.height_unit")
+                    }
+                    None => ("um", "", "roughness.unit"),
+                };
+                let allowed =
+                    format!("a unit in the file or beside it: --unit {unit}{options}, in a scene {fields}");
+                (format!("no unit of {name} is stated"), allowed)
+            }
         },
     };
     Err(refused(Place::File, fault, allowed))

@@ -77,7 +77,8 @@ fn data_type(
 ) -> Result<(Number, RangeInclusive<f64>), TopographyError> {
     let mut types = TYPES.into_iter().enumerate();
     let is_it = |place: usize, of: &str| name == place.to_string() || name.eq_ignore_ascii_case(of);
-    let Some((_, (_, number, [smallest, largest]))) = types.find(|(place, (of, ..))| is_it(*place, of)) else {
+    let Some((_, (_, number, [smallest, largest]))) = types.find(|(place, (of, ..))| is_it(*place, of))
+    else {
         return Err(refused(place, format!("DataType = {}", shown(name)), "from 0 to 7"));
     };
     // Real numbers are marked by the largest one of their type, or by one of few digits next to it.
@@ -308,7 +309,10 @@ mod tests {
     fn what_is_not_read_has_a_place() {
         let checked = binary("ISO-1.0", 7, &[0; 48]);
         for (content, expected) in [
-            (text("ISO-3.0", "5", ""), "byte 1: version \"ISO-3.0\" of SDF; allowed: BCR-1.0, ISO-1.0 and ISO-2.0"),
+            (
+                text("ISO-3.0", "5", ""),
+                "byte 1: version \"ISO-3.0\" of SDF; allowed: BCR-1.0, ISO-1.0 and ISO-2.0",
+            ),
             (text("BCR-1.0", "FLOATING", ""), "line 9: DataType = FLOATING; allowed: from 0 to 7"),
         ] {
             assert_eq!(found(content.as_bytes()).unwrap_err(), expected);

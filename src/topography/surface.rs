@@ -123,6 +123,13 @@ impl Topography {
         self.interpolated.len()
     }
 
+    /// Place of the first missing point of a profile in its file, counted from 0.
+    pub(crate) fn first_missing(&self) -> Option<usize> {
+        let Cropped { before: [before, _], after: [after, _] } = self.cropped;
+        let inside = self.interpolated.first().copied().or((after > 0).then_some(self.columns));
+        if before > 0 { Some(0) } else { inside }
+    }
+
     /// Copies the heights, m. With `quarters` above zero the points at this number of quarters of length and width from the
     /// interpolated ones are interpolated too. Their change is an estimate of the error of the first interpolation.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {

@@ -175,7 +175,8 @@ mod tests {
     fn in_folders(main: &[u8], [folder, bindata]: [&str; 2]) -> Result<Reading, String> {
         let heights = [1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0];
         let name = |folder: &str, name: &str| format!("{folder}{name}");
-        let names = [name(folder, INDEX), name(bindata, "bindata/data.bin"), name(bindata, "bindata/valid.bin")];
+        let names =
+            [name(folder, INDEX), name(bindata, "bindata/data.bin"), name(bindata, "bindata/valid.bin")];
         let files = [(&*names[0], main), (&names[1], &heights[..]), (&names[2], &[0b10_1111])];
         let bytes = archive(&files);
         let mut archive = Archive::new(&bytes).unwrap();
@@ -206,7 +207,8 @@ mod tests {
         let head = head.replacen("UTF-8", "ISO-8859-1", 1);
         let in_latin = [head.as_bytes(), b"<!-- 5 \xb5m --><Record1>", rest.as_bytes()].concat();
         assert!(same(&in_folders(&in_latin, ["", ""]).unwrap(), &plain));
-        let in_utf_16: Vec<u8> = format!("\u{feff}{MAIN}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let in_utf_16: Vec<u8> =
+            format!("\u{feff}{MAIN}").encode_utf16().flat_map(u16::to_le_bytes).collect();
         assert!(same(&in_folders(&in_utf_16, ["", ""]).unwrap(), &plain));
         // The scale of heights that is not stated is 1, the distance between points is asked for.
         let no_scale = with(&MAIN.replacen("<Increment>1e-9</Increment>", "<Increment/>", 1)).unwrap();
@@ -218,7 +220,8 @@ mod tests {
     fn heights_may_be_compressed_to_any_size() {
         let (columns, rows) = (2000, 500);
         let main = MAIN.replacen("<SizeX>3", &format!("<SizeX>{columns}"), 1);
-        let main = main.replacen("<SizeY>2", &format!("<SizeY>{rows}"), 1).replacen("<DataType>I", "<DataType>D", 1);
+        let main =
+            main.replacen("<SizeY>2", &format!("<SizeY>{rows}"), 1).replacen("<DataType>I", "<DataType>D", 1);
         let (before, rest) = main.split_once("<ValidPointsLink>").unwrap();
         let main = format!("{before}{}", rest.split_once("</ValidPointsLink>").unwrap().1);
         let heights = vec![0; 8 * columns * rows];
@@ -228,7 +231,10 @@ mod tests {
         let longer = [&heights[..], &[0]].concat();
         let bytes = archive(&[(INDEX, main.as_bytes()), ("bindata/data.bin", &longer)]);
         let error = read(Archive::new(&bytes).unwrap()).unwrap_err().to_string();
-        assert!(error.starts_with("bindata/data.bin: cannot be unpacked (longer than 8000000 bytes"), "{error}");
+        assert!(
+            error.starts_with("bindata/data.bin: cannot be unpacked (longer than 8000000 bytes"),
+            "{error}"
+        );
     }
 
     #[test]
@@ -252,7 +258,11 @@ mod tests {
         for (from, to, expected) in [
             ("<SizeX>3", "<SizeX>0", "main.xml: SizeX = \"0\"; allowed: a whole number above 0"),
             ("<SizeX>3", "<SizeX>4", "bindata/data.bin: 12 bytes; allowed: 16 bytes for 8 points"),
-            ("<SizeX>3", "<SizeX>99999999999", "main.xml: 199999999998 compressed heights of 2 bytes; allowed: "),
+            (
+                "<SizeX>3",
+                "<SizeX>99999999999",
+                "main.xml: 199999999998 compressed heights of 2 bytes; allowed: ",
+            ),
             ("<CX><AxisType>I", "<CX><AxisType>A", "main.xml: the axis CX is of type \"A\""),
             ("<DataType>I", "<DataType>X", "main.xml: heights of type \"X\"; allowed: I, L, F or D"),
             ("bindata/data.bin", "data", "no file data in the archive"),

@@ -1,0 +1,186 @@
+//! Surfaces of one face, samples of the same roughness: facts of their files, and warnings about their analysis.
+
+use crate::scene::format_quantity;
+use crate::spectrum::{Analysis, End};
+use crate::text::{grouped, path_name, printable};
+use crate::topography::Topography;
+use std::path::PathBuf;
+
+/// Share of the squared height in long waves above which it depends on the length of the scan.
+const MANY_LONG_WAVES: f64 = 0.3;
+
+/// Number of profiles from which on the moments are as accurate as those of a map.
+const MANY_PROFILES: u64 = 100;
+
+/// Least and largest factor by which adhesion near its boundary varies between single profiles, as `docs/surfaces.md` states.
+const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
+
+/// Rms gradient above which slopes are not small, and least ratio of the rms heights of two samples of one roughness: beyond both,
+/// a wrong unit is likely.
+const LARGEST_GRADIENT: f64 = 1.0;
+const FAR_APART: f64 = 30.0;
+
+/// A surface and its file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceFile {
+    pub path: PathBuf,
+    /// Name of the measurement in a container; empty for a file of its own.
+    pub name: String,
+    pub format: &'static str,
+    /// Points of a row, and number of rows.
+    pub points: [usize; 2],
+    /// Lengths along and between rows, m; only the first one for a profile.
+    pub lengths: [f64; 2],
+    /// Columns and rows without measured points that are left out at the borders; points at the ends of a profile.
+    pub cropped: [usize; 2],
+    pub interpolated: usize,
+}
+
+impl SurfaceFile {
+    /// Facts of a surface with evenly spaced points; lengths of others are 0.
+    pub fn new(path: PathBuf, surface: &Topography) -> Self {
+        let points = [surface.columns, surface.rows()];
+        let spacing = surface.spacing().unwrap_or_default();
+        let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
+        let (name, interpolated) = (surface.name.clone(), surface.interpolated());
+        let cropped = surface.cropped.counts();
+        SurfaceFile { path, name, format: surface.format, points, lengths, cropped, interpolated }
+    }
+
+    /// Name of the file, and of the measurement in a container.
+    fn name(&self) -> String {
+        let name = if self.name.is_empty() { String::new() } else { format!(" {:?}", printable(&self.name)) };
+        path_name(&self.path) + &name
+    }
+
+    /// Name, format, shape and sizes in words, with the points that are left out or interpolated.
+    pub fn describe(&self) -> String {
+        let [columns, rows] = self.points;
+        let length = |axis: usize| format_quantity(self.lengths[axis], "m");
+        let shape = if rows > 1 {
+            let (columns, rows) = (grouped(columns as u64), grouped(rows as u64));
+            format!("map of {columns} × {rows} points, {} × {}", length(0), length(1))
+        } else {
+            format!("profile of {} points, {}", grouped(columns as u64), length(0))
+        };
+        let interpolated = match self.interpolated {
+            0 => String::new(),
+            some => format!(", {:.2} % interpolated", 100.0 * some as f64 / (columns * rows) as f64),
+        };
+        let cropped = match self.cropped {
+            [0, 0] => String::new(),
+            [points, _] if rows == 1 => format!(", without {points} missing points at its ends"),
+            [columns, rows] => {
+                format!(", without {columns} empty columns and {rows} empty rows at its border")
+            }
+        };
+        format!("{} ({}): {shape}{cropped}{interpolated}", self.name(), self.format)
+    }
+}
+
+/// Surfaces of one face: files that are samples of the same roughness, and their analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredFace {
+    pub files: Vec<SurfaceFile>,
+    /// Common analysis of the files.
+    pub analysis: Analysis,
+}
+
+/// Warning of an rms gradient that is not small.
+pub(super) fn steep(rms_gradient: f64) -> Option<String> {
+    (rms_gradient > LARGEST_GRADIENT).then(|| {
+        format!(
+            "the rms gradient {} is above {LARGEST_GRADIENT}, where the theory of small slopes does not hold: is the unit of \
+             positions or of heights wrong? --unit and --height-unit, in a scene roughness.unit and roughness.height_unit, \
+             state them",
+            format_quantity(rms_gradient, "1")
+        )
+    })
+}
+
+impl MeasuredFace {
+    /// Warning of files whose rms heights are far apart, although they are samples of one roughness.
+    fn far_apart(&self) -> Option<String> {
+        let MeasuredFace { files, analysis } = self;
+        let heights = || analysis.rms_heights.iter().zip(files);
+        let (least, flat) = heights().min_by(|one, other| one.0.total_cmp(other.0))?;
+        let (most, rough) = heights().max_by(|one, other| one.0.total_cmp(other.0))?;
+        (most / least > FAR_APART).then(|| {
+            format!(
+                "the rms heights of {} ({}) and {} ({}) are {}-fold apart: is the unit of one of them wrong, or are they no samples \
+                 of the same roughness?",
+                flat.name(),
+                format_quantity(*least, "m"),
+                rough.name(),
+                format_quantity(*most, "m"),
+                format_quantity(most / least, "1"),
+            )
+        })
+    }
+
+    /// Limits of an analysis that affect the user.
+    pub fn warnings(&self) -> Vec<String> {
+        let analysis = &self.analysis;
+        let mut warnings: Vec<String> =
+            [steep(analysis.line.rms_gradient.value), self.far_apart()].into_iter().flatten().collect();
+        if let Some(distance) = analysis.displaced {
+            warnings.push(format!(
+                "odd rows are displaced by {} along even ones, as trace and retrace are: the gradient is too large; give the rows \
+                 of one direction",
+                format_quantity(distance, "m")
+            ));
+        }
+        let long = analysis.long_wave_share();
+        if long > MANY_LONG_WAVES {
+            warnings.push(format!(
+                "waves longer than a quarter of the scan carry {:.0} % of the squared height: rms height and elastic \
+                 energy depend on the length of the scan",
+                100.0 * long
+            ));
+        }
+        if analysis.maps == 0 && analysis.profiles < MANY_PROFILES {
+            let [low, high] = BOUNDARY_FACTORS;
+            warnings.push(format!(
+                "from few profiles adhesion near its boundary is uncertain by a factor from {low} to {high}, up or down; \
+                 {MANY_PROFILES} profiles or a map are better"
+            ));
+        }
+        if analysis.end == End::Ends && !analysis.ends_inside {
+            warnings.push(
+                "the spectrum does not end inside the scan: shorter waves may be missing, and in samples of points add \
+                 to the longer ones; --continue-to, in a scene roughness.continue_to, continues it as a power law"
+                    .to_owned(),
+            );
+        }
+        if analysis.offsets {
+            warnings.push(
+                "rows or columns are offset against each other, or were levelled one by one: waves along that axis \
+                 alone are left out of the fit"
+                    .to_owned(),
+            );
+        }
+        if analysis.apart > 0.0 {
+            warnings.push(format!(
+                "waves along one axis differ from their neighbours by {:.0} % of the squared gradient: rows or columns \
+                 are offset against each other, or the surface has a lay; level the rows before, or choose one by --row",
+                100.0 * analysis.apart
+            ));
+        }
+        if let Some(cutoff) = analysis.reliability_cutoff {
+            warnings.push(format!("waves below {cutoff:.3e} m may be artefacts of the tip"));
+        }
+        warnings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_promise_what_the_documentation_states() {
+        let [low, high] = BOUNDARY_FACTORS;
+        let stated = format!("by a factor from {low} to {high} either way");
+        assert!(include_str!("../../docs/surfaces.md").contains(&stated), "{stated}");
+    }
+}
