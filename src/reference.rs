@@ -71,22 +71,25 @@ pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) ->
     (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
 }
 
-/// Adhesion force, N, of a smooth body of a form (`None`: flat) and apparent diameter `length` m: the
-/// closed form of its shape, at most that of a flat face of its length.
-pub fn smooth_adhesion_force(form: Option<&Form>, length: f64, effective_modulus: f64, work: f64) -> f64 {
+/// Adhesion force in closed form, N, of a smooth body of a form (`None`: flat) and apparent diameter `length` m after a
+/// preload, N, under works of adhesion on closing and on opening, J/m². `None` where there is none: for waves and tables, for
+/// a body whose contact at pull-off is longer than the profile, and for a preload that does not press it beyond that contact.
+pub fn smooth_adhesion_force(
+    form: Option<&Form>,
+    length: f64,
+    effective_modulus: f64,
+    [closing, work]: [f64; 2],
+    preload: f64,
+) -> Option<f64> {
     let flat = ideal_adhesion_force(work, effective_modulus, length);
-    // With waves the adhesion force depends on the preload: uses the form without them.
-    let Some(form) = form.map(|form| form.without_waves()) else { return flat };
-    let of_shape = match form.flat_end() {
-        Some(radius) => Some(flat_punch(radius, effective_modulus, work)),
-        None => match form.table() {
-            Some(table) => table.adhesion_force(0.5 * length, effective_modulus, work),
-            None => {
-                PowerLaw::of(&form, effective_modulus, work).map(|body| -body.force_controlled_pull_off().1)
-            }
-        },
-    };
-    of_shape.map_or(flat, |force| force.min(flat))
+    let Some(form) = form else { return Some(flat) };
+    if let Some(radius) = form.flat_end() {
+        return Some(flat_punch(radius, effective_modulus, work).min(flat));
+    }
+    let body = PowerLaw::of(form, effective_modulus, work)?;
+    let (radius, force) = body.force_controlled_pull_off();
+    let pressed = PowerLaw { work_of_adhesion: closing, ..body }.force(radius);
+    Some(-force).filter(|_| radius <= 0.5 * length && pressed <= preload)
 }
 
 #[cfg(test)]

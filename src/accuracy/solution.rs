@@ -223,8 +223,8 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let pulled = &legs[Branch::last_unloading(legs)?.stages];
     let passes = pulled.first()?.start() >= pull_off && pulled.last()?.end_in_contact().is_none();
     // Lengths are sums with rounding errors.
-    (passes && longest_contact(outcome) <= widest * (1.0 + 1e-9))
-        .then(|| smooth_adhesion_force(form, length, modulus, work))
+    let is_inside = longest_contact(outcome) <= widest * (1.0 + 1e-9);
+    smooth_adhesion_force(form, length, modulus, [work; 2], f64::INFINITY).filter(|_| passes && is_inside)
 }
 
 /// Indentations at which the forces of a loading stage are compared.

@@ -81,8 +81,7 @@ pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     let end = Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
     let separates = |leg: &LegRecord| leg.direction == Direction::Unloading && leg.end_in_contact().is_none();
     let start = legs[..end].iter().rposition(separates).map_or(0, |stage| stage + 1);
-    let largest =
-        touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
+    let largest = touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
     // Of equal forces the last one, as on one stage.
     largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
 }
@@ -143,10 +142,12 @@ mod tests {
     #[test]
     fn the_preload_is_the_largest_force_since_the_last_separation() {
         let cycle = |most: f64| [leg(0.0, most, [0, 5]), leg(most, -1.0, [5, 0])];
-        let preload = |legs: &[&[LegRecord]]| preload_point(&legs.concat()).map(|(stage, at)| (stage, at.force));
+        let preload =
+            |legs: &[&[LegRecord]]| preload_point(&legs.concat()).map(|(stage, at)| (stage, at.force));
         assert_eq!(preload(&[&cycle(7.0), &cycle(3.0)]), Some((2, 3.0)));
         assert_eq!(preload(&[&cycle(7.0), &cycle(3.0)[..1]]), Some((0, 7.0)), "before the last unloading");
-        let minor = [leg(0.0, 7.0, [0, 5]), leg(7.0, 1.0, [5, 2]), leg(1.0, 3.0, [2, 3]), leg(3.0, -1.0, [3, 0])];
+        let minor =
+            [leg(0.0, 7.0, [0, 5]), leg(7.0, 1.0, [5, 2]), leg(1.0, 3.0, [2, 3]), leg(3.0, -1.0, [3, 0])];
         assert_eq!(preload(&[&minor]), Some((0, 7.0)), "a minor loop does not separate");
         assert_eq!(preload(&[&cycle(7.0)[1..]]), None);
     }

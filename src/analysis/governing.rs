@@ -188,7 +188,8 @@ impl SteepWaves {
         let stretch = governing.adhesive_work()? / governing.effective_modulus;
         let ratio = wavelength.powi(2) / (amplitude * radius);
         let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);
-        (ratio < Self::LEAST_RATIO).then_some(SteepWaves { ratio, jkr_factor })
+        // Without a finite factor there is next to no adhesion.
+        (ratio < Self::LEAST_RATIO && jkr_factor.is_finite()).then_some(SteepWaves { ratio, jkr_factor })
     }
 }
 

@@ -4,7 +4,7 @@
 //! d + F(d)/k reaches D; while D falls, the largest d at which the running minimum reaches D. Where d + F(d)/k turns
 //! back, dF/dd < −k, the body jumps at a fixed D to the next d at which the instrument can hold it.
 
-use super::branches::pull_off_point;
+use super::branches::{Branch, pull_off_point};
 use super::figures::Figures;
 use crate::contact::{CurvePoint, Direction, History, LegRecord};
 
@@ -29,7 +29,6 @@ pub struct DisplacementCurve {
     sign: f64,
     /// True for a body that is separated before the first and after the last point.
     free: [bool; 2],
-    lost_energy: f64,
 }
 
 impl DisplacementCurve {
@@ -40,8 +39,6 @@ impl DisplacementCurve {
     pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
         let sign = sign_of(direction);
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
-        // ∫ |D − d − F/k| dd over the jumps, m².
-        let mut area = 0.0;
         let mut last: Option<DisplacementPoint> = None;
         for point in curve {
             let CurvePoint { indentation, force, .. } = *point;
@@ -51,23 +48,18 @@ impl DisplacementCurve {
                 continue;
             };
             let behind = [from, next].map(|one| sign * (reached.displacement - one.displacement));
-            let width = (next.indentation - from.indentation).abs();
             if behind[1] > 0.0 {
-                area += 0.5 * (behind[0] + behind[1]) * width;
                 continue;
             }
             if behind[0] > 0.0 {
                 let share = behind[0] / (behind[0] - behind[1]);
-                area += 0.5 * behind[0] * share * width;
                 let landing = from.towards(&next, share);
                 points.push(DisplacementPoint { displacement: reached.displacement, ..landing });
             }
             points.push(next);
         }
         let free = [curve.first(), curve.last()].map(|end| end.is_some_and(|point| point.springs == 0));
-        // A rigid instrument has no such area, and an infinite stiffness.
-        let lost_energy = if area > 0.0 { stiffness * area } else { 0.0 };
-        DisplacementCurve { points, sign, free, lost_energy }
+        DisplacementCurve { points, sign, free }
     }
 
     /// Points in the order of the stage, the displacement of which never turns back.
@@ -83,12 +75,6 @@ impl DisplacementCurve {
     /// First and last point of each jump.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
-    }
-
-    /// Energy that the jumps release in the instrument and the moving body, in addition to the energy dissipated in the
-    /// contact, J: ∫ (k (D − d) − F) dd over them.
-    pub fn lost_energy(&self) -> f64 {
-        self.lost_energy
     }
 
     /// The point at a displacement, m; at a jump, the point before it. `None` beyond the ends of the stage, unless
@@ -143,7 +129,7 @@ fn sign_of(direction: Direction) -> f64 {
 pub struct InstrumentFigures {
     /// Loading stiffness k, N/m.
     pub stiffness: f64,
-    /// Smallest displacement of the instrument in contact on the stage of the pull-off, m: where the body jumps off.
+    /// Smallest displacement of the instrument in contact on the unloading of the pull-off, m: where the body jumps off.
     pub pull_off_displacement: Option<f64>,
     /// Area of the loop of force over displacement, J: the energy dissipated in the contact and that lost in jumps of
     /// the instrument, of a history that ends separated.
@@ -153,19 +139,18 @@ pub struct InstrumentFigures {
 impl InstrumentFigures {
     /// Figures of a history with its own figures, under an instrument of this stiffness, N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
-        let lost =
-            |leg: &LegRecord| DisplacementCurve::new(leg.direction, &leg.curve, stiffness).lost_energy();
-        let touching = |leg: &LegRecord| {
-            let points = leg.curve.iter().filter(|point| point.springs > 0);
-            points.map(|point| point.displacement(stiffness)).min_by(f64::total_cmp)
+        let legs = &history.legs;
+        let smallest = |unloading: Branch| {
+            let points = legs[unloading.stages].iter().flat_map(|leg| &leg.curve);
+            let touching = points.filter(|point| point.springs > 0);
+            touching.map(|point| point.displacement(stiffness)).min_by(f64::total_cmp)
         };
         InstrumentFigures {
             stiffness,
-            pull_off_displacement: pull_off_point(&history.legs)
-                .and_then(|(stage, _)| touching(&history.legs[stage])),
+            pull_off_displacement: pull_off_point(legs).and_then(|_| smallest(Branch::last_unloading(legs)?)),
             loop_area: figures
                 .dissipated_energy
-                .map(|energy| energy + history.legs.iter().map(lost).sum::<f64>()),
+                .map(|energy| energy + legs.iter().map(|leg| leg.jump_energy).sum::<f64>()),
         }
     }
 }

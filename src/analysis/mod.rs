@@ -7,9 +7,7 @@ mod instrument;
 mod reversal_map;
 
 pub use branches::{Branch, preload_point, pull_off_point};
-pub use figures::{
-    Figures, INSENSITIVE_SHARE, Mark, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE, marks,
-};
+pub use figures::{Figures, INSENSITIVE_SHARE, Mark, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE, marks};
 pub use governing::{
     DEFAULT_RANGE, Governing, LEAST_TABOR_NUMBER, SteepWaves, ideal_adhesion_force, scene_tabor_number,
 };

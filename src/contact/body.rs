@@ -31,6 +31,8 @@ pub struct Body {
     leg: Leg,
     state: ContactState,
     samples: usize,
+    /// Extreme force of contact and instrument on the present motion; see [`Leg::jump_energy`].
+    extreme: Option<f64>,
     work: Work,
     curve_time: Duration,
 }
@@ -65,7 +67,7 @@ impl Body {
 
     fn on(leg: Leg, state: ContactState, samples: usize) -> Self {
         let work = Work { springs: leg.contact().gaps().len() as u64, ..Work::default() };
-        Body { leg, state, samples: samples.max(2), work, curve_time: Duration::ZERO }
+        Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
     }
 
     /// Present point of the curve.
@@ -84,6 +86,7 @@ impl Body {
             (Direction::Unloading, _) => motion.leg.state(motion.low)?,
             (Direction::Loading, _) => motion.leg.state(motion.high)?,
         };
+        self.extreme = None;
         self.leg = motion.leg.clone();
         if state.totals.springs == 0 {
             self.leg = Leg::apart(motion.leg.contact(), Direction::Unloading);
@@ -162,6 +165,11 @@ impl Body {
             true => None,
             false => Some(leg.least_displaced(&sampled, work)?.point(leg.contact().foundation)),
         };
+        if touches || self.leg.direction() != leg.direction() {
+            self.extreme = None;
+        }
+        let ends_free = separates || sampled[0].totals.springs == 0;
+        let jump_energy = leg.jump_energy(&sampled, [touches, ends_free], &mut self.extreme);
         self.state = match (loads, goal) {
             (true, _) => sampled[last],
             (false, Goal::Separation(at)) => {
@@ -182,7 +190,11 @@ impl Body {
             let largest = self.point_of(largest);
             [points.min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest), largest]
         } else {
-            let smallest = leg.extreme(Extreme::Smallest, &sampled, work);
+            let mut smallest = leg.extreme(Extreme::Smallest, &sampled, work);
+            if smallest.totals.springs == 0 {
+                // A body that nowhere pulls has the smallest force where it is in contact last, not where it moves on to.
+                smallest = leg.state(leg.end().min(high))?;
+            }
             [self.point_of(smallest), self.point_of(sampled[last])]
         };
         let record = LegRecord::moved(
@@ -192,6 +204,7 @@ impl Body {
             [before, self.point()],
             leg.energy(squared_stretch),
         );
+        let record = LegRecord { jump_energy, ..record };
         self.work.count(&record);
         self.leg = leg;
         self.curve_time += clock.elapsed();

@@ -27,6 +27,9 @@ pub struct LegRecord {
     /// that attached, and so negative where adhesion stretches springs. It is the work ∫F dd of the leg less the growth
     /// of the stored elastic energy; over a closed loop the sum is the dissipated energy.
     pub released_energy: f64,
+    /// Energy that a compliant instrument and the moving body lose in the jumps of the leg, J, exact for any number of
+    /// samples: ∮F dD of a history is the sum of both energies. Legs in one direction are one motion.
+    pub jump_energy: f64,
 }
 
 impl LegRecord {
@@ -41,6 +44,7 @@ impl LegRecord {
             attached: 0,
             detached: 0,
             released_energy: 0.0,
+            jump_energy: 0.0,
         }
     }
 
@@ -84,7 +88,8 @@ impl LegRecord {
             // The instrument, no longer deflected, moves the free body on.
             curve.extend(Some(after).filter(|after| after.indentation < end.indentation));
         }
-        LegRecord { target, direction, curve, largest, smallest, attached, detached, released_energy }
+        let still = LegRecord::still(target, end);
+        LegRecord { direction, curve, largest, smallest, attached, detached, released_energy, ..still }
     }
 
     /// The last point, unless the body is separated there.

@@ -187,6 +187,55 @@ impl Interval {
         self.between(self.low, middle).extreme(extreme, best);
     }
 
+    /// ∫ |C − E| dd over the interval, in cells times m², on the way up (`loads`) or down: C is the compression with the instrument
+    /// beside the contact and E its extreme so far, the largest on the way up and the smallest on the way down. Where C turns back
+    /// from E the body jumps.
+    pub fn jumped(&self, loads: bool, extreme: &mut f64) -> f64 {
+        if let Some(middle) = self.middle() {
+            let [low, high] = [self.between(self.low, middle), self.between(middle, self.high)];
+            let [first, second] = if loads { [low, high] } else { [high, low] };
+            return first.jumped(loads, extreme) + second.jumped(loads, extreme);
+        }
+        let (from, to) = self.ends();
+        let compression = |at: f64| self.steady(from, at).compression;
+        // The compression is convex: it falls up to here, and rises beyond.
+        let flattest = self.flattest(to);
+        if loads {
+            let [start, end] = [from, to].map(compression);
+            *extreme = extreme.max(start);
+            // It is behind up to where it is back at the extreme.
+            let level = *extreme;
+            *extreme = level.max(end);
+            return match () {
+                () if flattest <= from && start >= level => 0.0,
+                () if end <= level => level * (to - from) - self.work(from, to),
+                () => {
+                    let back = crossing(from, to, |at| compression(at) - level);
+                    level * (back - from) - self.work(from, back)
+                }
+            };
+        }
+        let (level, least) = (*extreme, compression(flattest));
+        if least >= level {
+            return self.work(from, to) - level * (to - from);
+        }
+        let back = match compression(to) > level {
+            true => last_before(flattest, to, |at| compression(at) - level),
+            false => to,
+        };
+        *extreme = least;
+        (self.work(back, to) - level * (to - back)) + (self.work(from, flattest) - least * (flattest - from))
+    }
+
+    /// ∫ of the compression of the contact from the lower end on over a range of indentations, m, without an event inside: the
+    /// growth of half of its squares, less what the attachment of stretched edges adds to them.
+    fn work(&self, low: f64, high: f64) -> f64 {
+        let from = self.low.indentation;
+        let surface = |at: f64| self.sliders(from).map(|slider| slider.surface(at)).sum::<f64>();
+        let squares = self.steady(from, high).squares - self.steady(from, low).squares;
+        0.5 * (squares - (surface(high) - surface(low)) + self.instrument * (high - low) * (high + low))
+    }
+
     /// Returns the smallest indentation above the lower end, up to the higher one, with at least this compression; at the
     /// lower end it is smaller.
     pub fn first_at_least(&self, wanted: f64) -> Option<f64> {

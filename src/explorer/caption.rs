@@ -37,7 +37,9 @@ fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'sta
         Direction::Loading => Some(match point {
             CurvePoint { springs: 0, .. } => "approach",
             _ if is_near(last) => "turning point",
-            _ if stages.iter().flat_map(|stage| &stage.curve).find(in_contact).is_some_and(is_near) => "jump-in",
+            _ if stages.iter().flat_map(|stage| &stage.curve).find(in_contact).is_some_and(is_near) => {
+                "jump-in"
+            }
             CurvePoint { force, .. } if force < 0.0 => "spreads under tension",
             _ => "contact spreads",
         }),

@@ -221,7 +221,7 @@ fn steep_waves(waves: SteepWaves) -> String {
     let SteepWaves { ratio, jkr_factor } = waves;
     format!(
         "{}, below {}: by the rule of Hess inner springs detach first; by the theory of JKR the edge recedes, and waves \
-         short against the contact pull off at {jkr_factor:.2} F_smooth",
+         short against the contact pull off at {jkr_factor:.2} times the force of the sphere without waves",
         format_quantity(ratio, "1"),
         SteepWaves::LEAST_RATIO,
     )

@@ -5,6 +5,7 @@ mod plan;
 pub(crate) mod reach;
 mod reversals;
 mod roughness;
+mod smooth;
 mod stages;
 
 pub use outcome::{LineFacts, Outcome, RunError, Timings};

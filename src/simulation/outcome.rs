@@ -17,7 +17,7 @@ pub struct Outcome {
     pub governing: Governing,
     /// Ideal adhesion force F_a,max, eq. (14), N; `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
-    /// Adhesion force of the same body without roughness (closed form), N; `None` without adhesion.
+    /// Adhesion force F_smooth of the same body without roughness after the same preload, N; `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
     /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or an unloading stage.
     pub zero_load_adhesion_force: Option<f64>,

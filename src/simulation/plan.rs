@@ -195,6 +195,10 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
     let fragments = observed(Effect::Fragments, "observe: Fragments");
     let histogram = observed(Effect::HeightHistogram, "observe: HeightHistogram");
     let (touch, touch_bytes) = if exact { ((Some(2), springs), 0) } else { (each_stage, RELAXED * springs) };
+    // F_smooth of a form without a closed form takes springs of its own.
+    let has_smooth = scene.roughness.is_some()
+        && scene.form.as_ref().is_some_and(|form| form.flat_end().is_none() && form.power_law().is_none());
+    let smooth_bytes = if has_smooth { (HEIGHT + NODE) * springs } else { 0 };
     vec![
         row(Stage::Form, form, once, 0),
         row(Stage::Synthesis, synthesis, line, transform + convolution),
@@ -204,7 +208,7 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         row(Stage::LoadingPass, solved, each_stage, PASSED * springs),
         row(Stage::UnloadingPass, unloading, each_stage, 0),
         row(Stage::Relaxation, when(!exact, STEPWISE, "solver: Exact"), each_stage, RELAXED * springs),
-        row(Stage::ZeroLoadAdhesion, zero_load, touch, touch_bytes),
+        row(Stage::ZeroLoadAdhesion, zero_load, touch, touch_bytes + smooth_bytes),
         row(Stage::Fragments, fragments, (Some(scene.loading.len() as u64), springs), 0),
         row(Stage::HeightHistogram, histogram, once, 0),
     ]

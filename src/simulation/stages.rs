@@ -1,6 +1,7 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
+use super::smooth::SmoothSprings;
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
 use crate::analysis::{
     Figures, Governing, InstrumentFigures, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number,
@@ -10,7 +11,6 @@ use crate::contact::{
     Stepwise, Work, run,
 };
 use crate::memory::{check_room, emptied};
-use crate::reference::smooth_adhesion_force;
 use crate::scene::{CheckedScene, Edges, Form, Move, Scene, Solver as SolverChoice};
 use crate::surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
 use std::mem::take;
@@ -40,6 +40,8 @@ pub struct Simulation {
     /// Histogram of the heights of the profile, once observed.
     histogram: Option<Histogram>,
     springs: Arc<Springs>,
+    /// Springs under the form alone, once F_smooth has needed them.
+    pub(super) smooth: Option<SmoothSprings>,
     /// Memory of the tree of a former profile.
     former_tree: ContactTree,
     /// Memory of the largest run that is still kept, bytes.
@@ -143,6 +145,12 @@ impl Simulation {
                 .map(|spectrum| rms_height * spectrum.continuum_gradient_per_height(length)),
         };
         Ok((line, facts, governing))
+    }
+
+    /// Springs under the profile of a checked scene.
+    pub(super) fn springs_of(&mut self, scene: &Scene) -> Result<Arc<Springs>, RunError> {
+        self.make_line(scene)?;
+        Ok(Arc::clone(&self.springs))
     }
 
     /// Makes a profile from the heights of its roughness.
@@ -294,7 +302,7 @@ impl Simulation {
         let figures = Figures::of(&history);
         let [zero_load_adhesion_force, zero_force_adhesion_force] = zero_load;
         let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
-        let smooth = work.map(|work| smooth_adhesion_force(scene.form.as_ref(), length, modulus, work));
+        let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
         let regime = |zero_load| Regime::of_loading(&figures, zero_load, smooth);
         Ok(Outcome {
             line: facts,

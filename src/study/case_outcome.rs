@@ -2,7 +2,6 @@
 
 use crate::analysis::{Figures, Governing, Regime, ideal_adhesion_force, preload_point, scene_tabor_number};
 use crate::contact::{CurvePoint, History, LegRecord, Reversal};
-use crate::reference::smooth_adhesion_force;
 use crate::scene::{Move, Scene};
 
 /// Outcome of one loading on one profile; a figure that the case does not have is `None`.
@@ -17,6 +16,8 @@ pub(super) struct CaseOutcome<'o> {
     pub zero_load: Option<f64>,
     /// F_a(0) by the zero-force protocol, N.
     pub zero_force: Option<f64>,
+    /// F_smooth after the preload of the loading, N, if a regime is recorded.
+    pub smooth: Option<f64>,
     /// The loading.
     pub loading: LoadingOutcome,
 }
@@ -111,11 +112,7 @@ impl CaseOutcome<'_> {
 
     /// Regime of this loading with this F_a(0), N, as its place in [`Regime::ALL`].
     pub fn regime(&self, zero_load: Option<f64>) -> Option<f64> {
-        let Scene { form, length, .. } = self.scene;
-        let smooth = self.governing.adhesive_work().map(|work| {
-            smooth_adhesion_force(form.as_ref(), *length, self.governing.effective_modulus, work)
-        });
-        Some(Regime::of_loading(&self.loading.figures, zero_load, smooth)? as u8 as f64)
+        Some(Regime::of_loading(&self.loading.figures, zero_load, self.smooth)? as u8 as f64)
     }
 }
 

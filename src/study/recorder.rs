@@ -52,8 +52,8 @@ impl<'p> Recorder<'p> {
             }
         }
         let count = loops.len();
-        let regime = plan.column(Quantity::RegimeAfterZeroForce);
-        let needs_zero_force = plan.records(Needs::ZeroForce) || regime.is_some();
+        let [touch_regime, regime] = Quantity::REGIMES.map(|regime| plan.column(regime).is_some());
+        let needs_zero_force = plan.records(Needs::ZeroForce) || regime;
         if needs_zero_force {
             loops.push(vec![Move::ToZeroForce, Move::ToSeparation]);
         }
@@ -65,11 +65,16 @@ impl<'p> Recorder<'p> {
         let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
         each.truncate(count);
         each.resize(plan.preloads().map_or(1, |axis| axis.values.len()), LoadingOutcome::default());
-        let values = |loading| {
-            let case = CaseOutcome { governing, profile, scene: &scene, zero_load, zero_force, loading };
-            plan.record.iter().map(|quantity| quantity.of(&case)).collect()
+        let values = |loading: LoadingOutcome| {
+            let smooth = match touch_regime || regime {
+                true => self.simulation.smooth_adhesion_force(&scene, &governing, &loading.figures)?,
+                false => None,
+            };
+            let case =
+                CaseOutcome { governing, profile, scene: &scene, zero_load, zero_force, smooth, loading };
+            Ok(plan.record.iter().map(|quantity| quantity.of(&case)).collect())
         };
-        Ok(each.into_iter().map(values).collect())
+        each.into_iter().map(values).collect()
     }
 
     /// Outcomes of loadings, each of which begins at separation, and F_a(0) by the touch protocol.

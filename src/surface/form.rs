@@ -208,7 +208,7 @@ const LARGE: f64 = 40.0;
 const NODES: usize = 56;
 
 /// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature.
-static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(|| std::array::from_fn(node));
+static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(quadrature);
 
 /// Struve function H₀(z), z ≥ 0.
 pub fn struve_0(z: f64) -> f64 {
@@ -229,14 +229,19 @@ pub fn struve_0(z: f64) -> f64 {
     libm::y0(z) + FRAC_2_PI * sum
 }
 
-/// A zero of the Legendre polynomial and its weight, on the quarter circle.
-fn node(index: usize) -> (f64, f64) {
-    let count = NODES as f64;
+/// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature with this number of nodes.
+pub(super) fn quadrature<const COUNT: usize>() -> [(f64, f64); COUNT] {
+    std::array::from_fn(|index| node(COUNT, index))
+}
+
+/// A zero of the Legendre polynomial of this degree and its weight, on the quarter circle.
+fn node(degree: usize, index: usize) -> (f64, f64) {
+    let count = degree as f64;
     let mut x = (PI * (index as f64 + 0.75) / (count + 0.5)).cos();
     let mut slope = 1.0;
     for _ in 0..20 {
         let (mut before, mut value) = (1.0, x);
-        for k in 2..=NODES {
+        for k in 2..=degree {
             let k = k as f64;
             (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
         }

@@ -16,14 +16,15 @@ fn loaded(scene: &str, loading: &str) -> Outcome {
 /// One path in several cuts, several cycles, and paths that end in contact.
 #[test]
 fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
-    let [whole, smaller] = [1e-5, 5e-6].map(|force| loaded("pressure-sensitive", &format!("[ToForce({force:e}), ToSeparation]")));
+    let [whole, smaller] = [1e-5, 5e-6]
+        .map(|force| loaded("pressure-sensitive", &format!("[ToForce({force:e}), ToSeparation]")));
     let after = |loading: &str| loaded("pressure-sensitive", loading);
     for cut in [
         "[ToForce(1e-5), ToTouch, ToSeparation]",
         "[ToForce(1e-5), ToIndentation(4.2e-7), ToSeparation]",
         "[ToForce(1e-5), ToZeroForce, ToForce(-1e-6), ToSeparation]",
         "[ToTouch, ToForce(1e-6), ToForce(1e-5), ToSeparation, ToIndentation(-1e-5)]",
-        "[ToForce(1e-5), ToIndentation(4.2e-7), ToIndentation(4.2e-7), ToSeparation, ToSeparation]",
+        "[ToForce(1e-5), ToIndentation(4.2e-7), ToIndentation(4.2e-7), ToSeparation, ToIndentation(-1e-6)]",
         // What comes after the pull-off, and what came before a separation.
         "[ToForce(1e-5), ToSeparation, ToForce(2e-5)]",
         "[ToForce(2e-5), ToSeparation, ToForce(1e-5), ToSeparation]",

@@ -18,6 +18,7 @@ mod numerics;
 mod reversals;
 mod scene;
 mod simulation;
+mod smooth;
 mod stepwise;
 mod sums;
 mod table;

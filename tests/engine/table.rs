@@ -4,6 +4,7 @@ use asperity::reference::PowerLaw;
 use asperity::scene::{Document, Form};
 use asperity::simulation::{RunError, Simulation};
 use asperity::surface::{FormTable, Line, SurfaceError};
+use dashu_float::{FBig, round::mode::HalfEven};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -87,7 +88,7 @@ fn a_sphere_on_a_cone_has_its_closed_profile() {
         false => x * (x - (x * x - border * border).sqrt() + border * (border / x).acos()),
     };
     let (radii, depths) = rows(1.0, depth);
-    let table = FormTable::new(radii, &depths);
+    let table = FormTable::new(radii, &depths).unwrap();
     for points in [50, 1 << 16] {
         let spacing = 1.0 / f64::from(points);
         let depths = table.depths(spacing, points as usize + 1).unwrap();
@@ -108,7 +109,7 @@ fn a_sphere_on_a_cone_has_its_closed_profile() {
     }
     assert_eq!(table.falls_from(1.0), None);
     let waves = rows(1.0, |r| r * r + 0.05 * (1.0 - (40.0 * r).cos()));
-    assert!(FormTable::new(waves.0, &waves.1).falls_from(1.0).is_some());
+    assert!(FormTable::new(waves.0, &waves.1).unwrap().falls_from(1.0).is_some());
 }
 
 /// A table loaded for a line becomes its gaps; a sphere is one to rounding.
@@ -130,6 +131,10 @@ fn a_table_without_a_file_or_too_short_is_refused() {
         ("1e-6 0\n2e-6 1e-9", "point 1: r = 1e-6 m; allowed: r = 0, the axis of the body, in the first row"),
         ("0 0\n2e-6 1e-9\n1e-6 2e-9", "line 3: x = 1e-6 after 2e-6; allowed: ascending positions, as before"),
         ("0 0", "1 points; allowed: from 2 to "),
+        (
+            "0 0\n1e-6 1e-9\n1.0000000000001e-6 1.0000001e-9\n6e-5 2e-9",
+            "point 3: r = 1.0000000000001e-6 m after 1e-6 m; allowed: ",
+        ),
         ("0 0\n1e-6 NaN\n2e-6 1e-9", "point 2: the depth is missing; allowed: a number in each row"),
         ("0 0\n1e-6 what\n2e-6 1e-9", "line 2: \"what\"; allowed: a number"),
         ("0 0\n1e-6 1e-9\n2e-6 4e-9", "the table ends at r = 2e-6 m; allowed: length at most 4e-6 m"),
@@ -140,4 +145,220 @@ fn a_table_without_a_file_or_too_short_is_refused() {
     let sphere = Form::Paraboloid { radius: 1.0 };
     assert!(sphere.load(Path::new(""), 1.0).is_ok() && PowerLaw::of(&sphere, 1.0, 1.0).is_some());
     assert!(Line::new(1.0, 9, Some(&sphere), None, 0.0).is_ok());
+}
+
+/// A binary number of 50 digits.
+type Precise = FBig<HalfEven, 2>;
+
+fn precise(value: f64) -> Precise {
+    Precise::try_from(value).unwrap().with_precision(170).value()
+}
+
+/// Nodes and weights of Gauss-Legendre quadrature in (−1, 1).
+fn quadrature(count: usize) -> Vec<(Precise, Precise)> {
+    let one = precise(1.0);
+    let node = |index: usize| {
+        let mut x = precise((std::f64::consts::PI * (index as f64 + 0.75) / (count as f64 + 0.5)).cos());
+        let mut slope = one.clone();
+        for _ in 0..6 {
+            let (mut before, mut value) = (one.clone(), x.clone());
+            for k in 2..=count {
+                let next = (precise(2.0 * k as f64 - 1.0) * &x * &value - precise(k as f64 - 1.0) * &before)
+                    / precise(k as f64);
+                (before, value) = (value, next);
+            }
+            slope = precise(count as f64) * (&x * &value - &before) / (&x * &x - &one);
+            x = &x - &value / &slope;
+        }
+        (x.clone(), precise(2.0) / ((&one - &x * &x) * &slope * &slope))
+    };
+    (0..count).map(node).collect()
+}
+
+/// Depth g at x of the interpolant as docs/scene-file.md states it, by quadrature.
+///
+/// With r = 2tx/(1 + t²) the integral is that of 2 x f′(r)/(1 + t²) over t, without a root.
+fn stated_depth(radii: &[f64], depths: &[f64], x: f64, rule: &[(Precise, Precise)]) -> f64 {
+    let (one, two, at) = (precise(1.0), precise(2.0), precise(x));
+    let width = |gap: usize| precise(radii[gap + 1]) - precise(radii[gap]);
+    let secants: Vec<Precise> = (0..radii.len() - 1)
+        .map(|gap| (precise(depths[gap + 1]) - precise(depths[gap])) / width(gap))
+        .collect();
+    let magnitude = |value: Precise| if value < Precise::ZERO { -value } else { value };
+    let slope = |row: usize| {
+        let last = secants.len() - 1;
+        let (one, other) = match row {
+            0 => (0, 1.min(last)),
+            row if row > last => (last.saturating_sub(1), last),
+            row => (row - 1, row),
+        };
+        let middle = |gap: usize| (precise(radii[gap]) + precise(radii[gap + 1])) / precise(2.0);
+        let parabola = if one == other {
+            secants[one].clone()
+        } else {
+            &secants[one]
+                + (&secants[other] - &secants[one]) / (middle(other) - middle(one))
+                    * (precise(radii[row]) - middle(one))
+        };
+        let beside = [&secants[row.saturating_sub(1)], &secants[row.min(last)]];
+        if beside.iter().any(|secant| *secant * &parabola <= Precise::ZERO) {
+            return Precise::ZERO;
+        }
+        let most = precise(3.0)
+            * beside
+                .map(|secant| magnitude(secant.clone()))
+                .into_iter()
+                .reduce(|a, b| if b < a { b } else { a })
+                .unwrap();
+        if magnitude(parabola.clone()) <= most {
+            parabola
+        } else if parabola > Precise::ZERO {
+            most
+        } else {
+            -most
+        }
+    };
+    let tangent = |r: &Precise| r / (&at + (&at * &at - r * r).sqrt());
+    let mut sum = Precise::ZERO;
+    for gap in 0..secants.len() {
+        let (from, is_last) = (precise(radii[gap]), gap + 1 == secants.len() || radii[gap + 1] >= x);
+        if radii[gap] >= x {
+            break;
+        }
+        let to = if is_last { at.clone() } else { precise(radii[gap + 1]) };
+        let (width, [low, high]) = (width(gap), [slope(gap), slope(gap + 1)]);
+        let bend = (precise(6.0) * &secants[gap] - precise(4.0) * &low - precise(2.0) * &high) / &width;
+        let twist = precise(3.0) * (&low + &high - precise(2.0) * &secants[gap]) / &width / &width;
+        let [start, end] = [&from, &to].map(tangent);
+        let half = (&end - &start) / &two;
+        for (node, weight) in rule {
+            let t = (&start + &end) / &two + node * &half;
+            let share = &one + &t * &t;
+            let beyond = &two * &t * &at / &share - &from;
+            sum += weight * &half * &two / share * (&low + (&bend + &twist * &beyond) * &beyond);
+        }
+    }
+    (sum * at).to_f64().value()
+}
+
+/// Tables with corners, walls, plateaus, noise, edges and rows close together, and those of smooth bodies.
+fn nasty_tables() -> Vec<(Vec<f64>, Vec<f64>)> {
+    let even = |count: usize| (0..count).map(move |row| row as f64 / (count - 1) as f64);
+    let of = |radii: Vec<f64>, depth: &dyn Fn(f64) -> f64| {
+        let depths = radii.iter().map(|&r| depth(r)).collect();
+        (radii, depths)
+    };
+    let flat_end = |r: f64| if r <= 0.2 { 0.0 } else { 0.3 * (r - 0.2) };
+    let beside = |close: f64| {
+        let mut radii: Vec<f64> = even(21).collect();
+        radii.extend([0.2 - close, 0.2 + close]);
+        radii.sort_by(f64::total_cmp);
+        radii
+    };
+    let wall = |close: f64| (vec![0.0, 0.2, 0.2 + close, 0.5, 1.0], vec![0.0, 0.0, 0.05, 0.06, 0.07]);
+    let mut noise = 1_u64;
+    let mut random = move || {
+        noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (noise >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut tables: Vec<_> = [1e-2, 1e-4, 1e-6, 1e-8, 2e-9].map(|close| of(beside(close), &flat_end)).into();
+    tables.extend([1e-3, 1e-5, 1e-7, 1.1e-9].map(wall));
+    tables.extend([0.0, 1e-3, 0.1].map(|size| {
+        let radii: Vec<f64> = even(30).collect();
+        let depths = radii.iter().map(|r| 0.5 * r * r + size * random()).collect();
+        (radii, depths)
+    }));
+    tables.extend((0..4).map(|_| {
+        let mut radii: Vec<f64> = (0..20).map(|_| random().powi(6)).chain([0.0, 1.0]).collect();
+        radii.sort_by(f64::total_cmp);
+        radii.dedup_by(|next, row| *next - *row < 1e-9);
+        of(radii, &|r| (1e3 * r).floor() * 1e-3)
+    }));
+    let saw = |r: f64| r + 0.2 * (10.0 * r).fract();
+    tables.extend([of(even(64).collect(), &saw), of(even(11).collect(), &|r| -0.1 * r * r)]);
+    tables.extend([(vec![0.0, 1.0], vec![0.0, 0.3]), (vec![0.0, 1e-8, 1.0], vec![0.0, 1e-3, 1e-3])]);
+    let squares = || even(40).map(|share| share * share).collect::<Vec<_>>();
+    let bodies: [&dyn Fn(f64) -> f64; 10] = [
+        &|r| 0.5 * r * r,
+        &|r| 0.3 * r,
+        &|r| r.powi(3),
+        &|r| r.powf(1.5),
+        &|r| r.powi(8),
+        &|r| 0.5 * r * r + 0.01 * (1.0 - (20.0 * r).cos()),
+        &|r| (0.04 + r * r).sqrt() - 0.2,
+        &|r| 1.0 - (1.0 - 0.9 * r * r).sqrt(),
+        &|r| r * r * (1.0 - 0.5 * r),
+        &|_| 0.0,
+    ];
+    tables.extend(bodies.map(|body| of(squares(), body)));
+    tables
+}
+
+/// Depths are those of the stated interpolant, to rounding; between two rows it stays between their depths, so that no
+/// depth leaves what the rows allow.
+#[test]
+fn tables_of_any_kind_have_the_profile_of_their_interpolant() {
+    let rule = quadrature(16);
+    let tables = nasty_tables();
+    assert_eq!(tables.len(), 30);
+    for (number, (radii, depths)) in tables.iter().enumerate() {
+        let table = FormTable::new(radii.clone(), depths).unwrap();
+        let count = 1 << 12;
+        let found = table.depths(1.0 / f64::from(count), count as usize + 1).unwrap();
+        let largest = found.iter().fold(0.0_f64, |most, depth| most.max(depth.abs()));
+        for place in [37, 819, 820, 821, 2000, count] {
+            let expected = stated_depth(radii, depths, f64::from(place) / f64::from(count), &rule);
+            let error = (found[place as usize] - expected).abs() / largest.max(1e-300);
+            assert!(error < 1e-12, "table {number} at {place}: {error:e} of {largest}");
+        }
+    }
+}
+
+/// A punch with an edge in few rows, and rows far closer than its springs beside the corner of a flat end.
+#[test]
+fn tips_with_edges_have_their_own_forces() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |rows: &str| {
+        std::fs::write(folder.path().join("tip.csv"), rows).unwrap();
+        let document = scene("Table(file: \"tip.csv\")", 1e-4);
+        let document = document.set("loading", "[ToForce(1.0e-3), ToSeparation]").unwrap();
+        let mut simulation = Simulation::new(folder.path().to_owned());
+        simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+    };
+    let punch = run("0,0\n2e-5,0\n2.0001e-5,5e-6\n5.1e-5,6e-6\n");
+    // Kendall: √(8πa³E*γ); the edge of 2001 springs is known to a spring.
+    let kendall = (8.0 * std::f64::consts::PI * 2e-5_f64.powi(3) * 1e6 * 0.05).sqrt();
+    let share = punch.figures.adhesion_force.unwrap() / kendall;
+    assert!((share - 1.0).abs() < 5e-3, "{share}");
+    assert!(punch.line.deepest < 5e-5, "{:?}", punch.line);
+    // A flat end of 10 µm goes over into a cone; rows 1 pm beside the corner.
+    let corner = |close: f64| {
+        let mut rows: Vec<f64> =
+            (0..=200).map(|row| 5e-5 * f64::from(row) / 200.0).chain([1e-5 - close, 1e-5 + close]).collect();
+        rows.sort_by(f64::total_cmp);
+        let line = |r: &f64| format!("{r:e},{:e}\n", 0.3 * (r - 1e-5).max(0.0));
+        run(&rows.iter().map(line).collect::<String>())
+    };
+    let [close, wide] = [corner(1e-12), corner(1e-8)];
+    for outcome in [&close, &wide] {
+        // g = 0.3 x arccos(b/x): F_n and pull-off of the closed form, on a fine grid of contact radii.
+        let (b, modulus, work) = (1e-5, 1e6, 0.05);
+        let profile = |x: f64| if x <= b { 0.0 } else { 0.3 * x * (b / x).acos() };
+        let (mut area, step) = (0.0, 5e-10);
+        let (mut least, mut pressed) = (0.0_f64, 0.0);
+        for k in 1..=100_000 {
+            let a = f64::from(k) * step;
+            area += 0.5 * (profile(a - step) + profile(a)) * step;
+            let stretch = (2.0 * std::f64::consts::PI * a * work / modulus).sqrt();
+            let force = 2.0 * modulus * (a * (profile(a) - stretch) - area);
+            least = least.min(force);
+            if force <= 1e-3 {
+                pressed = profile(a) - stretch;
+            }
+        }
+        let figures = outcome.figures;
+        assert!((figures.adhesion_force.unwrap() / -least - 1.0).abs() < 2e-3, "{figures:?} {least}");
+        assert!((figures.preload_indentation.unwrap() / pressed - 1.0).abs() < 1e-3, "{figures:?} {pressed}");
+        assert!((outcome.smooth_adhesion_force.unwrap() / -least - 1.0).abs() < 2e-3);
+    }
 }

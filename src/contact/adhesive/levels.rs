@@ -320,6 +320,13 @@ impl Slider {
         }
     }
 
+    /// Twice the energy that the rule of Hess gives a fragment of its length ℓ at an indentation, m, over the stiffness of a
+    /// spring, in cells times m²: ½ (stretch ℓ)², the sum of the squared stretches at which its edges have grown.
+    pub fn surface(&self, indentation: f64) -> f64 {
+        let length = self.stretch * (self.cells + self.edge_cells(indentation).length);
+        0.5 * length * length
+    }
+
     /// Growth of the compression of the edge cells with the indentation, in cells.
     ///
     /// The length times (2y − 3k)/(2y − k) with y = √ℓ and k = stretch × growth, as the edges move with the

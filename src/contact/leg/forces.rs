@@ -10,10 +10,13 @@ use crate::contact::contact_state::{ContactState, Extreme, Grid, intervals, lowe
 use crate::contact::history::Goal;
 use crate::contact::interval::{Interval, Intervals};
 use crate::contact::thresholds::Thresholds;
+use crate::contact::totals::CompensatedSum;
 use crate::contact::{ContactError, CurvePoint, Direction, Edges, Work};
 
 /// Intervals in which extremes are searched: each patch is evaluated at each of their ends.
 pub(in crate::contact) const SEARCH_INTERVALS: usize = 256;
+/// Intervals whose events are listed at once.
+const AT_ONCE: usize = 16;
 /// Points of a grid from one to the next of those evaluated first.
 const STRIDE: usize = 16;
 
@@ -91,6 +94,51 @@ impl Leg {
         let leg = self.with_instrument();
         let sampled: Vec<_> = sampled.iter().map(|state| state.beside(leg.instrument)).collect();
         self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
+    }
+
+    /// Energy that a compliant instrument and the moving body lose in the jumps of a sampled motion, J: ∫ (k (D − d) − F) dd
+    /// over them. `extreme` is the extreme compression with the instrument so far, `None` where the motion begins; the motion
+    /// may begin or end in separation.
+    pub(in crate::contact) fn jump_energy(
+        &self,
+        sampled: &[ContactState],
+        [from_separation, to_separation]: [bool; 2],
+        extreme: &mut Option<f64>,
+    ) -> f64 {
+        let leg = self.with_instrument();
+        if leg.instrument == 0.0 || self.contact.hess.is_none() {
+            return 0.0;
+        }
+        let loads = self.direction == Direction::Loading;
+        let beside = |state: &ContactState| state.beside(leg.instrument);
+        let sampled: Vec<_> = sampled.iter().map(beside).collect();
+        let [low, high] = [sampled[0], sampled[sampled.len() - 1]];
+        let begin = match (loads, from_separation) {
+            (true, true) => leg.instrument * low.indentation,
+            (true, false) => low.compression,
+            (false, _) => high.compression,
+        };
+        let mut reached = extreme.unwrap_or(begin);
+        let mut area = CompensatedSum::default();
+        let pairs = intervals(&sampled, |_, _| true);
+        let mut pass = |pairs: &[[ContactState; 2]]| {
+            let mut events = leg.events(pairs, &mut Work::default());
+            if !loads {
+                events.reverse();
+            }
+            events.iter().for_each(|interval| area.add(interval.jumped(loads, &mut reached)));
+        };
+        match loads {
+            true => pairs.chunks(AT_ONCE).for_each(&mut pass),
+            false => pairs.rchunks(AT_ONCE).for_each(&mut pass),
+        }
+        // The last loss of contact ends where nothing deflects the instrument.
+        if to_separation {
+            let free = low.indentation - reached / leg.instrument;
+            area.add(0.5 * leg.instrument * free.max(0.0) * free);
+        }
+        *extreme = Some(reached);
+        self.contact.foundation.spring_stiffness() * area.total()
     }
 
     /// Finds the first indentation of a loading from `from` on, or the last one of an unloading up to `from`, m, at which

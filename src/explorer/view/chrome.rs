@@ -223,7 +223,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
     facts.extend(share);
     if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
         let least = SteepWaves::LEAST_RATIO;
-        let warning = format!("λ²/AR {ratio:.2} < {least}: JKR pulls {jkr_factor:.2} F_smooth");
+        let warning = format!("λ²/AR {ratio:.2} < {least}: JKR pulls {jkr_factor:.2} × the smooth sphere");
         facts.push(of_loop(warning, Meaning::Error));
     }
     if let Some(coefficient) = figures.adhesion_coefficient {
