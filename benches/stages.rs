@@ -114,7 +114,7 @@ struct Rough {
 impl Rough {
     fn new(exponent: u32, hurst: f64, kappas: [f64; 2]) -> Self {
         let points = 1_usize << exponent;
-        let spectrum = SelfAffine { hurst, first: 1, last: points as u64 / 4, roll_off: 0.0 };
+        let spectrum = SelfAffine { hurst, first: 1, last: points as u64 / 4, roll_off_mode: 0.0 };
         let line = synthesize(spectrum, points);
         let foundation = Foundation::endless(line.spacing, EFFECTIVE_MODULUS);
         let last = spectrum.last;

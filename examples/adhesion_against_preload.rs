@@ -5,7 +5,7 @@
 use asperity::{Contact, Material, Move, Profile, SelfAffine};
 
 fn main() -> Result<(), asperity::Error> {
-    let spectrum = SelfAffine { hurst: 0.6, first: 2, last: 4096, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst: 0.6, first: 2, last: 4096, roll_off_mode: 0.0 };
     let profile = Profile::self_affine(spectrum, 2.0e-7, 1.0e-4, 1 << 14, 7)?;
     let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(1.0e-3).build()?;
     println!("preload, µN   pull-off force, µN");

@@ -7,7 +7,7 @@ use asperity::contact::CurvePoint;
 use asperity::{Contact, Material, Move, Profile, SelfAffine};
 
 fn main() -> Result<(), asperity::Error> {
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1024, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1024, roll_off_mode: 0.0 };
     let profile = Profile::self_affine(spectrum, 1.0e-7, 1.0e-4, 1 << 14, 1)?;
     let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(2.0e-5).build()?;
     let preload = 4.0e-6; // N

@@ -4,6 +4,7 @@ use crate::analysis::Figures;
 use crate::contact::{
     self, Body, ContactError, CurvePoint, Foundation, HessRule, History, LegRecord, Patch, Reversal, run,
 };
+use crate::profile::{LARGEST, check, is_positive};
 use crate::scene::{Edges, Material, Move};
 use crate::simulation::RunError;
 use crate::{Error, Profile};
@@ -33,12 +34,12 @@ pub struct Contact {
 #[derive(Clone, Debug)]
 pub struct ContactBuilder<'p> {
     profile: &'p Profile,
-    effective_modulus: f64,
+    material: Material,
     work: f64,
     closing_work: Option<f64>,
     loading_stiffness: f64,
     edges: Edges,
-    samples: usize,
+    samples: u64,
 }
 
 /// Result of a loading history that begins separated.
@@ -53,17 +54,18 @@ impl Contact {
     /// and 512 samples on each loading stage.
     #[must_use]
     pub fn builder(profile: &Profile, material: Material) -> ContactBuilder<'_> {
-        let effective_modulus = material.effective_modulus();
         let (edges, loading_stiffness) = (Edges::SubCell, f64::INFINITY);
         let (work, closing_work, samples) = (0.0, None, 512);
-        ContactBuilder { profile, effective_modulus, work, closing_work, loading_stiffness, edges, samples }
+        ContactBuilder { profile, material, work, closing_work, loading_stiffness, edges, samples }
     }
 
     /// Loads the separated body, one loading stage after the other.
     ///
     /// # Errors
-    /// [`Error::Run`] for a force or an indentation that is not finite or that the contact cannot reach.
+    /// [`Error::Value`] for a target that is not between −1e50 and 1e50, [`Error::Run`] for a target that the contact cannot
+    /// reach.
     pub fn load(&self, legs: &[Move]) -> Result<Cycle, Error> {
+        check_targets(legs)?;
         let history = run(&mut self.body(), legs, |_, _| Ok(())).map_err(RunError::Contact)?;
         Ok(Cycle { figures: Figures::of(&history), history })
     }
@@ -75,8 +77,10 @@ impl Contact {
     /// The reversals have no [`Reversal::forces`].
     ///
     /// # Errors
-    /// [`Error::Run`] for an end that is not finite, without contact, or out of reach.
+    /// [`Error::Value`] for an end that is not between −1e50 and 1e50, [`Error::Run`] for one without contact or out of
+    /// reach.
     pub fn reversals(&self, ends: &[Move]) -> Result<Vec<Reversal>, Error> {
+        check_targets(ends)?;
         let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
         let mut see = |index, reversal| {
             found.push((index, reversal));
@@ -119,10 +123,10 @@ impl ContactBuilder<'_> {
         ContactBuilder { edges, ..self }
     }
 
-    /// Samples of the force curve on each loading stage, at least 2; its extremes are exact for any number.
+    /// Samples of the force curve on each loading stage, from 2 to a million; its extremes are exact for any number.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
-        ContactBuilder { samples: samples as usize, ..self }
+        ContactBuilder { samples, ..self }
     }
 
     /// Builds the contact.
@@ -130,22 +134,20 @@ impl ContactBuilder<'_> {
     /// # Errors
     /// [`Error::Value`] for a value out of range, [`Error::Run`] without enough memory.
     pub fn build(self) -> Result<Contact, Error> {
-        let ContactBuilder { profile, effective_modulus, work, loading_stiffness, edges, samples, .. } = self;
+        let ContactBuilder { profile, work, loading_stiffness, edges, samples, .. } = self;
+        let effective_modulus = checked_modulus(self.material)?;
         let closing = self.closing_work.unwrap_or(work);
-        let positive = |value: f64| value.is_finite() && value > 0.0;
-        let refuse = |name, value, allowed| Err(Error::Value { name, value, allowed });
-        if !positive(effective_modulus) {
-            return refuse("effective modulus", effective_modulus, "finite and above 0 Pa");
-        }
-        if !(work == 0.0 || positive(work)) {
-            return refuse("work of adhesion", work, "finite and at least 0 J/m²");
-        }
-        if !(0.0..=work).contains(&closing) {
-            return refuse("closing work", closing, "from 0 J/m² to the work of adhesion");
-        }
-        if loading_stiffness.is_nan() || loading_stiffness <= 0.0 {
-            return refuse("loading stiffness", loading_stiffness, "above 0 N/m, infinite: rigid");
-        }
+        check("work of adhesion", work, (0.0..=LARGEST).contains(&work), "from 0 to 1e50 J/m²")?;
+        let is_allowed = (0.0..=work).contains(&closing);
+        check("closing work", closing, is_allowed, "from 0 J/m² to the work of adhesion")?;
+        let is_allowed = loading_stiffness == f64::INFINITY || is_positive(loading_stiffness);
+        check(
+            "loading stiffness",
+            loading_stiffness,
+            is_allowed,
+            "from 1e-50 to 1e50 N/m, or infinite: rigid",
+        )?;
+        check("samples", samples as f64, (2..=1_000_000).contains(&samples), "from 2 to 1000000")?;
         let foundation =
             Foundation { spacing: profile.spacing(), effective_modulus, length: profile.length() };
         let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
@@ -154,8 +156,36 @@ impl ContactBuilder<'_> {
         if hess.is_some() {
             contact.springs().tree(edges).map_err(|error: ContactError| RunError::Contact(error))?;
         }
-        Ok(Contact { contact, samples })
+        Ok(Contact { contact, samples: samples as usize })
     }
+}
+
+/// Effective modulus E* of a material, Pa, from either E* or E and ν.
+fn checked_modulus(material: Material) -> Result<f64, Error> {
+    let Material { youngs_modulus, poisson_ratio, effective_modulus } = material;
+    let pascals = "from 1e-50 to 1e50 Pa";
+    if let Some(modulus) = effective_modulus {
+        let is_alone = youngs_modulus.is_none() && poisson_ratio.is_none();
+        let allowed = "alone: it replaces Young's modulus and Poisson's ratio";
+        check("effective modulus", modulus, is_alone, allowed)?;
+        check("effective modulus", modulus, is_positive(modulus), pascals)?;
+        return Ok(modulus);
+    }
+    let [modulus, ratio] = [youngs_modulus, poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
+    check("Young's modulus", modulus, is_positive(modulus), pascals)?;
+    check("Poisson's ratio", ratio, ratio > -1.0 && ratio <= 0.5, "above -1 and at most 0.5")?;
+    Ok(material.effective_modulus())
+}
+
+/// Refuses targets with which a result may not be a number.
+fn check_targets(targets: &[Move]) -> Result<(), Error> {
+    for (index, target) in targets.iter().enumerate() {
+        if let Move::ToForce(value) | Move::ToIndentation(value) | Move::ToDisplacement(value) = *target {
+            let name = format!("target of stage {}", index + 1);
+            check(&name, value, value.abs() <= LARGEST, "from -1e50 to 1e50")?;
+        }
+    }
+    Ok(())
 }
 
 impl Cycle {
@@ -205,6 +235,69 @@ impl Cycle {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::phases;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn wrong_values_are_named_with_what_is_allowed() {
+        let sphere = Profile::sphere(1e-4, 1e-4, 64).unwrap();
+        let builder = |material| Contact::builder(&sphere, material);
+        let (soft, pascals) = (Material::effective(1e6), "allowed: from 1e-50 to 1e50 Pa");
+        let refused = |builder: ContactBuilder<'_>| builder.build().unwrap_err().to_string();
+        for (message, expected) in [
+            (
+                refused(builder(Material::isotropic(1e6, 0.7))),
+                "Poisson's ratio = 0.7; allowed: above -1 and at most 0.5",
+            ),
+            (
+                refused(builder(Material { youngs_modulus: Some(1e6), ..soft })),
+                "effective modulus = 1000000; allowed: alone: it replaces Young's modulus and Poisson's ratio",
+            ),
+            (refused(builder(Material::default())), &format!("Young's modulus = NaN; {pascals}")),
+            (refused(builder(Material::effective(1e100))), &format!("effective modulus = 1e100; {pascals}")),
+            (
+                refused(builder(soft).work_of_adhesion(1e100)),
+                "work of adhesion = 1e100; allowed: from 0 to 1e50 J/m²",
+            ),
+            (refused(builder(soft).samples(0)), "samples = 0; allowed: from 2 to 1000000"),
+            (
+                refused(builder(soft).samples(u64::MAX)),
+                "samples = 1.8446744073709552e19; allowed: from 2 to 1000000",
+            ),
+        ] {
+            assert_eq!(message, expected);
+        }
+        let contact = builder(soft).build().unwrap();
+        for target in [1e100, f64::NAN] {
+            let refused = contact.load(&[Move::ToTouch, Move::ToForce(target)]).unwrap_err().to_string();
+            assert!(refused.starts_with("target of stage 2 = "), "{refused}");
+        }
+    }
+
+    /// Whatever is accepted has finite results: values of all magnitudes that are allowed.
+    #[test]
+    fn no_result_is_other_than_a_finite_number() {
+        for seed in 0..2000 {
+            let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
+            let mut next = || numbers.next().unwrap_or(0.5);
+            let mut size = |least: f64| 10.0_f64.powf(least + (50.0 - least) * next());
+            let (height, spacing, modulus, work) = (size(-300.0), size(-50.0), size(-50.0), size(-300.0));
+            let targets = [size(-300.0), size(-50.0)];
+            let heights: Vec<f64> = (0..5).map(|_| height * next()).collect();
+            let Ok(profile) = Profile::from_heights(&heights, spacing) else { continue };
+            let edges = if next() < 0.5 { Edges::Grid } else { Edges::SubCell };
+            let contact = Contact::builder(&profile, Material::effective(modulus)).edges(edges).samples(4);
+            let contact = contact.work_of_adhesion(if next() < 0.1 { 0.0 } else { work }).build().unwrap();
+            let press =
+                if next() < 0.5 { Move::ToForce(targets[0]) } else { Move::ToIndentation(targets[1]) };
+            for first in [press, Move::ToTouch, Move::ToZeroForce] {
+                let found = format!("{:?}", contact.load(&[first, Move::ToSeparation]));
+                assert!(!found.contains("NaN") && !found.contains("inf"), "{seed}: {heights:?} {found}");
+                let found = format!("{:?}", contact.reversals(&[first]));
+                assert!(!found.contains("NaN") && !found.contains("inf"), "{seed}: {heights:?} {found}");
+            }
+        }
+    }
 
     #[test]
     fn reversals_are_those_of_loads_of_their_own() {

@@ -105,10 +105,10 @@ pub enum Error {
     #[error(transparent)]
     Values(#[from] scene::SceneErrors),
     /// A value of a profile or a contact out of its range.
-    #[error("{name} = {value:e}; allowed: {allowed}")]
+    #[error("{name} = {}; allowed: {allowed}", shown(*value))]
     Value {
         /// Name of the value.
-        name: &'static str,
+        name: String,
         /// The value.
         value: f64,
         /// Allowed range.
@@ -117,6 +117,12 @@ pub enum Error {
     /// A force out of reach, a file that cannot be read, or not enough memory.
     #[error(transparent)]
     Run(#[from] RunError),
+}
+
+/// A value as a user would write it: a count without an exponent.
+fn shown(value: f64) -> String {
+    let is_plain = value == 0.0 || (1e-3..1e10).contains(&value.abs());
+    if is_plain { value.to_string() } else { format!("{value:e}") }
 }
 
 /// Computes the scene of a document. Its measured files are looked for in the folder of the scene file.

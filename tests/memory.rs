@@ -105,7 +105,7 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
 #[test]
 fn a_line_of_a_new_seed_takes_the_memory_and_the_transform_of_the_one_before() {
     let _alone = ALONE.lock();
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1 << 14, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1 << 14, roll_off_mode: 0.0 };
     for points in [1 << 16, (1 << 16) + 1] {
         let (mut synthesizer, mut heights, mut gaps) = (Synthesizer::default(), Vec::new(), Vec::new());
         for seed in 1..4 {
@@ -171,7 +171,7 @@ const OF_OTHERS: usize = 1 << 17;
 fn memory_of_512_reversals_is_that_of_a_few() {
     let _alone = ALONE.lock();
     let springs = 1 << 15;
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4, roll_off_mode: 0.0 };
     let rough = spectrum.heights(1, springs).unwrap();
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);
@@ -212,7 +212,7 @@ const PRELOADS_PER_SPRING: usize = 192;
 fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let _alone = ALONE.lock();
     let springs = 1 << 16;
-    let spectrum = SelfAffine { hurst: 0.1, first: 1, last: springs as u64 / 2, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst: 0.1, first: 1, last: springs as u64 / 2, roll_off_mode: 0.0 };
     let rough = spectrum.heights(1, springs).unwrap();
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
     let foundation = Foundation::endless(line.spacing, 2e6);

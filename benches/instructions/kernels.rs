@@ -55,7 +55,7 @@ fn smooth() -> Line {
 }
 
 fn rough() -> Line {
-    let spectrum = SelfAffine { hurst: HURST, first: 1, last: LAST_MODE, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst: HURST, first: 1, last: LAST_MODE, roll_off_mode: 0.0 };
     let unit = Synthesizer::default().synthesize(spectrum, SEED, POINTS, 0.0, Vec::new()).expect("a line");
     Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
 }

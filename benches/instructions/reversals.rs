@@ -47,7 +47,7 @@ pub fn run_as_child() -> bool {
     let Ok(asked) = std::env::var(CHILD) else { return false };
     let task: usize = asked.parse().expect("a number");
     let ((kappa, edges), part) = (BODIES[task / PARTS.len()], PARTS[task % PARTS.len()]);
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: SPRINGS as u64 / 4, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: SPRINGS as u64 / 4, roll_off_mode: 0.0 };
     let rough = spectrum.heights(1, SPRINGS).expect("memory for the line");
     let line = Line::new(LENGTH, SPRINGS, None, Some(&rough), RMS_HEIGHT).expect("a finite line");
     let foundation = Foundation::new(LENGTH, SPRINGS, EFFECTIVE_MODULUS);

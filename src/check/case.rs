@@ -3,7 +3,7 @@
 
 use crate::scene::{CheckedScene, Document, Edges, Material, Move};
 use crate::simulation::{Outcome, Simulation};
-use crate::surface::{SelfAffine, phases};
+use crate::surface::{Line, SelfAffine, phases};
 use crate::{Contact, Cycle, Profile};
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
@@ -116,9 +116,10 @@ impl Body {
                     hurst: 0.1 + 0.8 * next(),
                     first: 1,
                     last: points as u64 / 2,
-                    roll_off: 0.0,
+                    roll_off_mode: 0.0,
                 };
-                Profile::self_affine(spectrum, HEIGHT, LENGTH, points, seed)?.heights().collect()
+                let heights = spectrum.heights(seed, points)?;
+                Line::new(LENGTH, points, None, Some(&heights), HEIGHT)?.heights().collect()
             }
             1 => (0..points).map(|_| HEIGHT * next()).collect(),
             _ => (0..points).map(|_| 0.25 * HEIGHT * (5.0 * next()).floor()).collect(),

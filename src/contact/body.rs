@@ -362,7 +362,8 @@ pub struct Reversal {
     pub separation: f64,
     /// Energy dissipated from separation to separation, J.
     pub dissipated_energy: f64,
-    /// Forces at the requested points, up to the turning point, N.
+    /// Forces, N, at those indentations asked of [`Body::reversals`] that are not above the turning point; empty from
+    /// [`crate::Contact::reversals`], which asks for none.
     pub forces: Vec<f64>,
 }
 

@@ -147,8 +147,8 @@ impl Scene {
         let mode = |wavelength: f64| (self.length / wavelength).round() as u64;
         let (first, last) =
             modes.or(wavelengths.map(|(longest, shortest)| (mode(longest), mode(shortest))))?;
-        let roll_off = roll_off.map_or(0.0, |wavelength| self.length / wavelength);
-        Some(SelfAffine { hurst, first, last, roll_off })
+        let roll_off_mode = roll_off.map_or(0.0, |wavelength| self.length / wavelength);
+        Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
     /// Warning about roughness whose shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.

@@ -47,8 +47,10 @@ pub struct Spread {
 pub type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
-    /// Statistics of values of a quantity between these bounds; `None` without values.
-    pub fn of(values: Vec<f64>, bounds: (f64, f64)) -> Option<Self> {
+    /// Statistics of values of a quantity between these bounds, (−∞, ∞) without any. A value that is not a finite number is
+    /// left out as a missing one; `None` without values.
+    pub fn of(mut values: Vec<f64>, bounds: (f64, f64)) -> Option<Self> {
+        values.retain(|value| value.is_finite());
         let mut sorted = values.clone();
         sorted.sort_by(f64::total_cmp);
         let range = (*sorted.first()?, *sorted.last()?);
@@ -271,6 +273,13 @@ mod tests {
             let t = student_t(freedom);
             assert!((t - expected).abs() < 2e-9 * expected, "{freedom}: {t}");
         }
+    }
+
+    #[test]
+    fn what_is_no_number_is_missing() {
+        let all = Statistics::of(vec![f64::NAN, 2.0, f64::INFINITY, 4.0], (0.0, 100.0)).unwrap();
+        assert_eq!((all.count, all.mean, all.range), (2, 3.0, (2.0, 4.0)));
+        assert_eq!(Statistics::of(vec![f64::NAN], (0.0, 100.0)), None);
     }
 
     #[test]

@@ -100,7 +100,7 @@ impl Modes {
     /// Half the amplitudes of the block of modes after mode `before`.
     fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
         // Below a roll-off each mode is computed by itself.
-        match if (before as f64) < self.spectrum.roll_off { 0 } else { before } {
+        match if (before as f64) < self.spectrum.roll_off_mode { 0 } else { before } {
             0..512 => std::array::from_fn(|lane| self.half_amplitude(before + 1 + lane as u64)),
             512..2048 => self.half_amplitudes_in_series::<16, TERMS>(before),
             2048..32_768 => self.half_amplitudes_in_series::<64, TERMS>(before),
@@ -241,7 +241,7 @@ mod tests {
     #[test]
     fn amplitudes_are_their_powers_to_rounding() {
         for hurst in [1e-300, 0.3, 0.7, 1.0_f64.next_down()] {
-            let spectrum = SelfAffine { hurst, first: 1, last: 1, roll_off: 0.0 };
+            let spectrum = SelfAffine { hurst, first: 1, last: 1, roll_off_mode: 0.0 };
             let modes = Modes::new(spectrum, 1, 10, 0.5);
             for before in [0, 448, 512, 1984, 2048, 32_704, 32_768, 1 << 20, (1 << 27) - 64] {
                 for (mode, amplitude) in (before + 1..).zip(modes.half_amplitudes(before)) {
@@ -255,7 +255,7 @@ mod tests {
 
     #[test]
     fn modes_are_the_same_wherever_drawing_begins_and_on_any_number_of_threads() {
-        let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 5000, roll_off: 0.0 };
+        let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 5000, roll_off_mode: 0.0 };
         let modes = Modes::new(spectrum, 3, 10_000, 0.5);
         let mut all = vec![Complex64::ZERO; 5000];
         modes.draw(1, &mut all);

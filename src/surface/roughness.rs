@@ -160,7 +160,7 @@ mod tests {
             (2, 1, 1, 0.0),
             (1400, 2, 700, 600.0),
         ] {
-            let spectrum = SelfAffine { hurst: 0.6, first, last, roll_off };
+            let spectrum = SelfAffine { hurst: 0.6, first, last, roll_off_mode: roll_off };
             for shift in [0.0, 0.5] {
                 let line =
                     Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
@@ -174,7 +174,8 @@ mod tests {
             }
         }
         // The rms height is 1.
-        let heights = SelfAffine { hurst: 0.8, first: 1, last: 100, roll_off: 0.0 }.heights(3, 1000).unwrap();
+        let heights =
+            SelfAffine { hurst: 0.8, first: 1, last: 100, roll_off_mode: 0.0 }.heights(3, 1000).unwrap();
         let rms = (heights.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
         assert!((rms - 1.0).abs() < 1e-12, "{rms}");
     }
@@ -194,7 +195,7 @@ mod tests {
             (2 * many as usize, 0.8, 1, many, 3),
             (64, 0.8, 1, 32, 3),
         ] {
-            let spectrum = SelfAffine { hurst, first, last, roll_off: 0.0 };
+            let spectrum = SelfAffine { hurst, first, last, roll_off_mode: 0.0 };
             let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
             assert_eq!(kept, spectrum.heights(seed, points).unwrap());
             // The same as on one thread and by another plan.

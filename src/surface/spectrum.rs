@@ -20,8 +20,9 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, at least `first`.
     pub last: u64,
-    /// Mode of the roll-off, L over its wavelength, a whole number or not; none if not above `first`.
-    pub roll_off: f64,
+    /// Mode of the roll-off, in waves per length: L over the wavelength of the roll-off, a whole number or not. 0 or any
+    /// value up to `first`: no roll-off.
+    pub roll_off_mode: f64,
 }
 
 impl SelfAffine {
@@ -29,8 +30,8 @@ impl SelfAffine {
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
-        let decay = mode.max(self.roll_off).powf(self.amplitude_exponent());
-        if mode < self.roll_off { decay * (mode / self.roll_off).sqrt() } else { decay }
+        let decay = mode.max(self.roll_off_mode).powf(self.amplitude_exponent());
+        if mode < self.roll_off_mode { decay * (mode / self.roll_off_mode).sqrt() } else { decay }
     }
 
     /// Exponent −H − 1/2 of the amplitudes.
@@ -70,7 +71,7 @@ impl SelfAffine {
     /// height. Zero for a single mode.
     pub(crate) fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
-        let between = self.roll_off.max(low).min(high);
+        let between = self.roll_off_mode.max(low).min(high);
         let integral = |power: i32| {
             let decays = integral_of_power(self.exponent(power), between, high);
             if between == low {
@@ -87,7 +88,7 @@ impl SelfAffine {
 
     /// Σ k^power A_k² over the modes with the relative amplitudes, relative error a few units in the last place.
     fn moment(&self, power: i32) -> f64 {
-        let begins = (self.roll_off.ceil() as u64).max(self.first).min(self.last.saturating_add(1));
+        let begins = (self.roll_off_mode.ceil() as u64).max(self.first).min(self.last.saturating_add(1));
         let decays = sum_of_powers(self.exponent(power), begins, self.last);
         if begins == self.first {
             return decays;
@@ -102,7 +103,7 @@ impl SelfAffine {
 
     /// A_k²/k below the roll-off.
     fn flat_level(&self) -> f64 {
-        self.roll_off.powf(-2.0 - 2.0 * self.hurst)
+        self.roll_off_mode.powf(-2.0 - 2.0 * self.hurst)
     }
 }
 
@@ -219,7 +220,7 @@ mod tests {
 
     #[test]
     fn integrals_stay_accurate_as_hurst_goes_to_one() {
-        let spectrum = |hurst| SelfAffine { hurst, first: 1, last: 4096, roll_off: 0.0 };
+        let spectrum = |hurst| SelfAffine { hurst, first: 1, last: 4096, roll_off_mode: 0.0 };
         let limit = spectrum(1.0).continuum_gradient_per_height(1.0);
         // At H = 1: ∫dq/q = ln 4096 over ∫q⁻³dq = (1 − 4096⁻²)/2.
         let exact = std::f64::consts::TAU * (4096_f64.ln() * 2.0 / (1.0 - 4096_f64.powi(-2))).sqrt();
@@ -235,7 +236,7 @@ mod tests {
     fn the_elastic_energy_of_the_modes_is_that_of_the_spectrum() {
         let (modulus, height, length) = (2.0e6, 3.0e-7, 1.0e-3);
         for hurst in [0.1, 0.5, 0.9] {
-            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000, roll_off: 0.0 };
+            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000, roll_off_mode: 0.0 };
             let modes = spectrum.unit_amplitude(length).scaled(height).elastic_energy(modulus);
             // (E*/4) ∫ q C2D d²q over the surface with ⟨h²⟩ = ∫ C2D d²q: C2D ∝ q^(−2−2H).
             let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
@@ -286,7 +287,7 @@ mod tests {
         for (hurst, first, last, roll_off) in
             [(0.3, 1, 500, 40.5), (0.8, 3, 4096, 700.0), (0.8, 3, 90, 90.0), (0.5, 7, 7, 7.4)]
         {
-            let spectrum = SelfAffine { hurst, first, last, roll_off };
+            let spectrum = SelfAffine { hurst, first, last, roll_off_mode: roll_off };
             // C1D = π q C2D with C2D flat up to q_r and ∝ q^(−2−2H) above; A² ∝ C1D.
             let squares = (first..=last).rev().map(|mode| {
                 let power = (mode as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
@@ -322,13 +323,13 @@ mod tests {
                 "{spectrum:?}: {found} {expected}"
             );
         }
-        let flat = SelfAffine { hurst: 0.7, first: 4, last: 512, roll_off: 4.0 };
-        assert_eq!(flat.unit_amplitude(1.0), SelfAffine { roll_off: 0.0, ..flat }.unit_amplitude(1.0));
+        let flat = SelfAffine { hurst: 0.7, first: 4, last: 512, roll_off_mode: 4.0 };
+        assert_eq!(flat.unit_amplitude(1.0), SelfAffine { roll_off_mode: 0.0, ..flat }.unit_amplitude(1.0));
     }
 
     #[test]
     fn one_mode_is_a_cosine() {
-        let spectrum = SelfAffine { hurst: 0.3, first: 5, last: 5, roll_off: 0.0 };
+        let spectrum = SelfAffine { hurst: 0.3, first: 5, last: 5, roll_off_mode: 0.0 };
         let expected = std::f64::consts::TAU * 5.0 / 2.0;
         assert!((spectrum.gradient_per_height(2.0) / expected - 1.0).abs() < 1e-15);
         assert_eq!(spectrum.continuum_gradient_per_height(2.0), 0.0);

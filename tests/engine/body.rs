@@ -103,7 +103,7 @@ pub fn from_lowest(heights: &[f64]) -> Vec<f64> {
 
 /// Gaps of a self-affine line about 1 m deep.
 pub fn self_affine(hurst: f64, seed: u64, points: usize, last: u64) -> Vec<f64> {
-    let spectrum = SelfAffine { hurst, first: 1, last, roll_off: 0.0 };
+    let spectrum = SelfAffine { hurst, first: 1, last, roll_off_mode: 0.0 };
     let rough = spectrum.heights(seed, points).unwrap();
     from_lowest(&rough.iter().map(|height| -0.2 * height).collect::<Vec<_>>())
 }

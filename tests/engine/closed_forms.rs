@@ -200,7 +200,7 @@ fn rough_bodies_of_few_modes_converge_with_the_square_of_the_distance_in_the_med
         kinds.flat_map(|(hurst, kappa)| (1..=10).map(move |seed| (hurst, kappa, seed))).collect();
     for form in forms {
         let figures = |points: usize, &(hurst, kappa, seed): &(f64, f64, u64)| {
-            let spectrum = SelfAffine { hurst, first: 1, last: 24, roll_off: 0.0 };
+            let spectrum = SelfAffine { hurst, first: 1, last: 24, roll_off_mode: 0.0 };
             let shift = form.as_ref().map_or(0.0, |form| form.shift(points as u64));
             let rough = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new()).unwrap();
             let line = Line::new(1.0, points, form.as_ref(), Some(&rough), 0.01).unwrap();

@@ -116,7 +116,7 @@ fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
     assert!(driver.text().contains("50 µm, 1.12 µm"), "{}", driver.text());
     driver.select("roughness.roll_off");
     driver.press("Left");
-    assert_eq!(waves(&driver).roll_off, 1e-4 / 4.5e-5);
+    assert_eq!(waves(&driver).roll_off_mode, 1e-4 / 4.5e-5);
     driver.select("roughness.modes");
     driver.press("Right");
     assert_eq!((waves(&driver).first, waves(&driver).last), (2, 128));
