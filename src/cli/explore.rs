@@ -4,13 +4,13 @@ use super::error::CliError;
 use super::scene::Overrides;
 use crate::experiment::{CurveOptions, MeasuredCurve};
 use crate::explorer::app::Measured;
-use crate::explorer::autosave;
+use crate::explorer::autosave::{self, Kept};
 use crate::explorer::config::{Config, default_path};
 use crate::explorer::keys::bindings;
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options, view};
 use crate::export::brief_summary;
-use crate::scene::{Document, quoted};
+use crate::scene::quoted;
 use crate::simulation::Simulation;
 use crate::text::path_name;
 use clap::Args;
@@ -100,9 +100,12 @@ pub(super) fn explore(
     out: &mut dyn Write,
 ) -> Result<(), CliError> {
     let unsaved = autosave::folder();
-    let restored = if arguments.restore { Some(restored(unsaved.as_deref())?) } else { None };
-    let first = restored.as_ref().and_then(|(_, documents)| documents.first().cloned());
-    let options = Options { restored, unsaved, ..arguments.look.options()? };
+    let (restored, skipped) =
+        if arguments.restore { restored(unsaved.as_deref())? } else { Default::default() };
+    let first = restored.as_ref().and_then(|kept| kept.documents.first().cloned());
+    let mut options = Options { restored, unsaved, ..arguments.look.options()? };
+    options.warning =
+        [options.warning, skipped].into_iter().flatten().reduce(|one, other| format!("{one}; {other}"));
     let opening = first.map_or_else(
         || opening(arguments, &options.config.scene, commands),
         |document| Ok(document.into()),
@@ -142,13 +145,16 @@ pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> R
     Ok(())
 }
 
-/// Newest unsaved changes of an ended session: their file and scenes.
-fn restored(folder: Option<&Path>) -> Result<(PathBuf, Vec<Document>), CliError> {
-    let newest = folder.and_then(autosave::newest);
-    let none = || CliError::named("--restore", "no unsaved changes are kept; asperity opens a scene");
-    let newest = newest.ok_or_else(none)?;
-    let documents = autosave::read(&newest).map_err(|error| CliError::named("--restore", error))?;
-    Ok((newest, documents))
+/// Newest unsaved changes of an ended session, and a statement of the newer files that cannot be read.
+fn restored(folder: Option<&Path>) -> Result<(Option<Kept>, Option<String>), CliError> {
+    let (newest, skipped) = folder.map(autosave::newest).unwrap_or_default();
+    let skipped = (!skipped.is_empty()).then(|| skipped.join("; "));
+    if newest.is_none() {
+        let none = "no unsaved changes are kept; asperity opens a scene".to_owned();
+        let why = skipped.map_or(none, |why| format!("nothing kept can be read: {why}"));
+        return Err(CliError::named("--restore", why));
+    }
+    Ok((newest, skipped.map(|why| format!("--restore skips what cannot be read: {why}"))))
 }
 
 fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Result<Opening, CliError> {

@@ -2,8 +2,8 @@
 
 use super::error::CliError;
 use crate::draw::AxisScale;
-use crate::scene::{CheckedScene, Document, parse_quantity};
-use crate::simulation::{Simulation, reach};
+use crate::scene::{CheckedScene, Document, Move, parse_quantity};
+use crate::simulation::Simulation;
 use crate::study::Axis;
 
 const USUAL: usize = 64;
@@ -38,9 +38,8 @@ pub(super) fn check_reach(
     largest: f64,
     simulation: &mut Simulation,
 ) -> Result<(), CliError> {
-    let full_contact =
-        simulation.full_contact_force(scene).map_err(|error| CliError::named(document.name(), error))?;
-    match reach::beyond_full_contact(largest, full_contact, 0.0).filter(|_| full_contact > 0.0) {
+    let reach = simulation.reach(scene).map_err(|error| CliError::named(document.name(), error))?;
+    match reach.refusal(Move::ToForce(largest)) {
         Some(why) => Err(CliError::named(document.name(), format!("--preloads: {why}"))),
         None => Ok(()),
     }

@@ -101,6 +101,11 @@ impl Contact {
         Contact { loading_stiffness, ..self }
     }
 
+    /// Displacement of the instrument at an indentation (m) and a force (N), D = d + F/k, m.
+    pub(crate) fn displacement(&self, indentation: f64, force: f64) -> f64 {
+        indentation + force / self.loading_stiffness
+    }
+
     /// Creates a contact of the same springs and edges with another foundation and rule.
     pub(crate) fn with_rule(&self, foundation: Foundation, hess: Option<HessRule>) -> Self {
         Self::of(Arc::clone(&self.springs), self.edges, foundation, hess)

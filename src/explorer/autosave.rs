@@ -1,10 +1,11 @@
 //! Copies of unsaved changes, in case the process or its connection ends first: one file for each session, locked while
 //! the session runs. Files of the user are never written.
 
-use crate::io::read_regular_text;
+use crate::io::{into_text, open_regular, read_limited};
 use crate::scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
+use std::cmp::Reverse;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf, absolute};
@@ -37,31 +38,50 @@ pub fn folder() -> Option<PathBuf> {
     Some(state.join("asperity").join("unsaved"))
 }
 
-/// Returns the newest file of an ended session.
-pub fn newest(folder: &Path) -> Option<PathBuf> {
-    let is_ended = |path: &PathBuf| {
-        path.extension().is_some_and(|extension| extension == "ron")
-            && File::open(path).is_ok_and(|file| !matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
-    };
-    let files = fs::read_dir(folder).ok()?.flatten().map(|entry| entry.path()).filter(is_ended);
-    files.max_by_key(|path| fs::metadata(path).and_then(|found| found.modified()).ok())
+/// Unsaved changes of an ended session, the explored scene first, and their file, which belongs to this process alone as
+/// long as this value lives.
+pub struct Kept {
+    path: PathBuf,
+    lock: File,
+    pub documents: Vec<Document>,
+}
+
+/// Returns the newest unsaved changes of an ended session, and the reasons why newer files are not read.
+pub fn newest(folder: &Path) -> (Option<Kept>, Vec<String>) {
+    let is_copy = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "ron");
+    let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<PathBuf> = files.filter(is_copy).collect();
+    files.sort_by_key(|path| Reverse(fs::metadata(path).and_then(|found| found.modified()).ok()));
+    let mut skipped = Vec::new();
+    for path in files {
+        let read = match open_regular(&path) {
+            // A session that runs, or that has taken the file at the same time.
+            Ok(file) if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) => continue,
+            Ok(lock) => read(&lock).map(|documents| (lock, documents)),
+            Err(error) => Err(error.to_string()),
+        };
+        match read {
+            Ok((lock, documents)) => return (Some(Kept { path, lock, documents }), skipped),
+            Err(why) => skipped.push(format!("{}: {why}", path.display())),
+        }
+    }
+    (None, skipped)
 }
 
 /// Returns the message that offers the newest unsaved changes of an ended session.
 pub fn offer(folder: &Path) -> Option<String> {
-    let documents = read(&newest(folder)?).ok()?;
+    let Kept { documents, .. } = newest(folder).0?;
     let name = |document: &Document| Some(Path::new(document.name()).file_name()?.display().to_string());
     let names: Vec<String> = documents.iter().filter_map(name).collect();
     Some(format!("unsaved changes of {} are kept: asperity --restore opens them", names.join(", ")))
 }
 
 /// Reads the scenes of a file, the explored one first.
-pub fn read(path: &Path) -> Result<Vec<Document>, String> {
-    let wrong = |why: &dyn ToString| format!("{}: {}", path.display(), why.to_string());
-    let text = read_regular_text(path, LONGEST).map_err(|error| wrong(&error))?;
-    let copies: Vec<Copy> = ron::from_str(&text).map_err(|error| wrong(&error))?;
+fn read(file: &File) -> Result<Vec<Document>, String> {
+    let text = read_limited(file, LONGEST).and_then(into_text).map_err(|error| error.to_string())?;
+    let copies: Vec<Copy> = ron::from_str(&text).map_err(|error| error.to_string())?;
     let document = |copy: Copy| {
-        let document = Document::parse(&copy.text, &copy.name).map_err(|errors| wrong(&errors))?;
+        let document = Document::parse(&copy.text, &copy.name).map_err(|errors| errors.to_string())?;
         Ok(document.resumed(copy.opened, copy.overrides))
     };
     copies.into_iter().map(document).collect()
@@ -69,13 +89,12 @@ pub fn read(path: &Path) -> Result<Vec<Document>, String> {
 
 impl Autosave {
     /// Creates the copies of a session, without a file or with the file of an ended session.
-    pub fn new(folder: &Path, restored: Option<PathBuf>) -> Self {
-        let now = || SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos();
-        let path = restored.unwrap_or_else(|| folder.join(format!("{}-{}.ron", std::process::id(), now())));
-        let own = File::open(&path).ok();
-        // A file system without locks offers the copies to other sessions too early, which harms nobody.
-        own.iter().for_each(|file| drop(file.try_lock()));
-        Autosave { path, own }
+    pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
+        if let Some(Kept { path, lock, .. }) = restored {
+            return Autosave { path, own: Some(lock) };
+        }
+        let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default().as_nanos();
+        Autosave { path: folder.join(format!("{}-{now}.ron", std::process::id())), own: None }
     }
 
     /// Keeps these scenes in place of all before; without any, there is no file. The file is whole at every moment.
@@ -99,8 +118,11 @@ impl Autosave {
         fs::create_dir_all(self.path.parent().unwrap_or(Path::new("")))?;
         let unfinished = self.path.with_extension("new");
         let mut file = File::create(&unfinished)?;
+        // A file system without locks offers the copies to other sessions too early, which harms nobody.
         let _ = file.try_lock();
         file.write_all(text.as_bytes())?;
+        // The new name never comes before the content.
+        file.sync_all()?;
         self.own = Some(file);
         fs::rename(&unfinished, &self.path)
     }
@@ -126,32 +148,62 @@ mod tests {
     fn copies_are_read_back_as_they_were_once_their_session_has_ended() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path().join("state/unsaved");
-        assert_eq!(newest(&folder), None);
+        let none = || newest(&folder).0.is_none();
+        assert!(none());
         let changed = open("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
         let other = open("rough-sphere").unwrap().set("length", "2.0e-4").unwrap();
         let mut session = Autosave::new(&folder, None);
         session.keep(&[&changed]).unwrap();
         session.keep(&[&changed, &other]).unwrap();
-        assert_eq!(newest(&folder), None, "the session runs");
+        assert!(none(), "the session runs");
         drop(session);
-        let file = newest(&folder).unwrap();
-        let documents = read(&file).unwrap();
-        assert_eq!(documents, [changed.clone(), other]);
-        assert_eq!(documents[0].overrides(), changed.overrides());
+        let kept = newest(&folder).0.unwrap();
+        assert_eq!(kept.documents, [changed.clone(), other]);
+        assert_eq!(kept.documents[0].overrides(), changed.overrides());
+        assert!(none(), "another process that restores at the same time has nothing left to open");
+        let file = kept.path.clone();
+        let scenes = || read(&File::open(&file).unwrap());
         // A measured file is found from any folder.
         let measured = changed.set("roughness", "Measured(file: \"map.txt\")").unwrap();
-        let mut next = Autosave::new(&folder, Some(file.clone()));
+        let mut next = Autosave::new(&folder, Some(kept));
         next.keep(&[&measured]).unwrap();
         let whole = absolute("map.txt").unwrap();
-        assert_eq!(read(&file).unwrap()[0].scene().measured_files(), [whole.to_str().unwrap()]);
-        assert_eq!(newest(&folder), None, "the session that opened the scenes continues their file");
+        assert_eq!(scenes().unwrap()[0].scene().measured_files(), [whole.to_str().unwrap()]);
+        assert!(none(), "the session that opened the scenes continues their file");
         next.keep(&[&changed]).unwrap();
         next.keep(&[]).unwrap();
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing is unsaved any more");
-        for (text, reason) in [("(", "1:1"), ("[(name: \"a\")]", "opened"), ("[(name", "1:")] {
-            fs::write(&file, text).unwrap();
-            let why = read(&file).unwrap_err();
-            assert!(why.contains(reason) && why.contains(file.to_str().unwrap()), "{why}");
+    }
+
+    /// A power cut may have damaged the newest file, and anything may be in the folder.
+    #[test]
+    fn files_that_cannot_be_read_are_stated_and_older_ones_are_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let changed = open("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
+        Autosave::new(folder, None).keep(&[&changed]).unwrap();
+        let later = SystemTime::now() + std::time::Duration::from_secs(10);
+        let damaged = [("a", ""), ("b", "("), ("c", "[(name: \"a\")]"), ("d", "[(name")];
+        for (name, text) in damaged {
+            let path = folder.join(name).with_extension("ron");
+            fs::write(&path, text).unwrap();
+            File::open(&path).unwrap().set_modified(later).unwrap();
         }
+        fs::create_dir(folder.join("folder.ron")).unwrap();
+        #[cfg(unix)]
+        rustix::fs::mknodat(
+            rustix::fs::CWD,
+            folder.join("pipe.ron"),
+            rustix::fs::FileType::Fifo,
+            rustix::fs::Mode::RUSR,
+            0,
+        )
+        .unwrap();
+        let (kept, skipped) = newest(folder);
+        assert_eq!(kept.unwrap().documents, [changed]);
+        for name in ["a.ron: ", "b.ron: 1:1", "c.ron: ", "d.ron: 1:"] {
+            assert!(skipped.iter().any(|why| why.contains(name)), "{name}: {skipped:?}");
+        }
+        assert!(offer(folder).is_some());
     }
 }

@@ -1,6 +1,6 @@
 //! The body under manual loading, with its path for the curve.
 
-use super::reach::{beyond_full_contact, out_of_reach};
+use super::reach::{Reach, out_of_reach};
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
 use crate::contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
@@ -16,28 +16,24 @@ pub struct ManualBody {
     travel: ManualPath,
     /// A small part of the range of indentations, m.
     step: f64,
-    /// Force at which the last spring touches the rigid body, N.
-    full_contact: f64,
-    /// Largest force of the scene's loading, N.
-    preload: f64,
+    reach: Reach,
     /// Direction of the last stage of the path.
     direction: Option<Direction>,
 }
 
 impl ManualBody {
-    /// Begins manual loading at an indentation of a leg, m. `step` is the distance of the points of a pull, m, and
-    /// `preload` the largest force of the scene's loading, N; the stages so far end in a direction. `None` without enough
-    /// memory.
+    /// Begins manual loading at an indentation of a leg, m. `step` is the distance of the points of a pull, m; the stages so
+    /// far end in a direction. `None` without enough memory.
     pub fn take(
         leg: &Leg,
         indentation: f64,
-        (step, preload): (f64, f64),
+        step: f64,
         (loading, direction): (Vec<Move>, Option<Direction>),
     ) -> Option<Self> {
         let body = Body::at(leg, indentation).ok()?;
-        let full_contact = leg.contact().full_contact_force();
+        let reach = Reach::of(leg.contact());
         let travel = ManualPath { loading, ..ManualPath::default() };
-        Some(ManualBody { body, travel, step, full_contact, preload, direction })
+        Some(ManualBody { body, travel, step, reach, direction })
     }
 
     pub fn point(&self) -> CurvePoint {
@@ -69,10 +65,7 @@ impl ManualBody {
 
     /// Moves the body, or states why not.
     fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), String> {
-        if let Move::ToForce(force) = target
-            && force > from.force
-            && let Some(why) = beyond_full_contact(force, self.full_contact, self.preload)
-        {
+        if let Some(why) = self.reach.refusal(target) {
             return Err(why);
         }
         let moved = self.body.move_to(target).map_err(|error| out_of_reach(&error, target))?;

@@ -1,8 +1,8 @@
 //! The list of parameters: the fields of the present scene that can be changed, in groups, by use.
 
 use crate::scene::{
-    Document, Effect, Field, Move, Range, RoughnessParameter, STAGE, choice_in_words, field, format_quantity,
-    loading_text, ron_float, stage_in_ron,
+    Document, Effect, Field, Move, Range, RoughnessParameter, STAGE, Scene, choice_in_words, field,
+    format_quantity, loading_text, ron_float, stage_in_ron,
 };
 use crate::text::grouped;
 
@@ -83,6 +83,20 @@ impl Parameter {
         let is_text = matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. });
         // A stage in words may become one with a number.
         has_value && (self.leg.is_some() || !is_text)
+    }
+
+    /// The given quantity from which a shown value follows, which a value of its own replaces; `None` for a given value.
+    pub fn follows_from(&self, scene: &Scene) -> Option<&'static str> {
+        let is_computed = self.shown.is_empty() || self.shown.starts_with('=');
+        match (self.setting, self.path.as_str()) {
+            (Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion, _) if is_computed => {
+                let given = scene.adhesion?.parameter();
+                Some(given.map_or("γ", |(parameter, _)| parameter.symbol()))
+            }
+            (Setting::Field, "roughness.modes") if is_computed => Some("the wavelengths"),
+            (Setting::Field, "roughness.wavelengths") if is_computed => Some("the modes"),
+            _ => None,
+        }
     }
 
     /// Returns true for the first row of a group.

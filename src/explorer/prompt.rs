@@ -6,7 +6,7 @@ use super::pane::Pane;
 use super::parameters::Parameter;
 use super::search::find;
 use super::text_line::TextLine;
-use crate::scene::Entry;
+use crate::scene::{Entry, Source};
 use std::path::is_separator;
 
 /// A prompt: keys act on it until it is closed.
@@ -76,7 +76,7 @@ impl Prompt {
         self.found = match &self.purpose {
             // A text with a separator is a path, not a name to search for.
             Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
-            Purpose::Scene(entries) => find(entries.iter().map(scene_texts), query),
+            Purpose::Scene(entries) => find(entries.iter().enumerate().map(scene_texts), query),
             Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
             Purpose::Command(commands) => find(commands.iter().map(Binding::texts), query),
             _ => Vec::new(),
@@ -92,6 +92,8 @@ impl Prompt {
     }
 }
 
-fn scene_texts(entry: &Entry) -> Vec<String> {
-    vec![entry.name.clone(), entry.title().to_owned(), entry.notice().to_owned()]
+/// Texts of a search: the number of a built-in scene, which come first, name, title and notice.
+fn scene_texts((place, entry): (usize, &Entry)) -> Vec<String> {
+    let number = if entry.origin == Source::BuiltIn { (place + 1).to_string() } else { String::new() };
+    vec![number, entry.name.clone(), entry.title().to_owned(), entry.notice().to_owned()]
 }

@@ -2,7 +2,7 @@
 
 use super::action::{Action, Traffic};
 use super::app::App;
-use super::autosave::{self, Autosave};
+use super::autosave::{self, Autosave, Kept};
 use super::config::Config;
 use super::input;
 use super::opening::Opening;
@@ -19,7 +19,7 @@ use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
 use crossterm::queue;
 use ratatui::backend::CrosstermBackend;
-use ratatui::layout::{Position, Rect, Size};
+use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
 use std::cell::Cell;
 use std::io::{self, Stdout};
@@ -27,14 +27,14 @@ use std::mem::{ManuallyDrop, take};
 use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, channel, sync_channel};
 use std::time::{Duration, Instant};
 
 /// Most frames per second over SSH, where each has to travel.
 const REMOTE_FRAMES: u32 = 12;
 
-/// Most cells of a window, of about 100 bytes each.
-const MOST_CELLS: u32 = 4_000_000;
+/// Most events of the input that wait for the loop: the terminal keeps further ones.
+const MOST_WAITING: usize = 64;
 
 /// Longest time of actions without a frame.
 const DRAINING: Duration = Duration::from_millis(100);
@@ -46,8 +46,8 @@ pub struct Options {
     pub marker: Option<Marker>,
     /// True to leave the mouse to the terminal.
     pub no_mouse: bool,
-    /// File of unsaved changes of another session, and its scenes; the opened scene is the first.
-    pub restored: Option<(PathBuf, Vec<Document>)>,
+    /// Unsaved changes of another session; the opened scene is the first.
+    pub restored: Option<Kept>,
     /// Configuration; options here have precedence.
     pub config: Config,
     pub warning: Option<String>,
@@ -95,6 +95,7 @@ pub fn open(
     solve: Solve,
     draw: Draw,
 ) -> io::Result<SessionEnd> {
+    let size = terminal::window()?;
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (sender, inbox) = channel();
     let sender = || sender.clone();
@@ -109,13 +110,13 @@ pub fn open(
     let to = sender();
     watch_for_signals(move |signal| to.send(Message::Signal(signal)).is_ok())?;
     let to = sender();
-    input::read(move |event| to.send(Message::Input(event)).is_ok())?;
+    let (places, waiting) = sync_channel(MOST_WAITING);
+    input::read(move |event| places.send(()).is_ok() && to.send(Message::Input(event)).is_ok())?;
     // The guard restores everything; ratatui's own drop would complain on standard error, and panic
     // where that is gone together with the terminal.
     let writer = FrameWriter::new(io::stdout());
     let written = writer.written();
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
-    let size = window(&terminal)?;
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
@@ -133,12 +134,11 @@ pub fn open(
     if let Some(warning) = options.warning {
         app.set_error(warning);
     }
-    if let Some((_, documents)) = &options.restored {
-        app.edit.restore(documents);
+    if let Some(kept) = &options.restored {
+        app.edit.restore(&kept.documents);
     } else if let Some(offer) = options.unsaved.as_deref().and_then(autosave::offer) {
         app.set_done(offer);
     }
-    let restored = options.restored.map(|(path, _)| path);
     let mut session = Session {
         runtime: Runtime { app, engine: Engine::threads(solver, studies), asked: 0, folder: PathBuf::new() },
         terminal: &mut terminal,
@@ -150,10 +150,13 @@ pub fn open(
         written,
         traffic: (Instant::now(), 0),
         inbox,
-        autosave: options.unsaved.map(|folder| Autosave::new(&folder, restored)),
+        waiting,
+        autosave: options.unsaved.map(|folder| Autosave::new(&folder, options.restored)),
         kept: (0, 0),
     };
-    let signal = session.run()?;
+    let end = session.run();
+    session.keep_unsaved();
+    let signal = end?;
     let app = session.runtime.app;
     if let Some(autosave) = session.autosave.as_mut().filter(|_| app.finished) {
         // The user was asked about the changes.
@@ -164,16 +167,6 @@ pub fn open(
 }
 
 type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
-
-fn window(terminal: &Screen) -> io::Result<Size> {
-    let size = terminal.size()?;
-    if size.area() > MOST_CELLS {
-        let Size { width, height } = size;
-        let fault = format!("a window of {width} × {height} cells; allowed: at most {MOST_CELLS} cells");
-        return Err(io::Error::other(fault));
-    }
-    Ok(size)
-}
 
 struct Session<'a> {
     runtime: Runtime,
@@ -188,6 +181,8 @@ struct Session<'a> {
     /// Time of the last report of the traffic, and the bytes written by then.
     traffic: (Instant, u64),
     inbox: Receiver<Message>,
+    /// An entry for each event of the input in the inbox.
+    waiting: Receiver<()>,
     autosave: Option<Autosave>,
     /// Generation and number of saves when changes were last kept.
     kept: (u64, u64),
@@ -204,6 +199,8 @@ impl Session<'_> {
         // with frames that nobody sees in time.
         let mut due = moved;
         while !self.runtime.app.finished {
+            // Unsaved changes are kept before they are drawn.
+            self.keep_unsaved();
             if changed && Instant::now() >= due {
                 self.show()?;
                 if self.remote {
@@ -224,6 +221,9 @@ impl Session<'_> {
             };
             let since = Instant::now();
             while let Some(message) = next {
+                if matches!(message, Message::Input(_)) {
+                    let _ = self.waiting.try_recv();
+                }
                 let action = match message {
                     Message::Input(None) => return Ok(None),
                     Message::Signal(SystemSignal::End(signal)) => return Ok(Some(signal)),
@@ -255,12 +255,13 @@ impl Session<'_> {
 
     /// Action for a window of another size.
     fn resize(&self) -> io::Result<Action> {
-        let size = window(self.terminal)?;
+        let size = terminal::checked(self.terminal.size()?)?;
         Ok(Action::Resize(size.width, size.height))
     }
 
     /// Draws a frame.
     fn show(&mut self) -> io::Result<()> {
+        terminal::checked(self.terminal.size()?)?;
         if take(&mut self.redraw) {
             // Unlike `clear` this does not query the position of the cursor on the input that the other thread reads.
             let size = self.terminal.size()?;
@@ -273,7 +274,7 @@ impl Session<'_> {
         terminal.draw(|frame| draw(frame, &runtime.app)).map(drop)
     }
 
-    /// Applies an action and keeps unsaved changes before they are drawn.
+    /// Applies an action.
     fn act(&mut self, action: Action) -> io::Result<()> {
         // A window that shrank and grew back between two frames has lost its content, though its size is that of the
         // last frame.
@@ -293,6 +294,11 @@ impl Session<'_> {
                 _ => {}
             }
         }
+        Ok(())
+    }
+
+    /// Keeps unsaved changes for another session.
+    fn keep_unsaved(&mut self) {
         let app = &mut self.runtime.app;
         let now = (app.edit.generation, app.edit.saves);
         if let Some(autosave) = self.autosave.as_mut().filter(|_| now != self.kept) {
@@ -302,7 +308,6 @@ impl Session<'_> {
                 app.set_error(format!("unsaved changes are not kept for another session: {error}"));
             }
         }
-        Ok(())
     }
 
     /// Reports the number of bytes written, once in a second of drawing.

@@ -1,23 +1,23 @@
 //! Results of the worker: immutable, stamped with the generation of their scene, and
 //! already reduced to the resolution of a pane.
 
+use super::reach::Reach;
 pub use super::request::Drive;
 use super::request::{Focus, LineView, SnapshotRequest};
-use crate::contact::{CurvePoint, Patch, PatchState};
+use crate::contact::{CurvePoint, Patch, PatchState, Springs};
 pub use crate::export::section::{Column, Section};
-use crate::export::section::{Contact, Part};
+use crate::export::section::{Contact, LineColumns, Part};
 use crate::scene::{CheckedScene, Move};
 use crate::simulation::{LineFacts, Outcome};
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedScene {
     pub generation: u64,
     pub scene: Arc<CheckedScene>,
     pub outcome: Outcome,
-    /// Force at which the last spring touches the rigid body, N.
-    pub full_contact: f64,
+    pub reach: Reach,
 }
 
 /// State of the contact at one indentation.
@@ -33,6 +33,8 @@ pub struct ContactSnapshot {
     /// Half the distance between the outermost edges of the contact, m; zero in separation.
     pub contact_radius: f64,
     pub profile: Section,
+    /// All springs of this state, for files.
+    pub springs: SpringsInContact,
     /// The neighbourhood of one fragment.
     pub close_up: CloseUp,
     /// Contact of the whole profile in a row of cells: `■` where all springs touch, `▪` some, `·` none.
@@ -43,6 +45,21 @@ pub struct ContactSnapshot {
     pub lengths: BTreeMap<u32, u64>,
     /// Path of manual loading to this state.
     pub manual: Option<ManualPath>,
+}
+
+/// The springs of a state and their patches. The snapshot does not keep the springs alive: they are gone as soon as the
+/// solver begins another profile.
+#[derive(Clone, Debug, Default)]
+pub struct SpringsInContact {
+    pub springs: Weak<Springs>,
+    pub patches: Vec<Patch>,
+}
+
+/// Equal patches of equal sections have equal springs.
+impl PartialEq for SpringsInContact {
+    fn eq(&self, other: &Self) -> bool {
+        self.patches == other.patches
+    }
 }
 
 /// Rigid profile and elastic surface at one spring.
@@ -69,6 +86,16 @@ impl Probe {
             level: contact.level(),
             patch: contact.patches.get(next).filter(|patch| patch.first <= spring).map(|_| next),
         })
+    }
+}
+
+impl ContactSnapshot {
+    /// A part of the profile and its contact in columns of springs; `None` once the springs are gone.
+    pub fn section(&self, part: Part) -> Option<Section> {
+        let SpringsInContact { springs, patches } = &self.springs;
+        let (springs, indentation) = (springs.upgrade()?, self.point.indentation);
+        let contact = Contact { gaps: springs.gaps(), summit: self.line.summit, indentation, patches };
+        Some(contact.section(part, &mut LineColumns::default()))
     }
 }
 
@@ -147,6 +174,17 @@ pub struct Preview {
     /// The text of the scene, different for different scenes.
     pub text: String,
     pub outcome: Outcome,
+}
+
+impl Report {
+    /// Generation of the scene.
+    pub fn generation(&self) -> u64 {
+        match self {
+            Report::Solved(solved, _) => solved.generation,
+            Report::Shown(snapshot) => snapshot.generation,
+            Report::Progress { generation, .. } | Report::Failed { generation, .. } => *generation,
+        }
+    }
 }
 
 /// Report of the worker.

@@ -4,8 +4,11 @@
 use super::close_up::close_up;
 use super::manual_body::ManualBody;
 use super::player::{Player, indentations};
+use super::reach::Reach;
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, lengths, profile_part, strip};
+use super::snapshot::{
+    ContactSnapshot, Probe, Report, SolvedScene, SpringsInContact, lengths, profile_part, strip,
+};
 use crate::contact::{ContactError, CurvePoint, Direction, Leg};
 use crate::export::section::{Contact, LineColumns};
 use crate::scene::{CheckedScene, Move, Observer, Solver as SceneSolver};
@@ -103,17 +106,17 @@ impl Solver {
         // The histogram beside the profile needs the heights.
         let observed = scene.observing(Observer::HeightHistogram);
         let stop = || self.awaited.load(Ordering::Relaxed) != generation;
-        let (mut bytes, mut legs, mut full_contact) = (0, Vec::new(), 0.0);
+        let (mut bytes, mut legs, mut reach) = (0, Vec::new(), Reach::default());
         let outcome = (self.solve)(&mut self.simulation, &observed, &stop, &mut |stage, _, leg| {
             if stage == 0 {
-                full_contact = leg.contact().full_contact_force();
+                reach = Reach::of(leg.contact());
             }
             legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
             bytes += leg.bytes();
             report(Report::Progress { generation, legs: stage + 1 });
             Ok(())
         })?;
-        let solved = Some(Arc::new(SolvedScene { generation, scene, outcome, full_contact }));
+        let solved = Some(Arc::new(SolvedScene { generation, scene, outcome, reach }));
         self.newest = Newest { generation, scene: Some(observed), solved, legs, ..Newest::default() };
         Ok(())
     }
@@ -140,10 +143,9 @@ impl Solver {
             let exact = solved.scene.with(|scene| scene.numerics.solver = SceneSolver::Exact).ok()?;
             self.leg_of(&exact, number)
         }?;
-        let preload = solved.outcome.figures.preload.unwrap_or(0.0);
         let (low, high) = indentations(&solved.outcome.history.legs).unwrap_or_default();
         let so_far = stages_until(&solved, number, indentation);
-        ManualBody::take(&leg, indentation, ((high - low) / STEPS_OF_A_PULL, preload), so_far)
+        ManualBody::take(&leg, indentation, (high - low) / STEPS_OF_A_PULL, so_far)
     }
 
     /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
@@ -186,6 +188,7 @@ impl Solver {
             probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
             lengths: lengths(&patches),
             manual: body.as_mut().map(ManualBody::travel),
+            springs: SpringsInContact { springs: Arc::downgrade(leg.contact().springs()), patches },
         })
     }
 
@@ -249,7 +252,14 @@ impl SolverThread {
         let (requests, inbox) = channel();
         let awaited = Arc::new(AtomicU64::new(0));
         let solver = Solver::new(solve, Arc::clone(&awaited));
-        let serve = move || serve(solver, &inbox, &mut |one| report(one));
+        let newest = Arc::clone(&awaited);
+        // The explorer may be behind with its input: reports of scenes that it has left do not wait for it.
+        let mut report = move |one: Report| {
+            if one.generation() == newest.load(Ordering::Relaxed) {
+                report(one);
+            }
+        };
+        let serve = move || serve(solver, &inbox, &mut report);
         std::thread::Builder::new().name("simulation".to_owned()).spawn(serve)?;
         Ok(SolverThread { requests, awaited })
     }

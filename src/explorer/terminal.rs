@@ -8,9 +8,13 @@ use crossterm::terminal::{
     disable_raw_mode, enable_raw_mode,
 };
 use crossterm::{execute, queue};
+use ratatui::layout::Size;
 use std::cell::Cell;
 use std::io::{self, Write};
 use std::rc::Rc;
+
+/// Most cells of a window, of about 100 bytes each.
+const MOST_CELLS: u32 = 4_000_000;
 
 /// Requests presses, drags and the wheel of the mouse. The request of crossterm includes every motion, and
 /// each would travel and wake the explorer for nothing.
@@ -74,11 +78,39 @@ impl Drop for TerminalGuard {
     }
 }
 
+/// Leaves the screen, and then raw mode: outside of raw mode a Ctrl+C makes the terminal throw away output that it has not
+/// read yet.
 fn give_back(mouse: bool) -> io::Result<()> {
-    let raw = disable_raw_mode();
     let mouse = if mouse { MOUSE_OFF } else { "" };
-    execute!(io::stdout(), Print(mouse), DisableBracketedPaste, LeaveAlternateScreen, Show)?;
-    raw
+    let left = execute!(io::stdout(), Print(mouse), DisableBracketedPaste, LeaveAlternateScreen, Show);
+    wait_until_written();
+    left.and(disable_raw_mode())
+}
+
+/// Waits until the terminal has the output.
+#[cfg(unix)]
+fn wait_until_written() {
+    let _ = rustix::termios::tcdrain(rustix::stdio::stdout());
+}
+
+/// Output is written at once on other systems.
+#[cfg(not(unix))]
+fn wait_until_written() {}
+
+/// Refuses a window for which there is no memory, before any is allocated.
+pub fn checked(size: Size) -> io::Result<Size> {
+    let Size { width, height } = size;
+    if u32::from(width) * u32::from(height) > MOST_CELLS {
+        let fault = format!("a window of {width} × {height} cells; allowed: at most {MOST_CELLS} cells");
+        return Err(io::Error::other(fault));
+    }
+    Ok(size)
+}
+
+/// The size of the window, if there is memory for it.
+pub fn window() -> io::Result<Size> {
+    let (width, height) = crossterm::terminal::size()?;
+    checked(Size { width, height })
 }
 
 /// Stops all processes of this job, as the terminal does when it turns Ctrl-Z into a signal. Where no
@@ -182,6 +214,15 @@ impl<W: Write> Write for FrameWriter<W> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_window_beyond_memory_is_refused() {
+        for (width, height, is_allowed) in
+            [(0, 0, true), (2000, 2000, true), (2000, 2001, false), (65535, 65535, false)]
+        {
+            assert_eq!(checked(Size { width, height }).is_ok(), is_allowed, "{width} × {height}");
+        }
+    }
 
     #[test]
     fn frames_that_show_nothing_are_not_written() {

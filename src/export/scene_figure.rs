@@ -8,8 +8,6 @@ use crate::simulation::Outcome;
 use crate::surface::Line;
 use std::slice;
 
-/// Number of columns of reduced profiles.
-const COLUMNS: usize = 1200;
 /// Indentations of a loading stage at which contact patches are drawn.
 const ROWS: usize = 160;
 /// Most loading stages with drawn contact patches.
@@ -72,9 +70,7 @@ impl ContactSets {
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
         let (force, indentation) = (*force, *indentation);
         let contact = Contact { gaps: &line.gaps, summit: line.summit, indentation, patches };
-        let springs = line.gaps.len();
-        let part = Part { first: 0, springs, columns: COLUMNS.min(springs) };
-        let section = contact.section(part, &mut LineColumns::default());
+        let section = contact.section(Part::drawn(0, line.gaps.len()), &mut LineColumns::default());
         let (low, high) = section.heights;
         let z = Span::around([low, high, section.level.min(high + 0.5 * (high - low))].into_iter(), 0.05);
         let mut chart = section.chart(outcome.line, z);

@@ -25,6 +25,9 @@ pub struct Part {
     pub columns: usize,
 }
 
+/// Most columns of a profile in a picture.
+const DRAWN: usize = 1200;
+
 /// Lowest and highest point of the profile in each column of a part. Another profile needs another cache.
 #[derive(Default)]
 pub struct LineColumns {
@@ -79,6 +82,17 @@ impl Section {
 }
 
 impl Part {
+    /// Springs of a picture in a file, whatever the size of any window: columns of several springs only where a picture
+    /// does not resolve more.
+    pub fn drawn(first: usize, springs: usize) -> Part {
+        Part { first, springs, columns: springs.min(DRAWN) }
+    }
+
+    /// Springs of a table, one column each.
+    pub fn listed(first: usize, springs: usize) -> Part {
+        Part { first, springs, columns: springs }
+    }
+
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let start = |column: usize| {
             self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize

@@ -70,9 +70,9 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
         shades,
         classes: grid.regimes(quantity, whole).iter().map(class).collect(),
         class_names: class_names.to_vec(),
-        contour: vanishing(grid, quantity, whole).map(|field| Contour {
-            name: vanishing_label(),
-            field,
+        contour: vanishing(grid, quantity).map(|share| Contour {
+            name: vanishing_label(share),
+            field: means(&grid.statistics(share, whole)),
             level: VANISHING_SHARE,
         }),
     };
@@ -131,17 +131,18 @@ fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> Axis {
     Axis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
-/// F_a(0)/F_a,max in all cells, whose boundary a figure of a quantity shows: the quantity itself, or the first recorded
-/// one.
-fn vanishing(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Vec<Option<f64>>> {
+/// The share of F_a,max by one of the two protocols whose boundary a figure of a quantity shows: the quantity itself, or
+/// the first recorded one.
+fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
     let own = shares.contains(&quantity).then_some(quantity);
-    let share = own.or_else(|| shares.into_iter().find(|share| grid.layer(*share).is_some()))?;
-    Some(means(&grid.statistics(share, whole)))
+    own.or_else(|| shares.into_iter().find(|share| grid.layer(*share).is_some()))
 }
 
-fn vanishing_label() -> Label {
-    Label::symbol(&format!("F_a(0) = {VANISHING_SHARE} F_a,max"))
+/// The boundary in the legend, by the name of its share: `F_a(F=0) = 0.05 F_a,max`.
+fn vanishing_label(share: Quantity) -> Label {
+    let (force, ideal) = share.symbol().split_once('/').unwrap_or((share.symbol(), ""));
+    Label::symbol(&format!("{force} = {VANISHING_SHARE} {ideal}"))
 }
 
 fn range(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>], scale: AxisScale) -> Span {
@@ -175,8 +176,8 @@ fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_SECOND
 }
 
-/// Curves with their confidence, a single one with median and quartiles of the profiles, and upright lines where F_a(0)
-/// vanishes.
+/// Curves with their confidence, a single one with median and quartiles of the profiles, and upright lines where the
+/// adhesion force without a load vanishes.
 fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> Vec<Layer> {
     let places = &grid.across.values;
     let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();
@@ -217,15 +218,18 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
             first.into_iter().for_each(|curve| add("mean".into(), Ink::Series(0), Sign::Dot, curve));
         }
     }
-    layers.extend(crossings(grid, quantity).into_iter().map(|crossing| {
-        Layer::new(vanishing_label(), Ink::Quiet, Shape::Upright(grid.across.scale().number(crossing)))
+    layers.extend(vanishing(grid, quantity).into_iter().flat_map(|share| {
+        let at = |crossing| Shape::Upright(grid.across.scale().number(crossing));
+        crossings(grid, share)
+            .into_iter()
+            .map(move |crossing| Layer::new(vanishing_label(share), Ink::Quiet, at(crossing)))
     }));
     layers
 }
 
-/// Coordinates on the axis across at which F_a(0) vanishes.
-fn crossings(grid: &Grid, quantity: Quantity) -> Vec<f64> {
-    let Some(shares) = vanishing(grid, quantity, false) else { return Vec::new() };
+/// Coordinates on the axis across at which a share of F_a,max vanishes.
+fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
+    let shares = means(&grid.statistics(share, false));
     let places = coordinates(&grid.across);
     // At zero load all curves are equal; curves that differ have no single crossing.
     let mut curves = shares.chunks(places.len().max(1));
@@ -413,14 +417,19 @@ mod tests {
 
     #[test]
     fn each_protocol_vanishes_at_its_own_place() {
-        let upright = |study: &Study, quantity| -> Vec<f64> {
+        let upright = |study: &Study, quantity| -> (String, f64) {
             let layers = study_curves(&study.grid, quantity).remove(0).layers;
-            let x = |layer: Layer| if let Shape::Upright(x) = layer.shape { Some(x) } else { None };
-            layers.into_iter().filter_map(x).collect()
+            let line = |Layer { name, shape, .. }: Layer| match shape {
+                Shape::Upright(x) => Some((name.to_string(), x)),
+                _ => None,
+            };
+            let lines: Vec<_> = layers.into_iter().filter_map(line).collect();
+            assert_eq!(lines.len(), 1, "{lines:?}");
+            lines[0].clone()
         };
         let mut study = sections();
         let own = upright(&study, SHARE);
-        assert_eq!(own.len(), 1, "{own:?}");
+        assert_eq!(own.0, "F_a(0) = 0.05 F_a,max");
         // A quantity other than a share of F_a(0) shows where F_a(0) vanishes.
         assert_eq!(upright(&study, COEFFICIENT), own);
         study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
@@ -429,7 +438,15 @@ mod tests {
             *estimate = share.map(|one| Statistics { mean: 2.0 * one.mean, ..one });
         }
         let later = upright(&study, Quantity::ZeroForceAdhesionShare);
-        assert!(later[0] > own[0], "{later:?} {own:?}");
+        assert!(later.1 > own.1, "{later:?} {own:?}");
+        assert_eq!(later.0, "F_a(F=0) = 0.05 F_a,max");
+        // Recorded alone, the share after zero force bounds the other quantities.
+        study.grid.layers[0].quantity = COEFFICIENT;
+        assert_eq!(upright(&study, COEFFICIENT), later);
+        let mut map = phase_map();
+        map.grid.layers[0].quantity = Quantity::ZeroForceAdhesionShare;
+        let legend = figure(&map).legend();
+        assert!(legend.iter().any(|entry| entry.name.to_string() == later.0), "{legend:?}");
     }
 
     #[test]

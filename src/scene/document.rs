@@ -30,6 +30,8 @@ pub struct Document {
     table_head: String,
     /// Effects switched off, each with the paths of the changed values, their former and their present text.
     pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
+    /// Choices that keys have left, each with the path of its field and its last text.
+    pub(super) left: Vec<(&'static str, String)>,
 }
 
 impl Document {
@@ -57,6 +59,7 @@ impl Document {
             overrides: Vec::new(),
             table_head: String::new(),
             removed: Vec::new(),
+            left: Vec::new(),
         })
     }
 

@@ -1,6 +1,6 @@
 //! One field of a scene: path, symbol, unit, range, step, default and meaning.
 
-use super::quantity::{QuantityError, parse_quantity};
+use super::quantity::{QuantityError, in_unit, parse_quantity, unit_of};
 use super::range::Range;
 use super::stages::{STAGES, read_loading, stage_in_ron};
 use super::text::{ron_float, ron_string};
@@ -114,6 +114,18 @@ impl Field {
         Some(ends.into_iter().map(|end| format(end, self.unit)).collect::<Vec<_>>().join(", "))
     }
 
+    /// A typed value with the units of the shown one, where it has none of its own: `50` beside `4.356 mJ/m²`, `80, 500`
+    /// beside `100 µm, 200 nm`.
+    pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
+        match (self.range, shown.split_once(", "), split_pair(typed)) {
+            (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
+            (Range::Wavelengths(..), Some((long, short)), Some((first, last))) => {
+                format!("{}, {}", in_unit(first.trim(), unit_of(long)), in_unit(last.trim(), unit_of(short)))
+            }
+            _ => typed.to_owned(),
+        }
+    }
+
     /// Path of the enclosing group; empty at the top of the scene.
     pub fn parent(&self) -> &'static str {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
@@ -204,11 +216,8 @@ impl Field {
         }
         let whole =
             |value: f64| (value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value)).then_some(value as u64);
-        let pair = typed.trim_matches(['(', ')', ' ', ',']);
-        let pair = [",", "–", " to "].iter().find_map(|between| pair.split_once(between));
-        if let Some((first, last)) =
-            pair.filter(|_| matches!(self.range, Range::Wavelengths(..) | Range::Band(..)))
-        {
+        let is_pair = matches!(self.range, Range::Wavelengths(..) | Range::Band(..));
+        if let Some((first, last)) = split_pair(typed).filter(|_| is_pair) {
             let [first, last] = [first, last].map(|end| parse_quantity(end.trim(), self.unit));
             let written = |end: f64| match self.range {
                 Range::Band(..) => whole(end).map_or_else(|| ron_float(end), |end| end.to_string()),
@@ -245,6 +254,12 @@ impl Field {
             _ => Ok(typed.to_string()),
         }
     }
+}
+
+/// The two parts of a typed pair: `4, 512`, `4–512`, `4 to 512`, in brackets or not.
+fn split_pair(typed: &str) -> Option<(&str, &str)> {
+    let pair = typed.trim_matches(['(', ')', ' ', ',']);
+    [",", "–", " to "].iter().find_map(|between| pair.split_once(between))
 }
 
 /// A choice without fields in words, as users read and type it: `sub-cell` of `SubCell`.
@@ -303,6 +318,15 @@ mod tests {
         ] {
             let [path, typed, ron] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
             assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{row}");
+        }
+        for row in [
+            "length|5|100 µm|5 µm",
+            "roughness.wavelengths|80, 500|100 µm, 200 nm|80 µm, 500 nm",
+            "roughness.wavelengths|(80, 0.5 µm)|= 100 µm, 200 nm|80 µm, 0.5 µm",
+            "roughness.modes|4, 512|1, 64|4, 512",
+        ] {
+            let [path, typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(field(path, None).unwrap().in_shown_units(typed, shown), read, "{row}");
         }
         let wrong = field("length", None).unwrap().read_typed("10 kg").unwrap_err();
         assert_eq!(wrong.to_string(), "kg is not a unit of length: use m, mm, µm, nm");

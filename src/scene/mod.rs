@@ -62,6 +62,7 @@ pub(crate) use open::{is_file_name, is_path};
 pub use open::{open, open_argument};
 pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantity};
 pub(crate) use quantity::{format_range, format_rounded};
+pub(crate) use quantity::{in_unit, unit_of};
 pub use range::Range;
 pub(crate) use read::explain;
 pub(crate) use stages::{Run, STAGE_KINDS, StageKind, kind_and_number, read_stage, runs, stage_in_ron};

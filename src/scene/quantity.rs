@@ -70,6 +70,17 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     value.filter(|value| value.is_finite()).ok_or_else(too_large)
 }
 
+/// A typed number without prefix and unit in a unit: `50` in `mJ/m²` is `50 mJ/m²`; any other text as it is.
+pub fn in_unit(typed: &str, unit: &str) -> String {
+    let is_number = split_number(typed.trim()).is_some_and(|(.., suffix)| suffix.trim().is_empty());
+    if is_number && !unit.is_empty() { format!("{} {unit}", typed.trim()) } else { typed.to_owned() }
+}
+
+/// The unit of a quantity as it is shown, with its prefix: `mJ/m²` of `50 mJ/m²`; empty for a number without a unit.
+pub fn unit_of(shown: &str) -> &str {
+    shown.trim_start_matches(['=', ' ']).split_once(' ').map_or("", |(_, unit)| unit)
+}
+
 /// Splits `2.5e3 MPa` into its digits, its exponent of ten, and the rest.
 fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     let signless = text.trim_start_matches(['+', '-', '−']);
@@ -240,6 +251,21 @@ mod tests {
             for (text, value) in all.split("; ").map(|one| one.split_once(" = ").unwrap()) {
                 assert_eq!(parse_quantity(text, unit), Ok(value.parse().unwrap()), "{text} {unit}");
             }
+        }
+    }
+
+    #[test]
+    fn a_number_alone_takes_the_unit_that_is_shown() {
+        for row in [
+            "50|= 4.356 mJ/m²|50 mJ/m²",
+            " -5e1 |100 µm|-5e1 µm",
+            "50m|4.356 mJ/m²|50m",
+            "5 nm|100 µm|5 nm",
+            "touch|10 µN|touch",
+            "0.8|0.7|0.8",
+        ] {
+            let [typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(in_unit(typed, unit_of(shown)), read, "{row}");
         }
     }
 

@@ -114,7 +114,8 @@ impl Document {
     /// other.
     ///
     /// Omitting an effect switches it off, and the next choice switches it on again. Adhesion by work, by κ and by
-    /// e_el/γ are the same adhesion: `computed` has the values for this scene.
+    /// e_el/γ are the same adhesion: `computed` has the values for this scene. Any other choice comes back as it was when
+    /// this document or one that led to it left the choice.
     ///
     /// # Errors
     /// No other choice is allowed, or a converted value is not in `computed`.
@@ -131,6 +132,7 @@ impl Document {
         }
         let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
         let mut refused = None;
+        let left = self.leaving(field, &here, computed);
         // The circle holds the choices and `None`; the present one need not be among them.
         let Range::Choice(choices) = field.range else { return Ok(None) };
         for distance in 1..=choices.len() as i32 + 1 {
@@ -140,22 +142,55 @@ impl Document {
                 // The removed text where it is this choice: other choices lie on the way around the circle.
                 Some(effect) if !is_on => match self.with(effect) {
                     Ok(back) if back.value(field.path).map(choice_key) != Some(choice_key(&next)) => {
-                        self.set(field.path, &next)
+                        self.with_choice(field.path, &next)
                     }
                     back => back,
                 },
                 Some(effect) if next == "None" => self.without(effect, computed),
                 Some(Effect::Adhesion) => self.converted(&next, computed),
-                _ => self.set(field.path, &next),
+                _ => self.with_choice(field.path, &next),
             };
             match chosen {
                 // Work and a parameter given together are two choices already.
                 Ok(document) if document.scene() == self.scene() => {}
-                Ok(document) => return Ok(Some(document)),
+                Ok(mut document) => {
+                    document.left = left;
+                    return Ok(Some(document));
+                }
                 Err(errors) => refused = refused.or(Some(errors)),
             }
         }
         refused.map_or(Ok(None), Err)
+    }
+
+    /// The choices that keys have left and the present one, adhesion in each of its ways.
+    fn leaving(&self, field: &Field, here: &str, computed: &Computed) -> Vec<(&'static str, String)> {
+        let mut left = self.left.clone();
+        let mut leave = |text: String| {
+            left.retain(|(path, other)| *path != field.path || choice_key(other) != choice_key(&text));
+            left.push((field.path, text));
+        };
+        if let (Range::Choice(choices), "adhesion", true) = (field.range, field.path, here != "None") {
+            let same = choices.iter().filter_map(|choice| self.converted(choice, computed).ok());
+            same.filter_map(|same| Some(same.value(field.path)?.to_owned())).for_each(&mut leave);
+        }
+        if here != "None" {
+            leave(here.to_owned());
+        }
+        left
+    }
+
+    /// A choice as it was left, if that is still allowed, else at values that suit the scene or are usual.
+    fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
+        let is_same = |text: &str| choice_key(text) == choice_key(choice);
+        let left = self.left.iter().find(|(of, text)| *of == path && is_same(text));
+        if let Some(back) = left.and_then(|(_, text)| self.set(path, text).ok()) {
+            return Ok(back);
+        }
+        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == path);
+        let suited = effect.and_then(|effect| self.with_scene(&effect.suited(self.scene())).ok());
+        let suited = suited.filter(|suited| suited.value(path).is_some_and(is_same));
+        suited.map_or_else(|| self.set(path, choice), Ok)
     }
 
     /// The same adhesion by the next choice, or the usual value of that choice where there is no same one.
@@ -295,13 +330,39 @@ mod tests {
     /// A measured surface is typed, not stepped to; here the other kinds of roughness are refused.
     #[test]
     fn steps_end_where_every_other_choice_is_refused() {
-        let fields = [("roughness", "Measured(file: \"surface.txt\")"), ("numerics.points", "2")];
+        let fields = [("roughness", "Measured(file: \"surface.txt\")"), ("numerics.points", "1")];
         let measured = document().set_all(&fields.map(|(path, value)| pair(path, value))).unwrap();
         for forwards in [true, false] {
             let field = field("roughness", None).unwrap();
             let refused = measured.with_next_choice(field, forwards, &Computed::default()).unwrap_err();
-            assert!(refused.to_string().contains("points/2 = 1"), "{refused}");
+            assert!(refused.to_string().contains("points/2 = 0"), "{refused}");
         }
+    }
+
+    #[test]
+    fn a_choice_comes_back_with_its_numbers_once_round() {
+        let round = |from: &Document, path: &str| -> Vec<String> {
+            let around =
+                std::iter::successors(Some(from.clone()), |document| Some(next(document, path, true)));
+            around.map(|document| document.value(path).unwrap_or("None").to_owned()).take(20).collect()
+        };
+        let flat = document().set("numerics.points", "4096").unwrap();
+        let forms = round(&flat, "form");
+        let circle = forms.iter().skip(1).position(|form| *form == forms[0]).unwrap() + 1;
+        assert!(circle > 5 && forms[1] == "Paraboloid(radius: 1.0e-4)", "{forms:?}");
+        assert!((0..20 - circle).all(|place| forms[place] == forms[place + circle]), "{forms:?}");
+        // Typed values come back, forwards and backwards.
+        let typed = next(&flat, "form", true).set("form.radius", "3.0e-4").unwrap();
+        let away = next(&next(&typed, "form", true), "form", true);
+        let back = next(&next(&away, "form", false), "form", false);
+        assert_eq!(back.value("form"), Some("Paraboloid(radius: 3.0e-4)"));
+        let first = round(&typed, "form");
+        assert_eq!((first[0] == first[circle], &first[1..circle]), (true, &forms[2..=circle]));
+        let solver = flat.set("numerics.solver", "Stepwise(step: 2.0e-9)").unwrap();
+        let circle = round(&solver, "numerics.solver");
+        assert_eq!((circle[1].as_str(), &circle[2]), ("Exact", &circle[0]));
+        let rough = round(&flat, "roughness");
+        assert_eq!((rough[1].as_str(), &rough[2]), ("None", &rough[0]));
     }
 
     #[test]
@@ -320,7 +381,7 @@ mod tests {
         let choices = std::iter::successors(Some(off), |document| Some(next(document, "adhesion", true)));
         let choices: Vec<String> =
             choices.skip(1).take(4).map(|one| one.value("adhesion").unwrap_or("-").to_owned()).collect();
-        assert_eq!(choices, ["(work: 0.05)", "(kappa: 6.0)", "(elastic_energy_ratio: 0.9)", "None"]);
+        assert_eq!(choices, ["(work: 0.0123)", "(kappa: 6.0)", "(elastic_energy_ratio: 0.9)", "None"]);
         // Not before the value has been computed.
         let field = field("adhesion", None).unwrap();
         let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();

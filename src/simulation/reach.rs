@@ -1,24 +1,72 @@
 //! Forces that a contact does not reach or is not to reach, in words, with the nearest force within reach.
 
-use crate::contact::ContactError;
+use super::RunError;
+use crate::contact::{Contact, ContactError};
 use crate::scene::{Move, format_quantity};
 use crate::text::round_to;
 
-/// Largest force over that at full contact: beyond full contact the curve is a straight line.
-const MOST_OVER_FULL_CONTACT: f64 = 10.0;
-
-/// Largest force for a force at full contact, N; any where nothing separates the springs.
-pub fn largest_force(full_contact: f64) -> f64 {
-    if full_contact > 0.0 { MOST_OVER_FULL_CONTACT * full_contact } else { f64::INFINITY }
+/// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. From full
+/// contact on the force curve is a straight line, and so deep a body is no longer on a half-space that deforms little.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Force and indentation at which the last spring touches, N and m.
+    pub full_contact: (f64, f64),
+    /// Force in the deepest state, N.
+    pub force: f64,
+    /// Indentation in the deepest state, m.
+    pub indentation: f64,
+    /// Displacement of the instrument in the deepest state, m.
+    pub displacement: f64,
 }
 
-/// Reason against a force far beyond that at full contact and a force that was reached before, N.
-pub fn beyond_full_contact(force: f64, full_contact: f64, reached: f64) -> Option<String> {
-    let largest = MOST_OVER_FULL_CONTACT * full_contact.max(reached);
-    let [force_text, full, most] =
-        [force, full_contact, -rounded_up(-largest)].map(|force| format_quantity(force, "N"));
-    let why = || format!("{force_text} is far beyond full contact at {full}; allowed: at most {most}");
-    (force > largest).then(why)
+impl Reach {
+    pub fn of(contact: &Contact) -> Reach {
+        let length = contact.foundation().length;
+        let full_contact = (contact.full_contact_force(), contact.springs().deepest());
+        let force = full_contact.0 + force_of_a_length(contact);
+        let indentation = full_contact.1 + length;
+        let displacement = contact.displacement(indentation, force);
+        Reach { full_contact, force, indentation, displacement }
+    }
+
+    /// Reason against a stage beyond the deepest state.
+    pub fn refusal(&self, stage: Move) -> Option<String> {
+        let (field, value) = stage.field()?;
+        let (full, most) = match stage {
+            Move::ToForce(_) => (self.full_contact.0, self.force),
+            Move::ToDisplacement(_) => (self.full_contact.1, self.displacement),
+            _ => (self.full_contact.1, self.indentation),
+        };
+        let [value_text, full, most_text] =
+            [value, full, -rounded_up(-most)].map(|value| format_quantity(value, field.unit));
+        let why = "deeper by more than the length of the profile";
+        (value > most).then(|| {
+            format!("{value_text} is far beyond full contact at {full}, {why}; allowed: at most {most_text}")
+        })
+    }
+}
+
+/// Refuses a loading with a stage out of reach.
+pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), RunError> {
+    let length = contact.foundation().length;
+    // Even without the way to full contact most loadings are within reach.
+    let is_near = |stage: &Move| match *stage {
+        Move::ToForce(force) => force <= force_of_a_length(contact),
+        Move::ToIndentation(to) | Move::ToDisplacement(to) => to <= length,
+        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => true,
+    };
+    if loading.iter().all(is_near) {
+        return Ok(());
+    }
+    let reach = Reach::of(contact);
+    let refused = loading.iter().enumerate().find_map(|(index, stage)| Some((index, reach.refusal(*stage)?)));
+    refused.map_or(Ok(()), |(index, why)| Err(RunError::BeyondFullContact { index, why }))
+}
+
+/// Force by which full contact resists one length of the profile more, N.
+fn force_of_a_length(contact: &Contact) -> f64 {
+    let foundation = contact.foundation();
+    foundation.spring_stiffness() * contact.gaps().len() as f64 * foundation.length
 }
 
 /// Reason for which a body does not move to a target, with forces rounded into the allowed range.
@@ -40,4 +88,50 @@ pub(super) fn rounded_up(value: f64) -> f64 {
     let nearest = round_to(value, 4);
     let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
     if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Document, open};
+    use crate::simulation::{Outcome, Simulation};
+
+    fn run(document: &Document, stage: Move) -> Result<Outcome, RunError> {
+        let document = document.with_stages(&[(None, stage)]).unwrap();
+        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+    }
+
+    #[test]
+    fn a_body_is_pressed_at_most_its_length_deeper_than_at_full_contact() {
+        for (name, field) in [
+            ("pressure-sensitive", ("adhesion", "(kappa: 6.0)")),
+            ("pressure-sensitive", ("adhesion", "None")),
+            ("pressure-sensitive", ("loading_stiffness", "40.0")),
+            // Full contact at a thousandth of the force that presses the body.
+            ("pressure-sensitive", ("roughness.rms_height", "1.0e-12")),
+            ("jkr-sphere", ("numerics.edges", "SubCell")),
+            ("kendall-punch", ("numerics.edges", "Grid")),
+        ] {
+            let document = open(name).unwrap().set("numerics.points", "2048").unwrap();
+            let document = document.set(field.0, field.1).unwrap();
+            let reach = Simulation::default().reach(document.scene()).unwrap();
+            let length = document.scene().length;
+            assert!((reach.indentation / (reach.full_contact.1 + length) - 1.0).abs() < 1e-12);
+            for (stage, most) in [
+                (Move::ToForce as fn(f64) -> Move, reach.force),
+                (Move::ToIndentation, reach.indentation),
+                (Move::ToDisplacement, reach.displacement),
+            ] {
+                // The deepest state itself is computed, by any kind of stage the same one.
+                let deepest = run(&document, stage(most)).unwrap().history.legs[0].largest;
+                assert!((deepest.force / reach.force - 1.0).abs() < 1e-6, "{name} {field:?} {deepest:?}");
+                assert!((deepest.indentation / reach.indentation - 1.0).abs() < 1e-6, "{name} {field:?}");
+                let refused = run(&document, stage(1.001 * most)).unwrap_err().to_string();
+                assert!(
+                    refused.starts_with("stage 1: ") && refused.contains("; allowed: at most "),
+                    "{refused}"
+                );
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops.
 
+use super::reach::{self, Reach};
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
 use crate::analysis::{MinorLoops, ReversalMap};
@@ -35,6 +36,7 @@ impl Simulation {
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
         let plan = Plan::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
+        reach::check(&contact, ends)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
             if stop() { Err(ContactError::Interrupted) } else { Ok(()) }
@@ -42,13 +44,13 @@ impl Simulation {
         Ok(Body::new(&contact, scene.numerics.samples as usize).reversals(ends, points, &mut see)?)
     }
 
-    /// Force at which the last spring of a checked scene touches, N.
+    /// The deepest state of a checked scene within reach of the model.
     ///
     /// # Errors
     /// Those of the profile of [`Simulation::run`].
-    pub fn full_contact_force(&mut self, scene: &CheckedScene) -> Result<f64, RunError> {
+    pub(crate) fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
         let plan = Plan::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
-        Ok(self.prepare(&plan, scene, &|| false)?.contact.full_contact_force())
+        Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 
     /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations

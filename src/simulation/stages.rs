@@ -2,7 +2,7 @@
 
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::smooth::SmoothSprings;
-use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings};
+use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings, reach};
 use crate::analysis::{
     Figures, Governing, InstrumentFigures, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number,
 };
@@ -276,6 +276,7 @@ impl Simulation {
         let plan = Plan::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
         let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
+        reach::check(&contact, &scene.loading)?;
         let on_foundation =
             |patch: Patch| Patch { first: patch.first + facts.first, last: patch.last + facts.first };
 

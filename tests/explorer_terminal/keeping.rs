@@ -68,6 +68,13 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         let output = command(home).arg("--restore").output().unwrap();
         let message = String::from_utf8(output.stderr).unwrap();
         assert!(message.contains("--restore: no unsaved changes are kept"), "{message}");
+        let folder = home.join(".local/state/asperity/unsaved");
+        fs::write(folder.join("1-1.ron"), "[(name").unwrap();
+        let output = command(home).arg("--restore").output().unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            message.contains("--restore: nothing kept can be read: ") && message.contains("1-1.ron: 1:7")
+        );
     }
 }
 

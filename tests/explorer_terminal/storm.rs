@@ -2,7 +2,7 @@
 //!
 //! `STORM_SEEDS=0..200 cargo test --test explorer_terminal storm` runs other storms.
 
-use crate::driving::{ESCAPE, explorer, paused, quit};
+use crate::driving::{ESCAPE, explorer, paused, quit, select};
 use portable_pty::ExitStatus;
 use std::time::{Duration, Instant};
 
@@ -102,6 +102,22 @@ fn storm(seed: u64) {
     }
 }
 
+/// Keys that edit faster than their scenes are computed wait in the terminal, and no outcome of an earlier scene is kept.
+#[test]
+#[ignore = "takes some seconds; .ci/run runs it"]
+fn a_burst_of_edits_takes_little_memory() {
+    let (program, _folder) = explorer();
+    let mut terminal = paused(program);
+    select(&mut terminal, "κ");
+    terminal.send(&"lh".repeat(5000));
+    terminal.send("N");
+    terminal.wait_for("F/F_a,max");
+    let status = std::fs::read_to_string(format!("/proc/{}/status", terminal.pid())).unwrap();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.strip_suffix("kB")).unwrap();
+    let peak: u64 = peak.trim().parse().unwrap();
+    assert!(peak < 60_000, "{peak} kB");
+}
+
 #[test]
 fn every_burst_of_input_is_drawn() {
     let seeds = std::env::var("STORM_SEEDS").unwrap_or("0..6".to_owned());
@@ -126,14 +142,14 @@ fn a_long_text_is_searched_as_fast_as_it_is_typed() {
         terminal.wait_without("at most 4096 characters");
     }
     terminal.send("F");
-    terminal.wait_for("Go to the force:");
+    terminal.wait_for("Go to the force (");
     terminal.send("\x1b[200~1\r\n mN\x1b[201~");
     terminal.wait_for("! control characters are left out");
-    terminal.wait_for("Go to the force: 1 mN");
+    terminal.wait_for("): 1 mN");
     terminal.send("\x7f");
     terminal.wait_without("left out");
-    terminal.wait_for("Go to the force:");
+    terminal.wait_for("Go to the force (");
     terminal.send(ESCAPE);
-    terminal.wait_without("Go to the force:");
+    terminal.wait_without("Go to the force (");
     quit(&mut terminal);
 }

@@ -10,10 +10,11 @@ use super::action::Action;
 use super::app::App;
 use super::config::Config;
 use super::keys::bindings;
+use super::opening::Opening;
 use super::runtime::{Engine, Runtime};
 use super::theme::Appearance;
 use super::update::Effect;
-use crate::scene::Document;
+use crate::scene::{Document, open};
 use crate::simulation::Simulation;
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -109,6 +110,11 @@ impl Demo {
         match cue {
             Cue::Wait(seconds) => self.pause = seconds,
             Cue::Do(command) => drop(self.explorer.command(command)),
+            Cue::Open(name) => {
+                let opened = open(name).map(|document| Box::new(Opening::from(document)));
+                let opened = opened.map_err(|errors| errors.to_string());
+                self.explorer.act(Action::Opened(name.to_owned(), opened));
+            }
             Cue::Repeat(0, ..) => {}
             Cue::Repeat(times, seconds, command) => {
                 self.explorer.command(command);

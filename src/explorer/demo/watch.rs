@@ -2,7 +2,7 @@
 
 use super::Demo;
 use crate::explorer::input;
-use crate::explorer::terminal::{FrameWriter, TerminalGuard};
+use crate::explorer::terminal::{FrameWriter, TerminalGuard, window};
 use crate::explorer::view;
 use crossterm::event::{Event, KeyEventKind};
 use ratatui::Terminal;
@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 /// Plays a demo at a number of frames per second until it is over or a key is pressed.
 pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     demo.set_note("any key ends the demo");
+    window()?;
     let _guard = TerminalGuard::take(false)?;
     let (sender, inbox) = channel();
     input::read(move |event| sender.send(event).is_ok())?;
@@ -24,6 +25,7 @@ pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     let begun = Instant::now();
     let mut frames = 0;
     while demo.advance().is_some() {
+        window()?;
         terminal.draw(|area| view::draw(area, demo.app()))?;
         frames += 1;
         let due = begun + frame * frames;

@@ -130,7 +130,7 @@ impl Bindings {
         self.rows().filter(|binding| binding.row.is_listed()).cloned().collect()
     }
 
-    /// The command of a name in a context, with the character where the row takes one: `preset 3`.
+    /// The command of a name in a context, with the character where the row takes one: `start-value 3`.
     pub fn named(&self, name: &str, context: Context) -> Option<Command> {
         let (name, character) =
             name.split_once(' ').map_or((name, None), |(name, rest)| (name, rest.parse().ok()));
@@ -245,9 +245,11 @@ mod tests {
         assert_eq!(name(bindings.named("accept", Context::Explore)), None);
         assert_eq!(name(bindings.named("no such command", Context::Explore)), None);
         let three = KeyEvent::new(KeyCode::Char('3'), KeyModifiers::NONE);
-        assert_eq!(name(bindings.named("preset 3", Context::Explore)), Some(("preset", Some('3'))));
-        assert_eq!(name(bindings.command(&three, Context::Explore)), Some(("preset", Some('3'))));
-        assert_eq!(name(bindings.command(&three, Context::Parameters)), Some(("start-value", Some('3'))));
+        let typed = Some(("start-value", Some('3')));
+        assert_eq!(name(bindings.named("start-value 3", Context::Explore)), typed);
+        assert_eq!(name(bindings.command(&three, Context::Explore)), typed);
+        assert_eq!(name(bindings.command(&three, Context::Parameters)), typed);
+        assert_eq!(name(bindings.command(&three, Context::Map)), None);
     }
 
     #[test]

@@ -15,7 +15,7 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, panel| {
         let ghost = app.beside()?;
-        section::figure(ghost.document.title(), panel, ghost.snapshot.as_deref()?)
+        Some(section::figure(ghost.document.title(), ghost.snapshot.as_deref()?, panel.chart()?.clone()))
     },
     keys: Some(Context::Crosshair),
     help: &[(

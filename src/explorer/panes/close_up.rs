@@ -2,12 +2,13 @@
 //! contact.
 
 use super::{PaneRow, Place, section};
-use crate::draw::{Ink, Layer, Shape, Sign, Span};
+use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel};
-use crate::explorer::snapshot::{FragmentFacts, Section};
+use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section};
 use crate::explorer::theme::{Meaning, Theme};
+use crate::export::section::Part as LinePart;
 use crate::scene::format_quantity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -15,7 +16,11 @@ use ratatui::text::{Line, Span as Text};
 pub static ROW: PaneRow = PaneRow {
     place: Place::CloseUp,
     panel,
-    figure: |app, panel| section::figure(app.edit.document.title(), panel, app.snapshot.as_deref()?),
+    figure: |app, _| {
+        let chart = of_springs(app, LinePart::drawn)?;
+        Some(section::figure(app.edit.document.title(), app.snapshot.as_deref()?, chart))
+    },
+    report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     keys: Some(Context::Crosshair),
     help: &[(
         "Contact patches",
@@ -42,9 +47,7 @@ fn panel(app: &App, size: Size) -> Panel {
         panel.edge.push(vec![ring, Text::raw(" patch end")]);
     }
     if let Body::Chart(plot) = &mut panel.body {
-        let ends = snapshot.close_up.boundaries.iter();
-        let ends = ends.map(|&(spring, height)| (section::position(snapshot.line, spring), height)).collect();
-        plot.chart.layers.push(Layer::new("patch end".into(), Ink::Contact, Shape::signs(ends, Sign::Ring)));
+        plot.chart.layers.push(ends(snapshot));
     }
     if size.height >= WITH_STRIP {
         let springs = app.solved.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
@@ -52,6 +55,22 @@ fn panel(app: &App, size: Size) -> Panel {
     }
     panel.foot.extend(describe(snapshot.close_up.fragment, snapshot.point.fragments).map(Line::raw));
     panel
+}
+
+/// The ends of the patches, in contact.
+fn ends(snapshot: &ContactSnapshot) -> Layer {
+    let ends = snapshot.close_up.boundaries.iter();
+    let ends = ends.map(|&(spring, height)| (section::position(snapshot.line, spring), height)).collect();
+    Layer::new("patch end".into(), Ink::Contact, Shape::signs(ends, Sign::Ring))
+}
+
+/// Chart of the springs of the pane, for a file.
+fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
+    let snapshot = app.snapshot.as_deref()?;
+    let section = &snapshot.close_up.section;
+    let mut chart = section::of_springs(snapshot, section, heights(section), part)?;
+    chart.layers.push(ends(snapshot));
+    Some(chart)
 }
 
 /// The axis of heights: the profile, and the surface unless that is far above or below.

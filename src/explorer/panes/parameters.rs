@@ -4,13 +4,15 @@ use super::row::outcome;
 use super::{PaneRow, Place};
 use crate::explorer::app::{App, Message};
 use crate::explorer::keys::Context;
+use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
+use crate::explorer::update::typed;
 use crate::explorer::view::text::{filled, fitted, wrapped_within};
-use crate::scene::{Effect, format_quantity};
+use crate::scene::{Effect, format_quantity, unit_of};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
@@ -80,7 +82,7 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
         return editor(app, parameter, &prompt.line, &lead, width);
     }
     // The name makes room for the value, which matters more.
-    let value = value(app, parameter);
+    let value = typed::shown(app, parameter);
     let symbol = parameter.field.symbol;
     let least = columns(&lead) + if symbol.is_empty() { FEWEST_LETTERS } else { columns(symbol) } + 1;
     let value = cut(&value, width.saturating_sub(least).max(width / 3));
@@ -89,10 +91,18 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
     let gap = width.saturating_sub(columns(&lead) + columns(&name) + columns(&value));
     let style = match (refused, selected) {
         (true, _) => theme.style(Meaning::Error),
-        (false, true) => theme.style(Meaning::Selected),
+        // One pane has the focus: the row that the keys change is marked in the others too, but not as bright.
+        (false, true) if has_focus(app) => theme.style(Meaning::Selected),
+        (false, true) => theme.style(Meaning::Title),
         (false, false) => theme.style(Meaning::Text),
     };
     Line::styled(format!("{lead}{name}{}{value}", " ".repeat(gap)), style)
+}
+
+/// Returns true while the keys of the list act, or a parameter is searched.
+fn has_focus(app: &App) -> bool {
+    let is_searched = |prompt: &Prompt| matches!(prompt.purpose, Purpose::Parameter { .. });
+    app.view.pane == Pane::Parameters || app.prompt.as_ref().is_some_and(is_searched)
 }
 
 /// Marks before a name: the first row of a group, an effect that is on or off; other rows are indented.
@@ -104,20 +114,28 @@ fn lead(app: &App, parameter: &Parameter) -> String {
     format!("{}{mark}", if is_head { "─" } else { " " })
 }
 
-/// The row of a value being typed: its name, symbol and SI unit, as far as there is room, and the typed text.
+/// The row of a value being typed: its name, symbol and the unit of a number alone, as far as there is room, the typed
+/// text, and what it will be.
 fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: usize) -> Line<'static> {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
-    let unit = match parameter.field.unit {
-        "" | "1" => String::new(),
-        unit => format!(" ({unit})"),
+    let unit = match (parameter.field.unit, unit_of(&typed::shown(app, parameter))) {
+        ("" | "1", _) => String::new(),
+        (unit, "") | (_, unit) => format!(" ({unit})"),
     };
     let named = if symbol.is_empty() { name } else { format!("{name} {symbol}") };
     let mark = lead.chars().next().unwrap_or(' ');
     let labels = [format!("{lead}{named}{unit}: "), format!("{mark} {symbol}{unit}: "), format!("{mark} ")];
-    let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(columns(line.text()) + 1) <= width;
+    let theme = app.view.appearance.theme;
+    let reading = typed::reading(app).map_or_else(String::new, |reading| format!("→ {reading}"));
+    let mut reading = Span::styled(reading, theme.style(Meaning::Title));
+    let taken = columns(line.text()) + 1 + reading.width();
+    let fits = |label: &&String| columns(label) + TYPED_COLUMNS.max(taken) <= width;
     let label = Span::raw(labels.iter().find(fits).unwrap_or(&labels[labels.len() - 1]).clone());
-    let room = width.saturating_sub(label.width());
-    Line::from_iter([label].into_iter().chain(line.spans(room, app.view.appearance.theme)))
+    if label.width() + taken > width {
+        reading.content = "".into();
+    }
+    let room = width.saturating_sub(label.width() + reading.width());
+    Line::from_iter([label].into_iter().chain(line.spans(room, theme)).chain([reading]))
 }
 
 /// Name and symbol within a number of columns: the name is cut, or left out where little of the name would remain.
@@ -141,20 +159,6 @@ fn columns(text: &str) -> usize {
 /// A text within a number of columns, with `…` in place of the rest.
 fn cut(text: &str, room: usize) -> String {
     fitted(Line::raw(text.to_owned()), room as u16).to_string()
-}
-
-/// A value in the format for people; one that follows from others is marked.
-fn value(app: &App, parameter: &Parameter) -> String {
-    if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
-        return parameter.shown.clone();
-    }
-    let written = app.written(parameter).and_then(|written| written.parse::<f64>().ok());
-    match written {
-        Some(value) => format!("= {}", format_quantity(value, parameter.field.unit)),
-        // A smooth body has no κ; before the computation κ is unknown.
-        None if app.governing().is_some() => "none".to_owned(),
-        None => "= …".to_owned(),
-    }
 }
 
 /// Derived values, in as many lines as needed.
@@ -207,7 +211,7 @@ fn explanation(app: &App, index: usize) -> Line<'static> {
     let text = match parameter.setting {
         Setting::Switch(effect) => format!("{}: observed or not; t switches it", effect.name()),
         _ if parameter.path == "loading" => format!(
-            "{}: 10 µN, 3 loops 0 N to 10 µN, separation. ← → choose a protocol, Shift the number of its loops or reversals",
+            "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number alone is a force in N. ← → choose a protocol, Shift the number of its loops or reversals",
             parameter.field.meaning
         ),
         Setting::Heading => parameter.field.meaning.to_owned(),

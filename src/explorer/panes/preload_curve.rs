@@ -139,7 +139,7 @@ mod tests {
     fn computed(name: &str) -> SolvedScene {
         let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 2048).unwrap();
         let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        SolvedScene { generation: 1, scene: Arc::new(scene), outcome, full_contact: 0.0 }
+        SolvedScene { generation: 1, scene: Arc::new(scene), outcome, reach: Default::default() }
     }
 
     fn curve(computed: &SolvedScene, asked: PreloadAxis) -> Result<PreloadCurve, String> {

@@ -7,6 +7,7 @@ use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Appearance;
+use crate::export::section::Part as LinePart;
 use crate::scene::format_quantity;
 use crate::surface::Histogram;
 use std::f64::consts::TAU;
@@ -18,7 +19,11 @@ pub static ROW: PaneRow = PaneRow {
         let z = section::heights(app, snapshot);
         of_scene(title(app), snapshot, histogram, z, app.view.appearance)
     },
-    figure: |app, panel| section::figure(app.edit.document.title(), panel, app.snapshot.as_deref()?),
+    figure: |app, _| {
+        let chart = of_springs(app, LinePart::drawn)?;
+        Some(section::figure(app.edit.document.title(), app.snapshot.as_deref()?, chart))
+    },
+    report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     place: Place::Own,
     keys: Some(Context::Crosshair),
     help: &[(
@@ -28,6 +33,12 @@ pub static ROW: PaneRow = PaneRow {
     )],
     ..PaneRow::EMPTY
 };
+
+/// Chart of the springs of the pane, for a file.
+fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
+    let snapshot = app.snapshot.as_deref()?;
+    section::of_springs(snapshot, &snapshot.profile, section::heights(app, snapshot), part)
+}
 
 fn title(app: &App) -> String {
     let length = format_quantity(app.edit.document.scene().length, "m");

@@ -1,11 +1,14 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile, close-up and the scene beside.
 
-use crate::draw::{Figure, Ink, Layer, Shape, Span, Stroke, value_label};
+use super::row::{Exported, OPEN_COMMAND};
+use crate::draw::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::{ContactSnapshot, Section};
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::explorer::view::text::Part;
+use crate::export::Report;
+use crate::export::section::Part as LinePart;
 use crate::scene::format_quantity;
 use crate::simulation::LineFacts;
 use ratatui::text::Span as Text;
@@ -37,12 +40,27 @@ pub fn panel(
     Panel { edge, ..Panel::of_chart(title, chart) }
 }
 
-/// Figure of a panel of a section, with indentation and force.
-pub fn figure(title: &str, panel: &Panel, snapshot: &ContactSnapshot) -> Option<Figure> {
+/// Chart of the springs of a section for a file, heights within `z`: the same for any size of the pane.
+pub fn of_springs(
+    snapshot: &ContactSnapshot,
+    section: &Section,
+    z: Span,
+    part: fn(usize, usize) -> LinePart,
+) -> Option<Chart> {
+    Some(snapshot.section(part(section.first, section.springs))?.chart(snapshot.line, z))
+}
+
+/// Figure of a chart of springs, with indentation and force.
+pub fn figure(title: &str, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     let point = &snapshot.point;
     let force = value_label("", "F", "N", point.force).then(", ");
     let notes = vec![force.join(&value_label("", "d", "m", point.indentation))];
-    Some(Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, panel.chart()?.clone()) })
+    Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
+}
+
+/// Table of the curves of a chart of springs.
+pub fn table(app: &App, chart: Chart) -> Exported<'static> {
+    app.is_current().then(|| (OPEN_COMMAND.into(), Box::new(Figure::of_chart("", chart)) as Box<dyn Report>))
 }
 
 /// Axis of heights: the profile, and the surface over the whole loop unless far above. Two scenes side by side share it.

@@ -1,31 +1,23 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use super::Effect;
+use super::{Effect, typed};
 use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
 use crate::explorer::editor::scene_of;
 use crate::explorer::layout::Layout;
 use crate::explorer::parameters::{Parameter, Setting, text_of};
 use crate::explorer::prompt::Purpose;
-use crate::explorer::reach::beyond_full_contact;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
     Computed, Document, Move, Range, SceneErrors, Solver, Step, exact_quantity, kind_and_number,
-    loading_text, parse_quantity, presets, read_stage, ron_float,
+    loading_text, parse_quantity, read_stage, ron_float,
 };
 
 /// Moves the selection in the list of parameters, as far as there are rows.
 pub fn move_selection(app: &mut App, rows: i32) {
     app.edit.move_selection(rows);
     show_parameters(app);
-}
-
-pub fn open_built_in(app: &mut App, digit: char) {
-    let place = digit.to_digit(10).and_then(|digit| (digit as usize).checked_sub(1));
-    if let Some(preset) = place.and_then(|place| presets().get(place)) {
-        open_read(app, Document::parse(preset.text, preset.name));
-    }
 }
 
 /// Explores a scene just read, or states the reason why it is not allowed.
@@ -119,6 +111,10 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
         }
         Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {}
     }
+    if let Some(given) = parameter.follows_from(app.edit.document.scene()) {
+        let name = parameter.name();
+        return refuse(app, format!("{name} is computed; Enter fixes it in place of {given}"));
+    }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
     if parameter.field.step == Step::Choice {
         return match app.edit.document.with_next_choice(parameter.field, steps > 0, &computed(app)) {
@@ -169,6 +165,7 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
+    let typed = &typed::with_unit(app, parameter, typed);
     let Some(leg) = parameter.leg else {
         let written = parameter.field.read_typed(typed);
         let allowed = || parameter.field.allowed();
@@ -193,13 +190,12 @@ pub fn pressing_force(document: &Document) -> f64 {
     document.scene().loading.iter().map(force).fold(0.0, f64::max)
 }
 
-/// A scene, unless it presses more than the present one and far beyond full contact.
+/// A scene, unless it presses more than the present one and out of reach.
 fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
-    let full_contact = app.current().map_or(0.0, |solved| solved.full_contact);
     let force = pressing_force(&changed);
-    let is_more = full_contact > 0.0 && force > pressing_force(&app.edit.document);
-    let why = beyond_full_contact(force, full_contact, 0.0).filter(|_| is_more);
-    why.map_or(Ok(changed), Err)
+    let is_more = force > pressing_force(&app.edit.document);
+    let solved = app.current().filter(|_| is_more);
+    solved.and_then(|solved| solved.reach.refusal(Move::ToForce(force))).map_or(Ok(changed), Err)
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.

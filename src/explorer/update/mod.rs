@@ -14,6 +14,7 @@ mod mouse;
 pub(super) mod movement;
 pub(super) mod preloads;
 pub(super) mod stages;
+pub(super) mod typed;
 
 pub use super::action::Effect;
 pub use accuracy::{Choosing, studies};

@@ -1,11 +1,12 @@
 //! Movement of the body: animation of the scene's loading, or manual loading.
 
+use super::typed::unit_of_force;
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState, Player};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::ContactSnapshot;
-use crate::scene::parse_quantity;
+use crate::scene::{in_unit, parse_quantity};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -168,8 +169,8 @@ pub fn take(app: &mut App, order: Option<ManualMove>) {
 
 /// Moves the body to a typed force.
 pub fn accept_force(app: &mut App, typed: &str) -> Result<(), String> {
-    let force = parse_quantity(typed.trim(), "N");
-    let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2e-6 to pull"))?;
+    let force = parse_quantity(&in_unit(typed, &unit_of_force(app)), "N");
+    let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2 µN to pull"))?;
     take(app, Some(ManualMove::ToForce(force)));
     if let Some(manual) = &mut app.manual {
         typed.clone_into(&mut manual.typed);

@@ -4,8 +4,7 @@ use super::Effect;
 use crate::draw::{AxisScale, Span};
 use crate::explorer::app::{App, PreloadAxis};
 use crate::explorer::panes::PreloadCurve;
-use crate::explorer::reach::{beyond_full_contact, largest_force};
-use crate::scene::{LEG_FORCE, format_quantity};
+use crate::scene::{LEG_FORCE, Move, format_quantity};
 
 /// Least width of the axis, as a share of its largest coordinate.
 const NARROWEST: f64 = 1e-6;
@@ -33,9 +32,9 @@ pub fn change(app: &mut App, factor: f64, share: f64) {
     let fixed = app.view.crosshair.or(present.filter(|share| (0.0..=1.0).contains(share))).unwrap_or(0.5);
     let low = shown.low + (fixed * (1.0 - factor) + share) * shown.width();
     let mut span = Span { low, high: low + factor * shown.width() };
-    let full_contact = app.current().map_or(0.0, |computed| computed.full_contact);
+    let reach = app.current().map(|computed| computed.reach).unwrap_or_default();
     let largest = LEG_FORCE.range.ends().map_or(f64::MAX, |(_, most)| most);
-    let most = scale.coordinate(largest_force(full_contact).min(largest)).max(shown.high);
+    let most = scale.coordinate(reach.force.min(largest)).max(shown.high);
     let touch = curve.staircase.touch.0;
     let least = if scale == AxisScale::Linear { touch } else { -scale.coordinate(largest) };
     if span.low < least {
@@ -46,8 +45,8 @@ pub fn change(app: &mut App, factor: f64, share: f64) {
         }
     }
     if span.high > most {
-        let why = beyond_full_contact(scale.number(span.high), full_contact, 0.0);
-        why.filter(|_| full_contact > 0.0).into_iter().for_each(|why| app.set_done(why));
+        let why = reach.refusal(Move::ToForce(scale.number(span.high)));
+        why.into_iter().for_each(|why| app.set_done(why));
         span = Span { low: span.low.min(shown.low), high: most };
     }
     if span.width() > NARROWEST * span.low.abs().max(span.high.abs()) {

@@ -41,16 +41,19 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     }
 }
 
-/// Adds a stage after the selected one: after a stage that presses a pull to zero force, at the end to separation; else a
-/// press.
+/// Adds a stage after the selected one, and opens its editor: after a stage that presses a pull to zero force, at the end to
+/// separation; else a press.
 pub fn add(app: &mut App) {
-    let force = pressing_force(app);
+    let (force, before) = (pressing_force(app), app.edit.generation);
     change(app, |stages, at| {
         let presses = matches!(stages[at].1, Move::ToForce(to) | Move::ToIndentation(to) | Move::ToDisplacement(to) if to > 0.0);
         let pull = if at + 1 == stages.len() { Move::ToSeparation } else { Move::ToZeroForce };
         stages.insert(at + 1, (None, if presses { pull } else { Move::ToForce(force) }));
         at + 1
-    })
+    });
+    if app.edit.generation != before {
+        edit::edit_value(app, None);
+    }
 }
 
 /// Deletes the selected stage.
@@ -103,7 +106,10 @@ fn pressing_force(app: &App) -> f64 {
     let before = app.edit.past.iter().rev().filter(|document| document.name() == name);
     let given = [&app.edit.document].into_iter().chain(before).map(edit::pressing_force);
     let computed = app.current().map_or(0.0, |solved| {
-        round_to(solved.outcome.figures.preload.unwrap_or_default().max(0.01 * solved.full_contact), 2)
+        round_to(
+            solved.outcome.figures.preload.unwrap_or_default().max(0.01 * solved.reach.full_contact.0),
+            2,
+        )
     });
     given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
 }

@@ -11,9 +11,8 @@ use crate::explorer::keys::footer as footer_keys;
 use crate::explorer::panes::PreloadCurve;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
-use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::update::{Choosing, Fitting, measured};
+use crate::explorer::update::{Choosing, Fitting, measured, typed};
 use crate::scene::{format_quantity, format_range, format_rounded};
 use crate::study::{MeasuredAdhesion, Statistics};
 use crate::text::grouped;
@@ -47,8 +46,8 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
         (Some((prompt, purpose)), _) if prompt.refused.is_some() || prompt.line.left_out().is_some() => {
             let why = prompt.refused.as_deref().or(prompt.line.left_out()).unwrap_or_default();
             // A value is typed in its row of the parameters.
-            let typed = (rows > 1 && !matches!(purpose, Purpose::Value))
-                .then(|| prompted(Line::raw(label(prompt, width)), &prompt.line, width, theme));
+            let typed =
+                (rows > 1 && !matches!(purpose, Purpose::Value)).then(|| prompted(app, prompt, width));
             let mut lines = refusal(why, rows - u16::from(typed.is_some()));
             lines.extend(typed);
             return lines;
@@ -64,7 +63,7 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
             }
         }),
         (Some((prompt, purpose)), _) if !matches!(purpose, Purpose::Value | Purpose::Help) => {
-            prompted(Line::raw(label(prompt, width)), &prompt.line, width, theme)
+            prompted(app, prompt, width)
         }
         (_, Some(Message::Error(why) | Message::Refused(why))) => return refusal(why, rows),
         (_, Some(Message::Done(text))) if Span::raw(text.as_str()).width() > width.into() => {
@@ -81,18 +80,22 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     vec![line]
 }
 
-/// A line being typed, behind a label.
-fn prompted(label: Line<'static>, line: &TextLine, width: u16, theme: Theme) -> Line<'static> {
-    let room = usize::from(width).saturating_sub(label.width());
-    Line::from_iter(label.spans.into_iter().chain(line.spans(room, theme)))
+/// A line being typed, behind its label and before what it will be.
+fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
+    let theme = app.view.appearance.theme;
+    let label = Span::raw(label(app, prompt, width));
+    let reading = typed::reading(app).map_or_else(String::new, |reading| format!("→ {reading}"));
+    let reading = Span::styled(reading, theme.style(Meaning::Title));
+    let room = usize::from(width).saturating_sub(label.width() + reading.width());
+    Line::from_iter([label].into_iter().chain(prompt.line.spans(room, theme)).chain([reading]))
 }
 
 /// Label of a prompt; a short one where the typed text would be out of sight.
-fn label(prompt: &Prompt, width: u16) -> String {
+fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
         Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave | Purpose::Help => String::new(),
-        Purpose::Force => "Go to the force: ".to_owned(),
+        Purpose::Force => format!("Go to the force ({}): ", typed::unit_of_force(app)),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
         Purpose::Fit => "Parameters to fit: ".to_owned(),

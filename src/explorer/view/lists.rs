@@ -64,7 +64,7 @@ fn command(entry: &Binding, is_selected: bool, width: u16, theme: Theme) -> Line
 pub fn draw_scenes(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
     let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
     let list = list(prompt, ("Scenes", entries.len(), none), |index, is_selected| {
-        Some(scene(entries.get(index)?, is_selected, look.theme))
+        Some(scene((index, entries.get(index)?), is_selected, look.theme))
     });
     let beside = prompt.scene().filter(|_| area.width >= WITH_SCENE);
     let width = if beside.is_some() { area.width * 2 / 5 } else { area.width };
@@ -77,16 +77,16 @@ pub fn draw_scenes(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Ent
     }
 }
 
-fn scene(entry: &Entry, is_selected: bool, theme: Theme) -> Line<'static> {
+fn scene((place, entry): (usize, &Entry), is_selected: bool, theme: Theme) -> Line<'static> {
     let mark = match (entry.error(), is_selected) {
         (Some(_), _) => "! ",
         (None, true) => "› ",
         (None, false) => "  ",
     };
     let origin = match entry.origin {
-        Source::BuiltIn => "built-in",
-        Source::Own => "own",
-        Source::Working => "here",
+        Source::BuiltIn => format!("built-in {}", place + 1),
+        Source::Own => "own".to_owned(),
+        Source::Working => "here".to_owned(),
     };
     let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
     let name = Span::styled(format!("{mark}{}", entry.name), style);

@@ -85,7 +85,7 @@ fn a_built_in_scene_can_be_taken_back_like_any_edit() {
     driver.select("roughness.hurst");
     driver.press("l");
     let text = driver.app.edit.document.text().to_owned();
-    driver.press("4");
+    driver.press("o 4 Enter");
     assert!(
         matches!(driver.app.message, Some(Message::Done(_))),
         "the notice states that the change is kept"
@@ -117,10 +117,27 @@ fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
     driver.select("roughness.roll_off");
     driver.press("Left");
     assert_eq!(waves(&driver).roll_off_mode, 1e-4 / 4.5e-5);
+    // What follows from another value is typed, never stepped.
+    let text = driver.app.edit.document.text().to_owned();
+    for (path, given) in [
+        ("roughness.modes", "the wavelengths"),
+        ("adhesion.work", "κ"),
+        ("adhesion.elastic_energy_ratio", "κ"),
+    ] {
+        driver.select(path);
+        for key in ["Right", "h", "L"] {
+            driver.press(key);
+            let why = format!("is computed; Enter fixes it in place of {given}");
+            assert!(driver.text().contains(&why), "{path} {key}: {}", driver.text());
+            assert_eq!(driver.app.edit.document.text(), text, "{path} {key}");
+        }
+    }
     driver.select("roughness.modes");
-    driver.press("Right");
+    driver.enter("2, 128");
     assert_eq!((waves(&driver).first, waves(&driver).last), (2, 128));
-    driver.press("u u u u");
+    driver.press("Right");
+    assert_eq!((waves(&driver).first, waves(&driver).last), (2, 256));
+    driver.press("u u u u u");
     assert_eq!(scene(&driver), before);
 }
 
@@ -143,14 +160,14 @@ fn the_selection_stays_on_its_field_when_rows_come_and_go() {
     assert_eq!(path(&driver), "numerics.samples");
     driver.press("u u");
     assert_eq!((path(&driver), rows(&driver)), ("numerics.samples", before));
-    driver.press("1");
+    driver.press("o 1 Enter");
     assert_eq!(path(&driver), "numerics.samples");
 }
 
 #[test]
 fn a_scene_that_is_opened_again_unchanged_leaves_nothing_to_undo() {
     let mut driver = Driver::start(open("pressure-sensitive").unwrap());
-    driver.press("2");
+    driver.press("o 2 Enter");
     assert!(driver.app.edit.past.is_empty());
     driver.press("u");
     assert!(driver.status().starts_with("nothing to undo"), "{}", driver.status());

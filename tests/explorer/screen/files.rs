@@ -109,6 +109,34 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
 }
 
 #[test]
+fn profile_and_close_up_come_from_the_springs_at_any_size_of_the_window() {
+    for pane in [Pane::Profile, Pane::CloseUp] {
+        let of_size = |size| {
+            let mut driver = pressed("");
+            driver.app.view.pane = pane;
+            driver.resize(size);
+            ["a.csv", "a.svg"].map(|name| exported(&mut driver, name))
+        };
+        let [table, figure] = of_size((200, 60));
+        for size in [(120, 36), (80, 24), (40, 12)] {
+            assert!(of_size(size) == [table.clone(), figure.clone()], "{pane:?} {size:?}");
+        }
+        let mut curves = std::collections::BTreeMap::<&str, Vec<(&str, &str)>>::new();
+        for row in table.lines().filter(|line| !line.starts_with('#')).skip(1) {
+            let [curve, x, z] = row.split(',').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            curves.entry(curve).or_default().push((x, z));
+        }
+        // A row for each spring, and in contact the surface is the profile.
+        let springs = if pane == Pane::Profile { 1024 } else { curves["profile"].len() };
+        assert_eq!((curves["profile"].len(), curves["surface"].len()), (springs, springs));
+        let (profile, surface) = (&curves["profile"], &curves["surface"]);
+        assert!(profile.windows(2).all(|pair| pair[0].0 != pair[1].0), "{pane:?}");
+        assert!(curves["contact"].iter().all(|spring| profile.contains(spring) && surface.contains(spring)));
+        assert!(!curves["contact"].is_empty() && springs > 60);
+    }
+}
+
+#[test]
 fn the_text_is_the_screen_without_the_prompt() {
     for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
         let mut driver = pressed("c L d { j");

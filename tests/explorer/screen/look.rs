@@ -39,7 +39,7 @@ fn the_profile_is_looked_at_from_near_and_moved_along() {
     assert_eq!(seen(&driver).1, 128);
     (0..20).for_each(|_| drop(driver.press("+")));
     assert_eq!(seen(&driver).1, 8);
-    driver.press("0");
+    driver.press("Z");
     assert_eq!(seen(&driver), (0, 1024));
     driver.press("+ -");
     assert_eq!(seen(&driver), (0, 1024));
@@ -67,7 +67,7 @@ fn the_profile_follows_the_close_up() {
     driver.press("n n n");
     assert_eq!(seen(&driver), put);
     assert!(!driver.text().contains("· follows"));
-    driver.press("w 0");
+    driver.press("w Z");
     assert_eq!(seen(&driver), (0, 1024));
     assert!(!driver.text().contains("· follows"));
 }

@@ -132,7 +132,7 @@ fn keys_change_colours_and_markers_and_say_so() {
 #[test]
 fn the_selected_row_is_marked_by_a_glyph_and_by_style() {
     for theme in Theme::value_variants() {
-        let mut driver = pressed("");
+        let mut driver = pressed("Tab Tab");
         driver.app.view.appearance.theme = *theme;
         for path in ["length", "roughness.hurst", "numerics.samples"] {
             driver.select(path);

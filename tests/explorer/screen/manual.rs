@@ -114,7 +114,7 @@ fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
 fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     let mut driver = pressed("d");
     let before = driver.point();
-    for (typed, force) in [("-1", "-1 N"), ("-1e6 µN", "-1 N"), ("-3 mN", "-3 mN")] {
+    for (typed, force) in [("-1 N", "-1 N"), ("-1e6 µN", "-1 N"), ("-3 mN", "-3 mN")] {
         go(&mut driver, typed);
         let expected = format!("the contact detaches before {force}; smallest force within reach: -");
         assert!(driver.refusal().is_some_and(|why| why.contains(&expected)), "{typed}: {}", driver.status());
@@ -160,7 +160,7 @@ fn a_force_far_beyond_full_contact_is_refused() {
         let mut driver = mid_retraction(document);
         driver.press("d");
         let before = driver.point();
-        go(&mut driver, "1e30");
+        go(&mut driver, "1e30 N");
         let refusal = driver.refusal().unwrap_or_default().to_owned();
         assert!(refusal.contains("N is far beyond full contact at "), "{refusal}");
         assert_eq!(driver.point(), before);
@@ -186,7 +186,7 @@ fn an_edit_puts_the_body_back_and_says_so() {
     // A change of the view alone does not.
     let mut driver = pressed("d {");
     let at_first = driver.point();
-    driver.press("j n v N a D T M z Tab + 0");
+    driver.press("j n v N a D T M z Tab + Z");
     assert!(driver.app.manual.is_some());
     assert_eq!(driver.point(), at_first);
 }

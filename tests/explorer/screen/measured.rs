@@ -68,7 +68,7 @@ fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() 
     driver.press("Space");
     let far = residual(&driver);
     driver.select("adhesion.work");
-    driver.enter("0.049");
+    driver.enter("0.049 J/m²");
     let near = residual(&driver);
     assert!(far > 2.0 * near && near < 3.0, "{far} {near}");
     let measured = driver.app.measured.clone().unwrap();

@@ -79,7 +79,7 @@ fn keys_change_the_range_and_the_scale_of_the_preloads() {
     let usual = range(&driver);
     let preload = driver.app.solved.as_ref().unwrap().outcome.figures.preload.unwrap();
     assert!(usual.0 < 0.0 && usual.1 > 1.9 * preload, "{usual:?}");
-    let most = 10.0 * driver.app.solved.as_ref().unwrap().full_contact;
+    let most = driver.app.solved.as_ref().unwrap().reach.force;
     let mut after = |keys: &str| {
         driver.press(keys);
         compute(&mut driver, 1);
@@ -95,22 +95,22 @@ fn keys_change_the_range_and_the_scale_of_the_preloads() {
     let quarter = 0.25 * (closer.1 - closer.0);
     near(after(")"), (closer.0 + quarter, closer.1 + quarter));
     near(after("( ("), (closer.0 - quarter, closer.1 - quarter));
-    near(after("0"), usual);
+    near(after("Z"), usual);
     // No preload is below the force at first touch.
     let far = after("( ( (");
     near((far.0, 0.0), (usual.0, 0.0));
     let (from, to) = after("X");
     assert!(from > 0.0 && (to / from / 1e6 - 1.0).abs() < 1e-9);
     // The axis ends far beyond full contact.
-    let (wider, end) = after("-");
+    let (wider, end) = after("- -");
     assert!(wider < from && (end / most.max(to) - 1.0).abs() < 1e-9, "{wider} {end} {most}");
     near(after("X"), usual);
-    let (_, end) = after("- - - - - -");
+    let (_, end) = after("- - - - - - - - - - -");
     assert!((end / most - 1.0).abs() < 1e-9, "{end} {most}");
-    near(after("0"), usual);
+    near(after("Z"), usual);
     // In another pane the keys have their other meaning.
     driver.app.view.pane = Pane::Force;
-    driver.press("+ ( 0");
+    driver.press("+ ( Z");
     assert_eq!(range(&driver), usual);
 }
 

@@ -133,7 +133,7 @@ fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
 
 #[test]
 fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
-    let mut driver = pressed("l 1 q");
+    let mut driver = pressed("l o 1 Enter q");
     assert_eq!(driver.app.keys(), Context::Leave, "the first scene is unsaved");
     driver.press("n l q");
     assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
@@ -141,7 +141,7 @@ fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
     assert_eq!(driver.app.edit.document.name(), "rough-line");
     assert_eq!(driver.app.edit.unsaved().len(), 1, "it is the explored scene again");
     // Each is saved before the explorer ends.
-    driver.press("l 1 l q s Ctrl+u");
+    driver.press("l o 1 Enter l q s Ctrl+u");
     driver.type_text("first");
     driver.press("Enter");
     for _ in 0..3 {
@@ -152,7 +152,7 @@ fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
     assert!(driver.app.finished, "{}", driver.text());
     assert_eq!(driver.files(), ["first.ron", "rough-line.ron"]);
     // A second q leaves without saving.
-    let driver = pressed("l 1 q q");
+    let driver = pressed("l o 1 Enter q q");
     assert!(driver.app.finished && driver.files().is_empty());
 }
 

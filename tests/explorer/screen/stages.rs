@@ -36,18 +36,18 @@ fn selected(app: &App) -> Option<usize> {
 fn keys_edit_the_stages() {
     let two = "[ToForce(2.0e-5), ToSeparation]";
     for (stage, keys, stages, next) in [
-        (1, "Insert", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
-        (1, "P P", "[ToForce(2.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]", 3),
-        (0, "P", "[ToForce(2.0e-5), ToSeparation, ToForce(2.0e-5)]", 3),
+        (1, "Insert Esc", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
+        (1, "P Esc P Esc", "[ToForce(2.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]", 3),
+        (0, "P Esc", "[ToForce(2.0e-5), ToSeparation, ToForce(2.0e-5)]", 3),
         (2, "Backspace", "[ToForce(2.0e-5)]", 1),
         (0, "Backspace", "[ToForce(2.0e-5)]", 1),
-        (1, "P Delete", two, 2),
-        (1, "P Shift+Up", "[ToZeroForce, ToForce(2.0e-5), ToSeparation]", 1),
-        (1, "P K J", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
-        (1, "P J", "[ToForce(2.0e-5), ToSeparation, ToZeroForce]", 3),
-        (1, "P Left", "[ToForce(2.0e-5), ToTouch, ToSeparation]", 2),
+        (1, "P Esc Delete", two, 2),
+        (1, "P Esc Shift+Up", "[ToZeroForce, ToForce(2.0e-5), ToSeparation]", 1),
+        (1, "P Esc K J", "[ToForce(2.0e-5), ToZeroForce, ToSeparation]", 2),
+        (1, "P Esc J", "[ToForce(2.0e-5), ToSeparation, ToZeroForce]", 3),
+        (1, "P Esc Left", "[ToForce(2.0e-5), ToTouch, ToSeparation]", 2),
         // Nothing is in contact after a separation: a second one is left out.
-        (1, "P Right", "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]", 2),
+        (1, "P Esc Right", "[ToForce(2.0e-5), ToForce(2.0e-5), ToSeparation]", 2),
         (1, "V V V V V", "[ToForce(2.0e-5), ToSeparation]", 1),
         (1, "V V V", "[ToTouch, ToSeparation]", 1),
         (1, "l", "[ToForce(2.24e-5), ToSeparation]", 1),
@@ -57,8 +57,8 @@ fn keys_edit_the_stages() {
         assert_eq!(loading(&driver.app), stages, "{keys}");
         assert_eq!(selected(&driver.app), Some(next), "{keys}");
         assert!(is_up_to_date(&driver.app), "{keys}");
-        // Each key is one edit.
-        for _ in keys.split(' ') {
+        // Each key is one edit; `Esc` closes the editor of an added stage.
+        for _ in keys.split(' ').filter(|key| *key != "Esc") {
             driver.press("u");
         }
         assert_eq!(loading(&driver.app), two, "{keys}");
@@ -99,6 +99,8 @@ fn edits_of_stages_keep_comments() {
     let mut driver = Driver::start(Document::parse(&text, "a.ron").unwrap());
     select(&mut driver, 1);
     driver.press("P");
+    assert_eq!(driver.app.prompt.as_ref().map(|prompt| prompt.line.text()), Some("zero force"));
+    driver.press("Esc");
     let added =
         "[\n        ToForce(20.0e-6), // press\n        ToZeroForce,\n        ToSeparation, // pull\n    ]";
     assert!(driver.app.edit.document.text().contains(added), "{}", driver.app.edit.document.text());

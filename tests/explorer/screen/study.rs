@@ -152,7 +152,7 @@ fn the_computed_map_can_be_had_instead() {
     driver.press("m m");
     assert!(driver.text().contains("Study small"), "{}", driver.text());
     // Another scene has a map of its own, and the study stays loaded.
-    driver.press("1 W");
+    driver.press("o 1 Enter W");
     assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
     driver.press("W");
     assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());

@@ -7,6 +7,7 @@ use asperity::explorer::action::Action;
 use asperity::explorer::keys::Context;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::update::{Effect, update};
+use clap::ValueEnum;
 
 #[test]
 fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
@@ -14,7 +15,7 @@ fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
     driver.select("length");
     driver.press("e");
     let row = |driver: &Driver| driver.rows().into_iter().find(|row| row.contains('›')).unwrap_or_default();
-    assert!(row(&driver).contains("apparent diameter L (m): 100 µm"), "{}", row(&driver));
+    assert!(row(&driver).contains("apparent diameter L (µm): 100 µm"), "{}", row(&driver));
     assert_eq!(reversed(&driver.screen().content), "100 µm");
     let before = driver.app.edit.document.clone();
     driver.type_text("10 kg");
@@ -86,7 +87,58 @@ fn the_cursor_of_what_is_typed_is_on_the_screen() {
 }
 
 #[test]
-fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
+fn a_number_alone_has_the_unit_of_its_row_and_the_row_says_so() {
+    for size in [(120, 36), (80, 24), (40, 12)] {
+        for (path, typed, reading, written) in [
+            ("adhesion.work", "50", "50 mJ/m²", "(work: 0.05)"),
+            ("length", "5", "5 µm", "5.0e-6"),
+            ("roughness.rms_height", "4e2", "400 nm", "4.0e-7"),
+            ("adhesion.work", "50m", "50 mJ/m²", "(work: 0.05)"),
+            ("loading.0.0", "60", "60 µN", "[ToForce(6.0e-5), ToSeparation]"),
+            ("loading.1", "-2", "-2 µN", "[ToForce(2.0e-5), ToForce(-2.0e-6)]"),
+            ("loading.0.0", "indentation 20", "indentation 20 m", ""),
+        ] {
+            let scene = rough().set_all(&[("adhesion".into(), "(work: 0.0044)".into())]).unwrap();
+            let mut driver = Driver::start(scene);
+            driver.resize(size);
+            let rows = &driver.app.edit.parameters;
+            driver.app.edit.selected = rows.iter().position(|row| row.path == path).unwrap();
+            driver.press("Enter");
+            driver.type_text(typed);
+            let line = driver.rows().into_iter().find(|row| row.contains('→')).unwrap_or_default();
+            assert!(line.contains(&format!("→ {reading}")), "{size:?} {path} {typed}\n{}", driver.text());
+            driver.press("Enter");
+            let place = path.split('.').take(if path.starts_with("rough") { 2 } else { 1 });
+            let place = place.collect::<Vec<_>>().join(".");
+            if written.is_empty() {
+                assert!(driver.refusal().is_some(), "{path} {typed}: {}", driver.status());
+            } else {
+                assert_eq!(driver.app.edit.document.value(&place), Some(written), "{path} {typed}");
+            }
+        }
+    }
+    // With its unit a value needs no reading, and a whole loading is in SI units as in a file.
+    let mut driver = pressed("");
+    driver.select("length");
+    driver.press("Enter");
+    driver.type_text("50 µm");
+    assert!(!driver.text().contains('→'), "{}", driver.text());
+    driver.press("Esc");
+    driver.select("loading");
+    driver.press("Enter");
+    assert!(driver.text().contains("a number alone is a force in N"), "{}", driver.text());
+    driver.type_text("2e-5, separation");
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.document.scene().loading, rough().scene().loading);
+    // A force of manual loading has the prefix of the loading.
+    driver.press("d F 1 0");
+    assert!(driver.status().starts_with("Go to the force (µN): 10") && driver.status().contains("→ 10 µN"));
+    driver.press("Enter");
+    assert!((driver.point().force - 1e-5).abs() < 1e-12, "{}", driver.point().force);
+}
+
+#[test]
+fn digits_begin_a_value_wherever_the_list_can_be_edited() {
     let mut driver = pressed("Tab Tab");
     assert_eq!(driver.app.view.pane, asperity::explorer::app::Pane::Parameters);
     driver.press(". 6 5 Enter");
@@ -97,15 +149,36 @@ fn digits_begin_a_value_while_the_pane_of_parameters_is_selected() {
     assert_eq!(driver.app.edit.document.scene().roughness, rough().scene().roughness);
     driver.select("loading");
     driver.press("j - 2");
-    assert!(driver.text().contains("F (N): -2"), "{}", driver.text());
+    assert!(driver.text().contains("F (µN): -2"), "{}", driver.text());
     driver.press("Esc");
     // A switch and a group have no number.
     driver.select("numerics");
     driver.press("3");
     assert!(driver.app.prompt.is_none());
-    // In the other panes a digit opens a scene.
-    driver.press("Tab 3");
-    assert_eq!(driver.app.edit.document.name(), asperity::scene::presets()[2].name);
+    assert!(driver.status().starts_with("numerics is a group"), "{}", driver.status());
+    // In the panes whose arrows change the value as well, though `-` and `.` have another meaning there.
+    let before = driver.app.edit.document.clone();
+    driver.select("roughness.hurst");
+    driver.press("Tab . - 0");
+    assert_eq!(driver.app.prompt.as_ref().map(|prompt| prompt.line.text()), Some("0"));
+    driver.press(". 6 Enter");
+    assert_eq!(driver.app.edit.document.value("roughness.hurst"), Some("0.6"));
+    // The arrows of map and crosshair are not those of the list, and digits do nothing.
+    driver.press("u * 5 * m 5");
+    assert_eq!((&driver.app.edit.document, driver.app.prompt.is_none()), (&before, true));
+}
+
+#[test]
+fn the_selected_row_is_bright_only_while_its_pane_has_the_focus() {
+    for theme in asperity::explorer::theme::Theme::value_variants() {
+        let mut driver = pressed("");
+        driver.app.view.appearance.theme = *theme;
+        assert!(driver.text().contains("›  Hurst exponent") && reversed(&driver.screen().content).is_empty());
+        for (keys, row) in [("Tab Tab", "Hurst exponent"), ("Tab /", "adhesion")] {
+            driver.press(keys);
+            assert!(reversed(&driver.screen().content).contains(row), "{theme:?} {keys}");
+        }
+    }
 }
 
 #[test]
