@@ -2,6 +2,8 @@
 
 mod baseline;
 mod columns;
+#[cfg(test)]
+mod coverage;
 mod curve;
 mod fit;
 mod free;
@@ -9,6 +11,7 @@ mod model;
 mod options;
 mod parameter;
 mod points;
+mod population;
 mod read;
 mod scene;
 mod search;

@@ -59,6 +59,27 @@ impl Parameter {
         matches!(self, Parameter::Offset | Parameter::Zero)
     }
 
+    /// Returns true for a work of adhesion, which may be 0.
+    fn is_work(self) -> bool {
+        matches!(self, Parameter::Work | Parameter::ClosingWork)
+    }
+
+    /// Returns true for a range in which the parameter can be looked for.
+    pub(super) fn allows(self, (low, high): (f64, f64)) -> bool {
+        let is_above = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
+        is_above && low < high && low.is_finite() && high.is_finite()
+    }
+
+    /// Ranges in which the parameter can be looked for.
+    pub(super) fn ranges(self) -> String {
+        let above = match (self.is_signed(), self.is_work()) {
+            (true, _) => "",
+            (_, true) => " of at least 0",
+            _ => " above 0",
+        };
+        format!("two values{above}, the first below the second")
+    }
+
     /// Measurement that separates two parameters, or one from all others, where a curve does not.
     pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
@@ -102,35 +123,38 @@ impl FromStr for Free {
             let near = did_you_mean(name, names);
             format!("{name:?} is not a parameter{near}; allowed: {}", names.join(", "))
         })?;
-        let above = if parameter.is_signed() { "" } else { " above 0" };
-        let allowed =
-            || format!("allowed: two values{above}, the first below the second, such as {name}=1..2");
+        let allowed = || format!("allowed: {}, such as {name}=1..2", parameter.ranges());
         let end = |text: &str| {
             parse_quantity(text, parameter.row().3).map_err(|error| format!("{error}; {}", allowed()))
         };
         let ends = |range: &str| {
             let (low, high) = range.split_once("..").ok_or_else(allowed)?;
             let (low, high) = (end(low)?, end(high)?);
-            if low < high && (low > 0.0 || parameter.is_signed()) { Ok((low, high)) } else { Err(allowed()) }
+            if parameter.allows((low, high)) { Ok((low, high)) } else { Err(allowed()) }
         };
         Ok(Free { parameter, range: range.map(ends).transpose()? })
     }
 }
 
-/// Coordinate of a free parameter: its value over a unit, its share of the work of adhesion, or its logarithm.
+/// Coordinate of a free parameter: its value over a unit, its share of the work of adhesion, or its logarithm. That of the work
+/// of adhesion is linear up to its unit, so that it reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
-    /// Unit of a parameter of either sign.
+    /// Unit of a parameter of either sign, and of the work of adhesion.
     pub unit: f64,
 }
 
 impl Coordinate {
     pub fn of(&self, value: f64, values: &Values) -> f64 {
         match self.parameter {
-            Parameter::ClosingWork => (value / values[Parameter::Work as usize]).min(1.0),
+            Parameter::Work => (value / self.unit).asinh(),
+            Parameter::ClosingWork => {
+                let (low, high) = self.on_closing(values);
+                if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 1.0 }
+            }
             parameter if parameter.is_signed() => value / self.unit,
             _ => value.ln(),
         }
@@ -139,10 +163,20 @@ impl Coordinate {
     /// Value at a coordinate, for these values of the other parameters.
     pub fn value(&self, at: f64, values: &Values) -> f64 {
         match self.parameter {
-            Parameter::ClosingWork => at.clamp(0.0, 1.0) * values[Parameter::Work as usize],
+            Parameter::Work => at.sinh() * self.unit,
+            Parameter::ClosingWork => {
+                let (low, high) = self.on_closing(values);
+                low + at.clamp(0.0, 1.0) * (high - low)
+            }
             parameter if parameter.is_signed() => at * self.unit,
             _ => at.exp(),
         }
+    }
+
+    /// Ends of the work of adhesion on closing, which the work of adhesion limits.
+    fn on_closing(&self, values: &Values) -> (f64, f64) {
+        let work = values[Parameter::Work as usize];
+        (self.range.0.min(work), self.range.1.min(work))
     }
 
     /// Coordinates of the ends of the range.
@@ -151,5 +185,77 @@ impl Coordinate {
             Parameter::ClosingWork => (0.0, 1.0),
             _ => (self.of(self.range.0, &[1.0; 7]), self.of(self.range.1, &[1.0; 7])),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn coordinate(parameter: Parameter, range: (f64, f64)) -> Coordinate {
+        Coordinate { parameter, start: range.0, range, unit: 0.5 }
+    }
+
+    #[test]
+    fn values_come_back_from_their_coordinates() {
+        let mut values = [1.0; 7];
+        values[Parameter::Work as usize] = 4.0;
+        for (parameter, range, value, at) in [
+            (Parameter::Work, (0.0, 10.0), 0.0, 0.0),
+            (Parameter::Work, (0.0, 10.0), 3.0, 6.0_f64.asinh()),
+            (Parameter::ClosingWork, (0.0, 10.0), 3.0, 0.75),
+            (Parameter::ClosingWork, (2.0, 3.0), 2.5, 0.5),
+            (Parameter::ClosingWork, (2.0, 10.0), 3.0, 0.5),
+            (Parameter::Offset, (-3.0, 3.0), -2.0, -4.0),
+            (Parameter::Zero, (-3.0, 3.0), 2.0, 4.0),
+            (Parameter::Modulus, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::Stiffness, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::Radius, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+        ] {
+            let one = coordinate(parameter, range);
+            assert!((one.of(value, &values) - at).abs() < 1e-12, "{one:?}");
+            assert!((one.value(at, &values) - value).abs() < 1e-12, "{one:?}");
+        }
+        // A work on closing is at most that on opening, also where there is none.
+        let closing = coordinate(Parameter::ClosingWork, (0.0, 10.0));
+        assert_eq!((closing.of(9.0, &values), closing.value(1.5, &values)), (1.0, 4.0));
+        assert_eq!((closing.of(0.0, &[0.0; 7]), closing.value(0.5, &[0.0; 7])), (1.0, 0.0));
+        assert_eq!(closing.ends(), (0.0, 1.0));
+        assert_eq!(coordinate(Parameter::Offset, (-3.0, 3.0)).ends(), (-6.0, 6.0));
+        assert_eq!(coordinate(Parameter::Work, (0.0, 1.0)).ends(), (0.0, 2.0_f64.asinh()));
+    }
+
+    #[test]
+    fn free_parameters_are_parsed_with_their_ranges() {
+        let free = |text: &str| text.parse::<Free>();
+        let range = |text: &str| free(text).unwrap().range;
+        assert_eq!(free("offset"), Ok(Free { parameter: Parameter::Offset, range: None }));
+        assert_eq!(range("work=0..1"), Some((0.0, 1.0)));
+        assert_eq!(range("closing_work=0..20mJ/m^2"), Some((0.0, 0.02)));
+        assert_eq!(range("offset=-1um..0"), Some((-1e-6, 0.0)));
+        for (text, said) in [
+            (
+                "work=-1..1",
+                "allowed: two values of at least 0, the first below the second, such as work=1..2",
+            ),
+            ("modulus=0..1", "allowed: two values above 0, the first below the second, such as modulus=1..2"),
+            ("zero=2..1", "allowed: two values, the first below the second, such as zero=1..2"),
+            ("radius=1", "allowed: two values above 0"),
+            ("work=1..x", "\"x\""),
+            ("wrok", "\"wrok\" is not a parameter"),
+        ] {
+            let error = free(text).unwrap_err();
+            assert!(error.starts_with(said) || error.contains(said), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_remedy_belongs_to_a_pair_in_any_order() {
+        use Parameter::{Modulus, Offset, Stiffness, Work, Zero};
+        assert!(Parameter::remedy(Stiffness, Modulus).contains("hard specimen"));
+        assert_eq!(Parameter::remedy(Modulus, Stiffness), Parameter::remedy(Stiffness, Modulus));
+        assert!(Parameter::remedy(Work, Work).starts_with("less noise"));
+        assert!(Parameter::remedy(Work, Zero).starts_with("a curve with another preload"));
+        assert!(Parameter::remedy(Offset, Zero).contains("before contact"));
     }
 }

@@ -4,16 +4,20 @@
 //! The forces jump with the parameters, so neither derivatives nor a linearised fit say how well a curve determines them. A
 //! population can: its members are drawn over the ranges and weighted as if the noise were large, where jumps count little.
 //! Then the noise falls step by step to that of the curve. At each step likely members are doubled, unlikely ones are left
-//! out, and all move by differences of others, which have the extent and the directions of the population. In the end the
-//! members are distributed as the parameters are by the noise.
+//! out, and all move by differences of others, which have the extent and the directions of the population, and now and then
+//! by a random step of any size, so that copies of one member part again. In the end the members are distributed as the
+//! parameters are by the noise. The start is no member: a start close to the values would be copied to the whole population.
 
 use super::baseline::{dot, ends};
 use super::model::Model;
 use super::parameter::{Coordinate, Parameter, Values};
-use super::{ExperimentError, MeasuredCurve};
+use super::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
+use super::statistics::{PARTS, scale};
+use super::{ExperimentError, MeasuredCurve, refused};
 use crate::contact::ContactError;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use std::ops::Range;
 
 const SEED: u64 = 29;
 /// Members drawn at first for each free parameter.
@@ -26,46 +30,45 @@ const EFFECTIVE: f64 = 0.3;
 /// Moves of the population at each step, and those at the end, after which all members are samples.
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
+/// Share of the moves that are random steps, and decades over which their lengths extend down from the whole range.
+const RANDOM: f64 = 0.1;
+const DECADES: f64 = 6.0;
 /// Noise in units of that of the curve down to which the forces are coarse, and factor of the members until then.
 const COARSE: f64 = 10.0;
 const MORE: usize = 2;
+/// Part of the residual of the best member down to which the noise falls, if that residual exceeds the noise of the curve.
+const DEEPER: f64 = 3.0;
 /// Mean square residual in units of the noise beyond which a second population is made.
 const EXPECTED: f64 = 1.2;
+/// Populations at most, and cost by which a start is better than a population that missed it.
+const ATTEMPTS: usize = 3;
+const MISSED: f64 = 3.0;
 /// Largest noise in units of that of the curve, and halvings of its logarithm in a step.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
 /// Largest factor of the noise in a step.
 const SLOWEST: f64 = 0.99;
-/// Residual, in units of the noise, beyond which a point counts less: it is on the wrong side of a jump.
-pub(super) const WRONG_SIDE: f64 = 5.0;
+/// Residual in contact, in units of the noise, of a model that does not describe the curve.
+pub(super) const MISFIT: f64 = 1.5;
+/// Coordinate of a work of adhesion below which one without adhesion is tried: a few times that which the noise hides.
+const CLOSE: f64 = 2.5;
 /// Residual in units of the noise of a force beyond all numbers.
 const FAR: f64 = 1e12;
 /// Bases of evenly scattered points.
 const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 
-/// Coordinates with the residuals there, in units of the noise of the curve.
-#[derive(Clone)]
-pub(super) struct Member {
-    pub at: Vec<f64>,
-    pub rests: Vec<f64>,
-}
-
-/// Members with their costs at a noise, in units of that of the curve, and the best of all with its cost at that of the curve.
-struct Population {
-    members: Vec<Member>,
-    costs: Vec<f64>,
-    noise: f64,
-    best: Member,
-    cost: f64,
-}
-
-impl Population {
-    /// Keeps a member with this cost at the noise of the curve, if it is the best.
-    fn keep(&mut self, member: &Member, cost: f64) {
-        if cost < self.cost {
-            (self.best, self.cost) = (member.clone(), cost);
-        }
-    }
+/// What a search has found.
+pub(super) struct Found {
+    /// The member of the least residuals.
+    pub best: Member,
+    /// Noise of the samples in units of that of the curve: the residual where it is larger.
+    pub noise: f64,
+    /// Members that are distributed as the noise has it.
+    pub samples: Vec<Vec<f64>>,
+    /// Costs of each sample at its noise over each block of the curve; empty where the model describes the curve.
+    pub blocks: Vec<Vec<f64>>,
+    /// Least cost without adhesion in addition to that of the best member; infinite if no sample comes close to it.
+    pub without_adhesion: f64,
 }
 
 /// The coordinates in which a scene is fitted, from these values on.
@@ -92,18 +95,31 @@ impl Space<'_> {
         values
     }
 
+    /// Coordinates of the start.
+    fn start(&self) -> Vec<f64> {
+        self.coordinates.iter().map(|one| one.of(one.start, &self.base)).collect()
+    }
+
+    /// Consecutive parts of each segment in contact, which depend on each other less than points do.
+    fn blocks(&self) -> Vec<Range<usize>> {
+        let (mut blocks, mut from) = (Vec::new(), self.curve.free);
+        for segment in self.curve.segment[from..].chunk_by(|one, next| one == next) {
+            let end = |part: usize| from + segment.len() * part / PARTS;
+            blocks.extend((0..PARTS).map(|part| end(part)..end(part + 1)));
+            from += segment.len();
+        }
+        blocks
+    }
+
     /// Straight lines of the curve that are refined with each model, see [`MeasuredCurve::lines`].
     pub fn lines(&self) -> Vec<Vec<f64>> {
         let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
         self.curve.lines(has_zero)
     }
 
-    /// Root mean square residual in contact, in units of the noise; a point on the wrong side of a jump counts as
-    /// [`WRONG_SIDE`].
+    /// Root mean square residual in contact, in units of the noise; see [`scale`].
     pub fn misfit(&self, rests: &[f64]) -> f64 {
-        let rests = &rests[self.curve.free..];
-        let squares: f64 = rests.iter().map(|rest| rest.abs().min(WRONG_SIDE).powi(2)).sum();
-        (squares / rests.len() as f64).sqrt()
+        scale(&rests[self.curve.free..], WRONG_SIDE)
     }
 }
 
@@ -140,26 +156,29 @@ impl Search<'_> {
         refined
     }
 
-    /// Half the sum of the squared residuals over those of a noise in units of that of the curve. The square of a point
-    /// on the wrong side of a jump continues as a logarithm: measured displacements are not exact to the edge of a jump.
-    fn cost(&self, member: &Member, noise: f64) -> f64 {
-        let loss = |rest: &f64| {
-            let rest = (rest / noise).abs();
-            if rest > WRONG_SIDE {
-                WRONG_SIDE * WRONG_SIDE * (0.5 + (rest / WRONG_SIDE).ln())
-            } else {
-                0.5 * rest * rest
-            }
-        };
-        self.refined(&member.rests, WRONG_SIDE * noise).iter().map(loss).sum()
+    /// Residual in contact in units of the noise, see [`Space::misfit`], with lines that are estimated at this noise.
+    fn misfit(&self, member: &Member, noise: f64) -> f64 {
+        self.space.misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
     }
 
-    /// The start and points evenly scattered over the ranges, others in each attempt.
+    /// Sum of the [`loss`] of all points at a noise in units of that of the curve.
+    fn cost(&self, member: &Member, noise: f64) -> f64 {
+        self.refined(&member.rests, WRONG_SIDE * noise).iter().map(|rest| loss(rest / noise)).sum()
+    }
+
+    /// Costs over each block of the curve.
+    fn block_costs(&self, member: &Member, noise: f64) -> Vec<f64> {
+        let rests = self.refined(&member.rests, WRONG_SIDE * noise);
+        let cost = |block: Range<usize>| rests[block].iter().map(|rest| loss(rest / noise)).sum();
+        self.space.blocks().into_iter().map(cost).collect()
+    }
+
+    /// Points evenly scattered over the ranges, others in each attempt.
     fn scattered(&mut self, attempt: usize) -> Result<Vec<Member>, ExperimentError> {
-        let Space { base, coordinates, .. } = self.space;
-        let start: Vec<f64> = coordinates.iter().map(|one| one.of(one.start, base)).collect();
-        let mut members = vec![self.member(start.clone())?];
+        let coordinates = &self.space.coordinates;
+        let start = self.space.start();
         let count = SCAN * start.len();
+        let mut members = Vec::with_capacity(count + 1);
         for number in attempt * count + 1..=(attempt + 1) * count {
             let rows = coordinates.iter().zip(PRIMES).zip(&start);
             let of = rows.map(|((one, prime), start)| {
@@ -176,62 +195,134 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Finds the member of the least residuals, and coordinates that are distributed as the noise has it: by the better of
-    /// two populations if the residuals of the first one exceed the noise, as one in thirty ends in another minimum.
-    pub fn find(&mut self) -> Result<(Member, Vec<Vec<f64>>), ExperimentError> {
+    /// Finds the member of the least residuals, and coordinates that are distributed as the noise has it. A population is drawn
+    /// anew at other points if its residuals exceed the noise, as one in thirty ends in another minimum, if it has missed a
+    /// better start, which is then a member of the next one, or if it has not spread.
+    pub fn find(&mut self) -> Result<Found, ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
-        let mut population = self.anneal(0, &mut generator)?;
-        if population.cost > EXPECTED * 0.5 * population.best.rests.len() as f64 {
-            let second = self.anneal(1, &mut generator)?;
-            population = if second.cost < population.cost { second } else { population };
+        self.model.noise = 1.0;
+        let start = self.member(self.space.start())?;
+        let mut population = self.anneal(0, None, &mut generator)?;
+        for attempt in 1..ATTEMPTS {
+            let is_poor = self.cost(&population.best, 1.0) > EXPECTED * 0.5 * start.rests.len() as f64;
+            let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;
+            let has_spread = population.has_spread();
+            if has_spread && !has_missed && !(is_poor && attempt == 1) {
+                break;
+            }
+            let other = self.anneal(attempt, has_missed.then_some(&start), &mut generator)?;
+            let noise = population.noise.min(other.noise);
+            if !has_spread || self.cost(&other.best, noise) < self.cost(&population.best, noise) {
+                population = other;
+            }
         }
-        let mut samples = Vec::new();
+        population.keep(&start, self.cost(&start, population.noise));
+        let noise = self.misfit(&population.best, population.noise).max(1.0);
+        self.set_noise(&mut population, noise);
+        for _ in 0..MOVES {
+            self.move_all(&mut population, &mut generator)?;
+        }
+        let (mut samples, mut blocks) = (Vec::new(), Vec::new());
         for _ in 0..LAST_MOVES {
             self.move_all(&mut population, &mut generator)?;
             samples.extend(population.members.iter().map(|member| member.at.clone()));
+            if noise > MISFIT {
+                blocks.extend(population.members.iter().map(|member| self.block_costs(member, noise)));
+            }
         }
-        Ok((population.best, samples))
+        if !population.has_spread() {
+            let fault = format!("the search ends at {} values of the parameters", population.distinct());
+            return refused(
+                fault,
+                "more; other ranges of the parameters by --free NAME=A..B, or a larger --noise",
+            );
+        }
+        let without_adhesion = self.without_adhesion(&population, &samples)?;
+        Ok(Found { best: population.best, noise, samples, blocks, without_adhesion })
     }
 
     /// Coordinates of small residuals: those of one population.
     pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
-        Ok(self.anneal(0, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
+        Ok(self.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
     }
 
-    /// A population at the noise of the curve: with more members and coarse forces while the noise is large.
-    fn anneal(&mut self, attempt: usize, generator: &mut ChaCha8Rng) -> Result<Population, ExperimentError> {
+    /// Least cost without adhesion in addition to that of the best member; infinite if no sample comes close to it.
+    fn without_adhesion(
+        &mut self,
+        population: &Population,
+        samples: &[Vec<f64>],
+    ) -> Result<f64, ExperimentError> {
+        let is_work = |one: &Coordinate| one.parameter == Parameter::Work && one.range.0 == 0.0;
+        let mut least = f64::INFINITY;
+        if let Some(work) = self.space.coordinates.iter().position(is_work)
+            && samples.iter().any(|at| at[work] < CLOSE)
+        {
+            for member in &population.members {
+                let mut at = member.at.clone();
+                at[work] = 0.0;
+                let member = self.member(at)?;
+                least = least.min(self.cost(&member, population.noise) - population.cost);
+            }
+        }
+        Ok(least)
+    }
+
+    /// A population at the noise of the curve, or at a part of the residual: with more members and coarse forces while the
+    /// noise is large.
+    fn anneal(
+        &mut self,
+        attempt: usize,
+        start: Option<&Member>,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<Population, ExperimentError> {
         self.model.noise = COARSE;
-        let members = self.scattered(attempt)?;
-        let costs = vec![0.0; members.len()];
-        let mut population = Population {
-            best: members[0].clone(),
-            members,
-            costs,
-            noise: f64::INFINITY,
-            cost: f64::INFINITY,
-        };
+        let mut members = self.scattered(attempt)?;
+        members.extend(start.cloned());
+        let misfit = |member: &&Member| self.misfit(member, f64::INFINITY);
+        let best = members.iter().min_by(|one, other| misfit(one).total_cmp(&misfit(other)));
+        let best = best.cloned().ok_or(ContactError::Internal("no values have been drawn"))?;
+        let (costs, noise) = (vec![0.0; members.len()], f64::INFINITY);
+        let mut population = Population { members, costs, noise, best, cost: f64::INFINITY };
         let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
         loop {
-            let least = self.space.misfit(&self.refined(&population.best.rests, WRONG_SIDE)).max(1.0);
+            let least = (self.misfit(&population.best, population.noise) / DEEPER).max(1.0);
             if population.noise <= least {
+                self.refine(&mut population)?;
                 return Ok(population);
             }
             let (noise, weights) = self.cooler(&population, least);
             let count = if noise > COARSE { MORE * count } else { count };
-            let mut members = drawn(&population.members, &weights, count, generator.random());
-            if noise < self.model.noise {
-                self.model.noise = 1.0;
-                population.cost = f64::INFINITY;
-                for member in &mut members {
-                    *member = self.member(std::mem::take(&mut member.at))?;
-                    population.keep(member, self.cost(member, 1.0));
-                }
+            population.members = drawn(&population.members, &weights, count, generator.random());
+            if noise < COARSE {
+                self.refine(&mut population)?;
             }
-            let costs = members.iter().map(|member| self.cost(member, noise)).collect();
-            population = Population { members, costs, noise, ..population };
+            self.set_noise(&mut population, noise);
             for _ in 0..MOVES {
                 self.move_all(&mut population, generator)?;
             }
+        }
+    }
+
+    /// Computes the exact forces of a population of which the forces are coarse.
+    fn refine(&mut self, population: &mut Population) -> Result<(), ExperimentError> {
+        if self.model.noise > 1.0 {
+            self.model.noise = 1.0;
+            for member in population.members.iter_mut().chain([&mut population.best]) {
+                *member = self.member(std::mem::take(&mut member.at))?;
+            }
+            self.set_noise(population, population.noise);
+        }
+        Ok(())
+    }
+
+    /// Weighs a population by this noise.
+    fn set_noise(&self, population: &mut Population, noise: f64) {
+        population.costs = population.members.iter().map(|member| self.cost(member, noise)).collect();
+        (population.noise, population.cost) = (noise, self.cost(&population.best, noise));
+        let best = (0..population.costs.len())
+            .min_by(|&one, &other| population.costs[one].total_cmp(&population.costs[other]));
+        if let Some(best) = best {
+            population.keep(&population.members[best].clone(), population.costs[best]);
         }
     }
 
@@ -260,7 +351,8 @@ impl Search<'_> {
         (next, weights(next))
     }
 
-    /// Moves each member by differences of two others, or leaves it where it is (ter Braak, Stat. Comput. 16, 239, 2006).
+    /// Moves each member by the difference of two others (ter Braak, Stat. Comput. 16, 239, 2006) or by a random step along one
+    /// coordinate, or leaves it where it is.
     fn move_all(
         &mut self,
         population: &mut Population,
@@ -269,13 +361,20 @@ impl Search<'_> {
         let usual = 2.38 / (2.0 * self.space.coordinates.len() as f64).sqrt();
         let count = population.members.len();
         for index in 0..count {
-            let [one, other] = [(); 2].map(|()| &population.members[generator.random_range(0..count)].at);
-            let length = usual * (0.5 + generator.random::<f64>());
-            let chance: f64 = generator.random();
             let here = &population.members[index].at;
-            let moved =
-                here.iter().zip(one.iter().zip(other)).map(|(at, (one, other))| at + length * (one - other));
-            let at: Vec<f64> = moved.collect();
+            let mut at = here.clone();
+            let length: f64 = generator.random();
+            if generator.random::<f64>() < RANDOM {
+                let moved = generator.random_range(0..at.len());
+                let (low, high) = self.space.coordinates[moved].ends();
+                at[moved] +=
+                    (high - low) * (2.0 * length - 1.0) * 10_f64.powf(-DECADES * generator.random::<f64>());
+            } else {
+                let [one, other] = [(); 2].map(|()| &population.members[generator.random_range(0..count)].at);
+                let differences = one.iter().zip(other).map(|(one, other)| one - other);
+                at.iter_mut().zip(differences).for_each(|(at, by)| *at += usual * (0.5 + length) * by);
+            }
+            let chance: f64 = generator.random();
             let is_within = |(at, one): (&f64, &Coordinate)| (one.ends().0..=one.ends().1).contains(at);
             if at == *here || !at.iter().zip(&self.space.coordinates).all(is_within) {
                 continue;
@@ -283,28 +382,10 @@ impl Search<'_> {
             let member = self.member(at)?;
             let cost = self.cost(&member, population.noise);
             if chance < (population.costs[index] - cost).exp() {
-                population.keep(&member, self.cost(&member, 1.0));
+                population.keep(&member, cost);
                 (population.members[index], population.costs[index]) = (member, cost);
             }
         }
         Ok(())
     }
-}
-
-/// Draws members by their weights, evenly from a share of the first one on.
-fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
-    let step = weights.iter().sum::<f64>() / count as f64;
-    let (mut drawn, mut sum) = (Vec::with_capacity(count), 0.0);
-    for (member, weight) in members.iter().zip(weights) {
-        sum += weight;
-        while drawn.len() < count && (drawn.len() as f64 + share) * step < sum {
-            drawn.push(member.clone());
-        }
-    }
-    drawn
-}
-
-/// Point from 0 to 1 of an evenly scattered sequence (van der Corput).
-fn share_of(number: usize, base: usize) -> f64 {
-    if number == 0 { 0.0 } else { ((number % base) as f64 + share_of(number / base, base)) / base as f64 }
 }

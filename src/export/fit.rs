@@ -5,7 +5,7 @@ use super::sheet::Sheet;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
 use crate::io::{Table, object};
-use crate::scene::format_quantity;
+use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use std::collections::BTreeMap;
 
@@ -27,7 +27,8 @@ impl Report for FitReport<'_> {
         if !fit.describes() {
             let times = format_quantity(fit.misfit, "1");
             sheet.paragraph(&format!(
-                "The model does not describe the curve: in contact the residual is {times} times the noise."
+                "The model does not describe the curve: in contact the residual is {times} times the noise. The intervals are \
+                 by the scatter over parts of the curve."
             ));
         }
         sheet.heading(&format!("Curve {title}"));
@@ -38,8 +39,8 @@ impl Report for FitReport<'_> {
         let row = |one: &FittedParameter| {
             [
                 format!("{} {}", one.parameter.row().1, one.parameter.row().2),
-                quantity(one, one.value),
-                format!("{} to {}", quantity(one, one.interval.0), quantity(one, one.interval.1)),
+                one.text(one.value),
+                format!("{} to {}", one.text(one.interval.0), one.text(one.interval.1)),
                 quantity(one, one.noise_error),
                 one.profile_error.map_or("-".to_owned(), |error| quantity(one, error)),
                 quantity(one, one.start),
@@ -48,17 +49,28 @@ impl Report for FitReport<'_> {
         let rows = fit.parameters.iter().map(row);
         sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
         let [residual, noise] = [fit.residual, curve.noise].map(|force| format_quantity(force, "N"));
+        let [times, in_contact] =
+            [fit.residual_over_noise, fit.misfit].map(|times| format_quantity(times, "1"));
         sheet.heading(&format!(
-            "Residual {residual}, noise {noise}; in contact {} times the noise. {} curves were computed.",
-            format_quantity(fit.misfit, "1"),
+            "Residual {residual}, {times} times the noise of {noise}; {} % of the points are beyond 5 times the noise. In \
+             contact {in_contact} times the noise, where single points count little. {} curves were computed.",
+            format_rounded(100.0 * fit.beyond_five_sigma, 2, "1"),
             grouped(fit.evaluations as u64)
         ));
+        if let Some(work) = fit.work_at_most {
+            let work = format_rounded(work, 2, "J/m²");
+            sheet.paragraph(&format!("γ is at most {work}: a curve without adhesion describes it as well."));
+        }
         let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
         if let Some((one, other, value)) = strongest {
             let (one, other) = (one.row().2, other.row().2);
             sheet.paragraph(&format!("Largest correlation: {one} and {other}, {value:.2}."));
         }
-        fit.not_distinguished.iter().for_each(|&(one, other)| sheet.paragraph(&separation(one, other)));
+        let is_bound = |pair: &&(Parameter, Parameter)| {
+            fit.work_at_most.is_some() && **pair == (Parameter::Work, Parameter::Work)
+        };
+        let named = fit.not_distinguished.iter().filter(|pair| !is_bound(pair));
+        named.for_each(|&(one, other)| sheet.paragraph(&separation(one, other)));
         if fit.document.scene().roughness.is_some() {
             sheet.paragraph(ROUGH);
         }
@@ -91,6 +103,8 @@ impl Report for FitReport<'_> {
             "describes": fit.describes(),
             "residual": fit.residual,
             "noise": curve.noise,
+            "residual_over_noise": fit.residual_over_noise,
+            "beyond_five_sigma": fit.beyond_five_sigma,
             "misfit": fit.misfit,
             "points_used": curve.points,
             "points_left_out": curve.missing,
@@ -132,10 +146,8 @@ impl Report for FitReport<'_> {
             Layer::new("measured".into(), Ink::Kept, Shape::signs(residuals, Sign::Dot)),
         ];
         let found = fit.parameters.iter().map(|one| {
-            let half = 0.5 * (one.interval.1 - one.interval.0);
-            let digit = 10_f64.powf(half.max(1e-4 * one.value.abs()).max(1e-30).log10().floor() - 1.0);
-            let [value, half] = [one.value, half]
-                .map(|value| format_quantity((value / digit).round() * digit, one.parameter.row().3));
+            let [value, half] =
+                [one.value, 0.5 * (one.interval.1 - one.interval.0)].map(|value| one.text(value));
             format!("{} = {value} ± {half}", one.parameter.row().2).replace(' ', "\u{a0}")
         });
         let notes = vec![Label::plain(&format!("95 % intervals: {}", found.collect::<Vec<_>>().join(", ")))];

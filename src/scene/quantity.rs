@@ -164,9 +164,27 @@ pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
+/// A value with its unit, to two digits of an uncertainty: `50.05 mJ/m²` of ± 0.13 mJ/m².
+pub(crate) fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
+    if !(uncertainty > 0.0 && (value / uncertainty).is_finite()) {
+        return format_quantity(value, unit);
+    }
+    // Digits of the value and of the uncertainty, of which the first decimals are these powers of ten.
+    let [first, last] = [value, uncertainty].map(|number| number.abs().log10().floor());
+    let digits = (first - last + 2.0).clamp(0.0, 17.0) as usize;
+    match digits {
+        0 => with_unit(0.0, "0", unit),
+        _ => with_unit(value, &format!("{value:.*e}", digits - 1), unit),
+    }
+}
+
 /// A range with its unit, which both ends share where they have the same prefix: `0.33 to 35 µN`, `26 nN to 35 µN`.
 pub(crate) fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> String {
-    let [low, high] = [low, high].map(|end| format_rounded(end, digits, unit));
+    one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
+}
+
+/// The ends of a range, which are values with units.
+pub(crate) fn one_unit([low, high]: [String; 2]) -> String {
     match (low.split_once(' '), high.split_once(' ')) {
         (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => format!("{number} to {high}"),
         _ => format!("{low} to {high}"),

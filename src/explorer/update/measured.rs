@@ -5,7 +5,7 @@ use crate::experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
 use crate::explorer::app::App;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
-use crate::scene::{format_quantity, format_range};
+use crate::scene::{format_quantity, one_unit};
 use std::sync::Arc;
 
 /// Number of computed curves between two reports of a fit.
@@ -99,9 +99,8 @@ pub fn failure(app: &App) -> Option<&str> {
 /// The parameters found, with their intervals; a scene that does not describe the curve is stated first.
 fn sentence(fit: &Fit) -> String {
     let found = |one: &FittedParameter| {
-        let (_, _, symbol, unit) = one.parameter.row();
-        let interval = format_range(one.interval, 4, unit);
-        format!("{symbol} {} ({interval})", format_quantity(one.value, unit))
+        let interval = one_unit([one.interval.0, one.interval.1].map(|end| one.text(end)));
+        format!("{} {} ({interval})", one.parameter.row().2, one.text(one.value))
     };
     let found = fit.parameters.iter().map(found).collect::<Vec<_>>().join(", ");
     let times = format_quantity(fit.misfit, "1");
