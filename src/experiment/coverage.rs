@@ -2,8 +2,8 @@
 
 use super::MeasuredCurve;
 use super::fit::{Fit, FitOptions, FittedParameter, fit};
+use super::options::{CurveOptions, Drift};
 use super::parameter::{Free, Parameter};
-use super::read::{CurveOptions, Drift};
 use super::scene::radius_of;
 use crate::contact::CurvePoint;
 use crate::scene::{Adhesion, Document, Material, Move, Scene, open};
@@ -30,6 +30,7 @@ fn stiffness(scene: &Scene) -> f64 {
 fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
     let mut fine = scene.clone();
     fine.numerics.samples = 1 << 18;
+    let fine = fine.checked().unwrap();
     let outcome = Simulation::default().run(&fine, &|| false, &mut |_, _, _| Ok(())).unwrap();
     let legs = &outcome.history.legs;
     let base = |point: &CurvePoint| point.indentation + point.force / stiffness(scene);
@@ -123,7 +124,7 @@ fn random(seed: u64, points: u64) -> Made {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     let mut between = |low: f64, high: f64| low * (high / low).powf(generator.random::<f64>());
     let name = if seed.is_multiple_of(2) { "jkr-sphere" } else { "rough-sphere" };
-    let mut scene = open(name).unwrap().scene().clone();
+    let mut scene = Scene::clone(open(name).unwrap().scene());
     scene.numerics.points = points;
     scene.set_seed(seed);
     let (modulus, work) = (2.7e6 * between(0.5, 2.0), 0.05 * between(0.5, 2.0));
@@ -133,7 +134,8 @@ fn random(seed: u64, points: u64) -> Made {
     // Contact radius at pull-off of a sphere.
     let contact = (radius * radius * 9.0 * PI * work / (8.0 * modulus)).cbrt();
     scene.loading_stiffness = Some(2.0 * modulus * contact * between(0.5, 10.0));
-    let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let checked = scene.clone().checked().unwrap();
+    let outcome = Simulation::default().run(&checked, &|| false, &mut |_, _, _| Ok(())).unwrap();
     let force = outcome.figures.adhesion_force.unwrap();
     Made { scene, offset: 1e-6 * between(0.1, 1.0), noise: 0.01 * force, drift: 0.1 * force }
 }

@@ -4,7 +4,7 @@ use super::{FEW_SAMPLES, RunError, Simulation};
 use crate::analysis::{Figures, Governing};
 use crate::contact::{Body, Contact, Foundation, Reversal, Springs};
 use crate::reference::smooth_adhesion_force;
-use crate::scene::{Form, Move, Scene};
+use crate::scene::{CheckedScene, Form, Move, Scene};
 use crate::surface::Line;
 use std::sync::Arc;
 
@@ -17,14 +17,14 @@ pub(super) struct SmoothSprings {
 }
 
 impl Simulation {
-    /// Adhesion force of the body of a checked scene without its roughness, N, after the preload of these figures, or after zero
+    /// Adhesion force of the body of a scene without its roughness, N, after the preload of these figures, or after zero
     /// force where none presses; `None` without adhesion. In closed form where there is one, else on the springs of the scene.
     ///
     /// # Errors
     /// Insufficient memory or an unreadable form.
     pub(crate) fn smooth_adhesion_force(
         &mut self,
-        scene: &Scene,
+        scene: &CheckedScene,
         governing: &Governing,
         figures: &Figures,
     ) -> Result<Option<f64>, RunError> {

@@ -147,8 +147,8 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// Springs under the profile of a checked scene.
-    pub(super) fn springs_of(&mut self, scene: &Scene) -> Result<Arc<Springs>, RunError> {
+    /// Springs under the profile of a scene.
+    pub(super) fn springs_of(&mut self, scene: &CheckedScene) -> Result<Arc<Springs>, RunError> {
         self.make_line(scene)?;
         Ok(Arc::clone(&self.springs))
     }
