@@ -69,9 +69,14 @@ impl SurfaceFile {
         };
         let cropped = match self.cropped {
             [0, 0] => String::new(),
-            [points, _] if rows == 1 => format!(", without {points} missing points at its ends"),
+            [points, _] if rows == 1 => format!(", {points} missing at its ends left out"),
             [columns, rows] => {
-                format!(", without {columns} empty columns and {rows} empty rows at its border")
+                let empty = [(columns, "column"), (rows, "row")].into_iter().filter(|(count, _)| *count > 0);
+                let counted = empty.map(|(count, name)| {
+                    let plural = if count == 1 { "" } else { "s" };
+                    format!("{count} empty {name}{plural}")
+                });
+                format!(", without {} at its border", counted.collect::<Vec<_>>().join(" and "))
             }
         };
         format!("{} ({}): {shape}{cropped}{interpolated}", self.name(), self.format)

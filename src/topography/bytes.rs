@@ -5,6 +5,8 @@ use super::reading::MOST_POINTS;
 use super::{Place, TopographyError, refused, shown};
 use crate::io::read_limited;
 use crate::memory::gathered;
+use encoding_rs::WINDOWS_1252;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Cursor;
 use zip::ZipArchive;
@@ -22,6 +24,12 @@ const LEAST_EXPANDED: usize = 1 << 20;
 /// Returns the largest allowed number of bytes decompressed from a number of compressed bytes.
 pub(super) fn most_expanded(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
+}
+
+/// Returns a text in UTF-8, or else in Windows-1252.
+pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
+    let other = |_| WINDOWS_1252.decode_without_bom_handling(text).0;
+    str::from_utf8(text).map_or_else(other, Cow::Borrowed)
 }
 
 /// Returns the bytes of compressed heights, whose number a header states: they may have been compressed to any size.

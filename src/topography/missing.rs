@@ -85,7 +85,7 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
         return Ok(());
     }
     let mut halved = gathered(half_columns * half_rows, (0..half_columns * half_rows).map(block))?;
-    let gaps: Vec<usize> = (0..halved.len()).filter(|index| !halved[*index].is_finite()).collect();
+    let gaps = gathered(count(&halved), (0..halved.len()).filter(|index| !halved[*index].is_finite()))?;
     fill(&mut halved, half_columns, &gaps)?;
     for &index in places {
         let (row, column) = (index / columns, index % columns);

@@ -2,7 +2,7 @@
 //! variable `heights` over positions `x`, and `y` for a map.
 
 use super::Unit;
-use super::bytes::{Bytes, Number, Order};
+use super::bytes::{Bytes, Number, Order, decoded};
 use super::reading::Reading;
 use super::surface::first_uneven;
 use super::{Place, TopographyError, refused};
@@ -146,7 +146,7 @@ impl<'a> Dataset<'a> {
 impl Variable<'_> {
     fn unit(&self) -> Result<Option<Unit>, TopographyError> {
         let place = Place::Part(format!("variable {}", String::from_utf8_lossy(self.name)));
-        Unit::stated(String::from_utf8_lossy(self.unit).trim_matches([' ', '\0']), place)
+        Unit::stated(decoded(self.unit).trim_matches([' ', '\0']), place)
     }
 }
 

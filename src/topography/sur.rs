@@ -1,11 +1,10 @@
 //! Digital Surf SUR: a header of 512 bytes, comments, and integers, plain or compressed.
 
 use super::Unit;
-use super::bytes::{Bytes, Number, Order, unpacked_size};
+use super::bytes::{Bytes, Number, Order, decoded, unpacked_size};
 use super::reading::Reading;
 use super::{Place, TopographyError, refused};
 use crate::io::read_limited;
-use encoding_rs::WINDOWS_1252;
 use flate2::read::ZlibDecoder;
 
 /// Distance of the mark of missing points below the smallest height.
@@ -77,10 +76,7 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
 /// Windows-1252.
 fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> {
     let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
-    let text = match str::from_utf8(field) {
-        Ok(text) => text.into(),
-        Err(_) => WINDOWS_1252.decode_without_bom_handling(field).0,
-    };
+    let text = decoded(field);
     Unit::stated(if text.trim() == "æm" { "µm" } else { text.trim() }, place)
 }
 
@@ -109,4 +105,53 @@ fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>
         content.extend(part);
     }
     Ok(content)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flate2::Compression;
+    use flate2::write::ZlibEncoder;
+    use std::io::Write;
+
+    /// A map of flat heights in µm, 2 µm apart along the rows and 3 nm between them.
+    fn flat(columns: u32, rows: u32) -> Vec<u8> {
+        let mut header = vec![0; 512];
+        let (columns_at, bits) = (columns.to_le_bytes(), 32_u32.to_le_bytes());
+        for (place, bytes) in [
+            (0, &b"DSCOMPRESSED"[..]),
+            (18, &[2]),
+            (98, &bits[..2]),
+            (108, &columns_at),
+            (112, &rows.to_le_bytes()),
+            (120, &2_f32.to_le_bytes()),
+            (124, &3_f32.to_le_bytes()),
+            (128, &1_f32.to_le_bytes()),
+            (180, b"um"),
+            (196, b"nm"),
+            (212, b"um"),
+        ] {
+            header[place..place + bytes.len()].copy_from_slice(bytes);
+        }
+        let heights = vec![0; 4 * (columns * rows) as usize];
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+        encoder.write_all(&heights).unwrap();
+        let packed = encoder.finish().unwrap();
+        let table = [1, heights.len() as u32, packed.len() as u32].map(u32::to_le_bytes).concat();
+        [header, table, packed].concat()
+    }
+
+    #[test]
+    fn heights_may_be_compressed_to_any_size_that_the_header_states() {
+        let bytes = flat(1000, 600);
+        assert!(bytes.len() < 4000, "{}", bytes.len());
+        let reading = read(&bytes).unwrap();
+        assert_eq!((reading.heights.len(), reading.columns), (600_000, 1000));
+        let between = reading.unit_between.map(|unit| unit.to_metres(3.0));
+        assert_eq!((reading.spacing, between), (Some([2.0, 3.0]), Some(3e-9)));
+        let mut more = bytes;
+        more[112..116].copy_from_slice(&601_u32.to_le_bytes());
+        let error = read(&more).unwrap_err().to_string();
+        assert!(error.contains("2400000 bytes up to the end; allowed: at least 2404000 bytes"), "{error}");
+    }
 }
