@@ -41,10 +41,13 @@ fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
     assert_eq!(whole.regime, Some(Regime::PressureSensitive));
     // An unloading that ends in contact has a pull-off only if it passes it, in any number of stages.
     let least = whole.figures.pull_off_indentation.unwrap();
-    let held = |at: f64| after(&format!("[ToForce(1e-5), ToTouch, ToIndentation({at:e})]")).figures;
-    assert_eq!(held(0.5 * least).adhesion_force, None);
-    assert_eq!(held(1.01 * least).adhesion_force, whole.figures.adhesion_force);
-    assert_eq!(held(1.01 * least).preload, Some(whole.figures.preload.unwrap()));
+    let held = |share: f64| {
+        let stages = [1.05, 1.01, share].map(|share| format!("ToIndentation({:e})", share * least));
+        after(&format!("[ToForce(1e-5), {}]", stages.join(", "))).figures
+    };
+    assert_eq!(held(1.001).adhesion_force, None);
+    assert_eq!(held(0.999).adhesion_force, whole.figures.adhesion_force);
+    assert_eq!(held(0.999).preload, whole.figures.preload);
 }
 
 /// Figures of a history but its energy, all bits.
