@@ -44,7 +44,12 @@ pub(crate) fn round_to(value: f64, digits: usize) -> f64 {
 pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let invisible = matches!(c, '\u{200b}' | '\u{2028}' | '\u{2029}' | '\u{2060}'..='\u{2064}' | '\u{feff}');
+    let invisible = matches!(
+        c,
+        '\u{ad}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180e}' | '\u{200b}' | '\u{2028}' | '\u{2029}'
+            | '\u{2060}'..='\u{206f}' | '\u{3164}' | '\u{feff}' | '\u{ffa0}' | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e0fff}'
+    );
     c.is_control() || bidirectional || invisible
 }
 
@@ -188,6 +193,7 @@ mod tests {
             ("abc\u{202e}nor.exe", "abc\\u{202e}nor.exe"),
             ("\u{2066}\u{200e}\u{200f}\u{61c}\u{2028}", "\\u{2066}\\u{200e}\\u{200f}\\u{61c}\\u{2028}"),
             ("two\nlines\r", "two\\nlines\\r"),
+            ("\u{ad}\u{180e}\u{3164}\u{fff9}\u{e0020}", "\\u{ad}\\u{180e}\\u{3164}\\u{fff9}\\u{e0020}"),
             ("a\u{200b}b\u{feff}\u{2060}", "a\\u{200b}b\\u{feff}\\u{2060}"),
         ] {
             assert_eq!(printable(text), expected);

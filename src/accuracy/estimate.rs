@@ -51,6 +51,11 @@ impl Estimate {
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
+    /// Error of the force curve, as a share of the largest force; `None` for an estimate of the adhesion force.
+    pub fn of_curve(&self) -> Option<f64> {
+        Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
+    }
+
     /// The error in words that name its kind, to follow the adhesion force: in per cent, with one digit, or two after
     /// a leading one, according to the accuracy of an estimate.
     pub fn words(&self) -> String {

@@ -10,7 +10,7 @@ use crate::explorer::keys::bindings;
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options, view};
 use crate::export::brief_summary;
-use crate::scene::quoted;
+use crate::scene::{did_you_mean, quoted};
 use crate::simulation::Simulation;
 use crate::text::path_name;
 use clap::Args;
@@ -164,7 +164,8 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
             // A single word that is no scene may be a misspelt command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
             if is_word && !std::path::Path::new(name).exists() {
-                CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help)"))
+                let near = did_you_mean(name, commands.split(", "));
+                CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help){near}"))
             } else {
                 errors.into()
             }

@@ -30,7 +30,8 @@ pub use arguments::{Arguments, Command};
 
 use error::CliError;
 
-use crate::text::printable_lines;
+use crate::scene::did_you_mean;
+use crate::text::{printable, printable_lines};
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Parser};
 use std::borrow::Cow;
@@ -46,17 +47,33 @@ const WRONG_USAGE: u8 = 2;
 /// Runs the program with these arguments, starting with the program name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let typed: Vec<OsString> = arguments.into_iter().collect();
+    if let Some(word) = typed.iter().skip(1).find(|word| word.to_str().is_none()) {
+        // Scenes, tables and messages name files as text.
+        let word = printable(&word.to_string_lossy()).into_owned();
+        let _ = writeln!(
+            io::stderr(),
+            "{word}: this argument is not UTF-8 text; allowed: names of files in UTF-8"
+        );
+        return ExitCode::from(WRONG_USAGE);
+    }
     let arguments = match Arguments::try_parse_from(&typed) {
         Ok(arguments) => arguments,
         Err(error) => {
             let error = explained(error, &typed);
-            // Also for help and version. A failure to print them is ignored. An error that repeats control characters
-            // of an argument is printed without colours.
-            let _ = match printable_lines(&error.render().to_string()) {
+            // Also for help and version. An error that repeats control characters of an argument is printed without
+            // colours.
+            let printed = match printable_lines(&error.render().to_string()) {
                 Cow::Owned(shown) if error.use_stderr() => io::stderr().write_all(shown.as_bytes()),
                 _ => error.print(),
             };
-            return if error.use_stderr() { ExitCode::from(WRONG_USAGE) } else { ExitCode::SUCCESS };
+            return match printed.map_err(CliError::from) {
+                _ if error.use_stderr() => ExitCode::from(WRONG_USAGE),
+                Err(failed) if !failed.is_closed_pipe => {
+                    let _ = writeln!(io::stderr(), "{failed}");
+                    ExitCode::from(failed.exit_code)
+                }
+                _ => ExitCode::SUCCESS,
+            };
         }
     };
     let mut stdout = BufWriter::with_capacity(BUFFER, io::stdout().lock());
@@ -95,7 +112,8 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
                 error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::UnknownArgument);
             let unknown =
                 unknown.map_or(String::new(), |unknown| format!("unexpected argument '{unknown}': "));
-            format!("{unknown}'{first}' is not a command; the commands are {}", names.join(", "))
+            let near = did_you_mean(first, names.iter().map(String::as_str));
+            format!("{unknown}'{first}' is not a command{near}; the commands are {}", names.join(", "))
         }
         _ => return error,
     };

@@ -6,9 +6,9 @@ use crate::export::sheet::Sheet;
 use crate::io::object;
 use crate::scene::{self, Document, Entry};
 use crate::simulation::Simulation;
-use crate::text::printable;
+use crate::text::{printable, printable_lines};
 use clap::Subcommand;
-use std::io::Write;
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 const CHECK_EXAMPLES: &str = "\
@@ -49,9 +49,15 @@ pub enum PresetsCommand {
 pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Result<(), CliError> {
     match command {
         PresetsCommand::List { format } => list(*format, stdout),
-        PresetsCommand::Show { name } => Ok(stdout.write_all(scene::open(name)?.text().as_bytes())?),
+        PresetsCommand::Show { name } => show(scene::open(name)?.text(), stdout),
         PresetsCommand::Check { files } => check(files, stdout),
     }
+}
+
+/// Prints a scene as it is, but on a terminal with escaped control characters: its comments may be of others.
+fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let shown = if io::stdout().is_terminal() { printable_lines(text) } else { text.into() };
+    Ok(stdout.write_all(shown.as_bytes())?)
 }
 
 fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {

@@ -3,6 +3,7 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, WITHOUT_PICTURE};
 use super::preloads::{check_reach, parse_preloads};
+use super::progress::ProgressLine;
 use super::scene::{MOST_LINES, SceneArguments, compute, simulation_of, threads};
 use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{Leg, LegRecord};
@@ -13,7 +14,7 @@ use crate::export::{
 };
 use crate::scene::{CheckedScene, Document, Scene, open_argument};
 use crate::study::{Axis, Quantity, Results, Staircase};
-use crate::text::wrap;
+use crate::text::{grouped, wrap};
 use clap::Args;
 use std::io::{self, Write};
 
@@ -139,8 +140,11 @@ impl RunArguments {
         format: Format,
     ) -> Result<(CheckedScene, Option<Choice>), CliError> {
         let Some(tolerance) = self.tolerance else { return Ok((document.scene().clone(), None)) };
-        let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut |_| ())
-            .map_err(|error| CliError::named(document.name(), error))?;
+        let mut progress = ProgressLine::default();
+        let mut trying = |points| progress.show(&format!("trying {} springs", grouped(points)), None);
+        let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut trying);
+        progress.clear();
+        let choice = choice.map_err(|error| CliError::named(document.name(), error))?;
         if format != Format::Text {
             let _ = writeln!(io::stderr(), "{}", wrap(&choice.sentence(), WIDTH).join("\n"));
         }

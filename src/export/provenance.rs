@@ -42,7 +42,7 @@ fn head(command: &str, files: &[&str], folder: &Path, destination: &Path) -> Res
         let sha256 = hash_of(&folder.join(file))?;
         text += &format!("{HASH}{sha256} {:?}\n", named_from(file, folder, destination));
     }
-    Ok(text + &format!("command: {}\n", command.replace(['\n', '\r'], " ")))
+    Ok(text + &format!("command: {}\n", printable(&command.replace(['\n', '\r'], " "))))
 }
 
 /// Checks that the measured files of a scene are those behind the table of results that it was read from.

@@ -63,6 +63,7 @@ impl Report for RunReport<'_> {
             "preload_indentation": figures.preload_indentation,
             "adhesion_force": figures.adhesion_force,
             "adhesion_force_error": estimate.and_then(|estimate| estimate.of_adhesion_force(outcome)),
+            "curve_error"?: estimate.and_then(Estimate::of_curve),
             "adhesion_force_near_step": estimate.map(|estimate| estimate.near_step),
             "adhesion_coefficient": figures.adhesion_coefficient,
             "pull_off_indentation": figures.pull_off_indentation,

@@ -4,7 +4,7 @@ use crate::text::path_name;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 use thiserror::Error;
 
 /// Bytes gathered before a write to a file.
@@ -55,7 +55,8 @@ pub fn write_new(
 /// Writes a regular file through a temporary one in the same folder: a reader sees the old file or the whole new one,
 /// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
 ///
-/// A killed process may leave a file `.asperity-….tmp`.
+/// On Linux no end of the process leaves anything behind. Elsewhere, and on file systems without files that have no
+/// name, a killed process may leave a file `.asperity-….tmp`.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
@@ -66,12 +67,13 @@ pub fn write_new_file(
     let place = target(path, overwrite)?.ok_or_else(|| WriteError::unsuitable(path, not_regular));
     let (place, permissions) = place?;
     let mut file = temporary(&place)?;
-    fill(file.as_file_mut(), write).map_err(&failed)?;
+    fill(&mut file.file, write).map_err(&failed)?;
     if let Some(permissions) = permissions {
-        file.as_file().set_permissions(permissions).map_err(&failed)?;
+        file.file.set_permissions(permissions).map_err(&failed)?;
     }
-    file.as_file().sync_all().map_err(&failed)?;
-    let named = if overwrite { file.persist(&place) } else { file.persist_noclobber(&place) };
+    file.file.sync_all().map_err(&failed)?;
+    let name = file.named(&place).map_err(&failed)?;
+    let named = if overwrite { name.persist(&place) } else { name.persist_noclobber(&place) };
     named.map_err(|error| match error.error.kind() {
         io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
         _ => failed(error.error),
@@ -80,20 +82,79 @@ pub fn write_new_file(
     sync_folder(folder_of(&place)).map_err(failed)
 }
 
-/// Makes a temporary file in the folder of another one, removed unless it is given a name.
-fn temporary(path: &Path) -> Result<NamedTempFile, WriteError> {
+/// A file that is being written, removed unless it is given a name.
+struct Temporary {
+    file: File,
+    /// Its present name; on Linux there is none, so that the system removes the file at any end of the process.
+    name: Option<TempPath>,
+}
+
+impl Temporary {
+    /// The file under a temporary name in the folder of another file.
+    fn named(self, path: &Path) -> io::Result<TempPath> {
+        match self.name {
+            Some(name) => Ok(name),
+            None => Ok(names().make_in(folder_of(path), |name| link(&self.file, name))?.into_temp_path()),
+        }
+    }
+}
+
+/// Makes a temporary file in the folder of another one.
+fn temporary(path: &Path) -> Result<Temporary, WriteError> {
     let folder = folder_of(path);
-    let mut file = tempfile::Builder::new();
-    file.prefix(".asperity-").suffix(".tmp");
+    if let Some(file) = unnamed(folder) {
+        return Ok(Temporary { file, name: None });
+    }
+    let mut file = names();
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
         file.permissions(Permissions::from_mode(0o666));
     }
-    file.tempfile_in(folder).map_err(|reason| match folder.is_dir() {
+    let file = file.tempfile_in(folder).map_err(|reason| match folder.is_dir() {
         true => WriteError::Failed { path: path.into(), reason },
         false => WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder))),
-    })
+    })?;
+    let (file, name) = file.into_parts();
+    Ok(Temporary { file, name: Some(name) })
+}
+
+fn names() -> tempfile::Builder<'static, 'static> {
+    let mut names = tempfile::Builder::new();
+    names.prefix(".asperity-").suffix(".tmp");
+    names
+}
+
+/// A file without a name in a folder, where the system and the file system have such files.
+#[cfg(target_os = "linux")]
+fn unnamed(folder: &Path) -> Option<File> {
+    use rustix::fs::{CWD, Mode, OFlags, openat};
+    let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
+    let file = openat(CWD, folder, flags, Mode::from_raw_mode(0o666)).ok()?;
+    Path::new(DESCRIPTORS).is_dir().then(|| file.into())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn unnamed(_: &Path) -> Option<File> {
+    None
+}
+
+/// Folder of the open files of this process.
+#[cfg(target_os = "linux")]
+const DESCRIPTORS: &str = "/proc/self/fd";
+
+/// Gives a name to a file without one.
+#[cfg(target_os = "linux")]
+fn link(file: &File, name: &Path) -> io::Result<()> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd;
+    let open = Path::new(DESCRIPTORS).join(file.as_raw_fd().to_string());
+    Ok(linkat(CWD, open, CWD, name, AtFlags::SYMLINK_FOLLOW)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn link(_: &File, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
 }
 
 /// Waits until the names in a folder have reached the disk.
@@ -142,6 +203,11 @@ fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permis
         }
         // A dangling link exists all the same.
         Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => Err(WriteError::Exists(path.into())),
+        // To its target, as through any other link. A circle of links is another error.
+        Err(reason) if reason.kind() == io::ErrorKind::NotFound && path.is_symlink() => {
+            let link = fs::read_link(path).map_err(WriteError::failed(path))?;
+            target(&folder_of(path).join(link), overwrite)
+        }
         Err(reason) if reason.kind() == io::ErrorKind::NotFound => Ok(Some((path.into(), None))),
         Err(reason) => Err(WriteError::failed(path)(reason)),
     }
@@ -151,7 +217,7 @@ fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permis
 mod tests {
     use super::*;
 
-    fn names(folder: &Path) -> Vec<String> {
+    fn names_in(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     }
@@ -168,22 +234,25 @@ mod tests {
         check_writable(&path, true).unwrap();
         write_new(&path, true, |out| out.write_all(b"two")).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
-        assert_eq!(names(folder.path()), ["curve.csv"]);
+        assert_eq!(names_in(folder.path()), ["curve.csv"]);
     }
 
     #[test]
     fn a_failure_leaves_nothing_behind() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("curve.csv");
+        let in_folder = || names_in(folder.path());
         let broken = |out: &mut (dyn Write + Send)| {
             out.write_all(&[b'x'; 2 * BUFFER])?;
+            // Nothing would stay if the process ended here.
+            assert!(!cfg!(target_os = "linux") || !in_folder().iter().any(|name| name.ends_with(".tmp")));
             Err(io::Error::other("no more"))
         };
         assert!(write_new(&path, false, broken).unwrap_err().to_string().contains("no more"));
-        assert_eq!(names(folder.path()), Vec::<String>::new());
+        assert_eq!(names_in(folder.path()), Vec::<String>::new());
         write_new(&path, false, |out| out.write_all(b"one")).unwrap();
         assert!(write_new(&path, true, broken).is_err());
-        assert_eq!(names(folder.path()), ["curve.csv"]);
+        assert_eq!(names_in(folder.path()), ["curve.csv"]);
         assert_eq!(fs::read(&path).unwrap(), b"one");
     }
 
@@ -197,7 +266,7 @@ mod tests {
         });
         assert!(matches!(late, Err(WriteError::Exists(_))), "{late:?}");
         assert_eq!(fs::read(&path).unwrap(), b"theirs");
-        assert_eq!(names(folder.path()), ["curve.csv"]);
+        assert_eq!(names_in(folder.path()), ["curve.csv"]);
     }
 
     #[test]
@@ -214,7 +283,7 @@ mod tests {
             let message = check_writable(&path, true).unwrap_err().to_string();
             assert!(message.contains(expected), "{message}");
         }
-        assert_eq!(names(folder.path()), Vec::<String>::new());
+        assert_eq!(names_in(folder.path()), Vec::<String>::new());
     }
 
     #[cfg(unix)]
@@ -231,6 +300,9 @@ mod tests {
         write_new(&link, true, |out| out.write_all(b"two")).unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"two");
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        write_new(&lost, true, |out| out.write_all(b"found")).unwrap();
+        assert_eq!(fs::read(folder.path().join("nothing")).unwrap(), b"found");
+        assert!(fs::symlink_metadata(&lost).unwrap().is_symlink());
     }
 
     #[cfg(unix)]
@@ -246,7 +318,7 @@ mod tests {
                 assert!(matches!(refused, Err(WriteError::Unsuitable { .. })), "{refused:?}");
             }
         }
-        assert_eq!(names(folder.path()), ["pipe"]);
+        assert_eq!(names_in(folder.path()), ["pipe"]);
         let path = folder.path().join("curve.csv");
         write_new_file(&path, false, |out| out.write_all(b"one")).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"one");

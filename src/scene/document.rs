@@ -245,7 +245,10 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), SceneE
     let known = field_at(text, path).or_else(band);
     let wrong = |known: &Field, why: &str| SceneError::of(path, value, known.allowed(), why).at(origin());
     let typed = match known {
-        Some(known) => known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?,
+        Some(known) => {
+            let typed = known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?;
+            group_in_ron(path, &typed).unwrap_or(typed)
+        }
         None => value.to_string(),
     };
     let text = set(text, path, &typed).map_err(|message| match known {
@@ -255,6 +258,32 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), SceneE
     check_length(text.as_str()).map_err(refused)?;
     let scene = read(text.as_str(), |_| origin())?;
     Ok((text, scene))
+}
+
+/// A group of values with prefixes and units inside, `Cone(angle: 70°)`, in RON; `None` for any other text.
+fn group_in_ron(path: &str, typed: &str) -> Option<String> {
+    let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
+    let mut depth = 0_usize;
+    let between = |c: char| {
+        depth = match c {
+            '(' | '[' => depth + 1,
+            ')' | ']' => depth.saturating_sub(1),
+            _ => depth,
+        };
+        c == ',' && depth == 0
+    };
+    let value = |part: &str| {
+        let (field, value) = part.split_once(':')?;
+        let (field, value) = (field.trim(), value.trim());
+        let path = if path.is_empty() { field.to_owned() } else { format!("{path}.{field}") };
+        let known = FIELDS.iter().find(|field| field.path == path)?;
+        let value = known.read_typed(value).ok()?;
+        Some(format!("{field}: {}", group_in_ron(&path, &value).unwrap_or(value)))
+    };
+    // A text may contain any sign.
+    let parts = Some(inside).filter(|inside| !inside.contains(['"', '/']))?.split(between);
+    let parts = parts.filter(|part| !part.trim().is_empty()).map(value).collect::<Option<Vec<_>>>()?;
+    Some(format!("{name}({})", parts.join(", ")))
 }
 
 /// An override: a path and a value in RON.
@@ -298,6 +327,36 @@ mod tests {
 
     fn pairs(overrides: &[(&str, &str)]) -> Vec<(String, String)> {
         overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect()
+    }
+
+    #[test]
+    fn groups_take_prefixes_and_units_inside() {
+        let document = document();
+        for (path, group, expected) in [
+            ("form", "Cone(angle: 45°)", ("form.angle", "0.7853981633974483")),
+            (
+                "form",
+                "WavySphere(radius: 1 mm, amplitude: 20nm, wavelength: 10 µm)",
+                ("form.amplitude", "2e-8"),
+            ),
+            (
+                "roughness",
+                "SelfAffine(hurst: 0.7, rms_height: 2nm, modes: (1, 512), seed: 1)",
+                ("roughness.rms_height", "2e-9"),
+            ),
+            ("adhesion", "(work: 45 mJ/m2)", ("adhesion.work", "0.045")),
+            (
+                "material",
+                "(youngs_modulus: 2 MPa, poisson_ratio: 0.5)",
+                ("material.youngs_modulus", "2000000.0"),
+            ),
+        ] {
+            let set = document.set(path, group).unwrap();
+            let same = document.set(path, group).and_then(|document| document.set(expected.0, expected.1));
+            assert_eq!(set.scene(), same.unwrap().scene(), "{group}");
+        }
+        let refused = document.set("form", "Cone(angle: 3 m)").unwrap_err().to_string();
+        assert!(refused.contains("form"), "{refused}");
     }
 
     #[test]

@@ -32,6 +32,11 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     }
     let names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
     let own_names = own.as_deref().map_or_else(Vec::new, own_names);
+    if let Some(own) = own.as_ref().filter(|_| own_names.iter().any(|name| name == name_or_path)) {
+        // No regular file: the reason says so.
+        let path = own.join(format!("{name_or_path}.ron"));
+        return document_of(text_of_file(&path), &path.display().to_string());
+    }
     let near = did_you_mean(name_or_path, names.iter().copied().chain(own_names.iter().map(String::as_str)));
     let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
     let nowhere = match own {

@@ -11,9 +11,9 @@ use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use crate::analysis::Regime;
 use crate::parallel::on_threads;
-use crate::scene::CheckedScene;
+use crate::scene::{CheckedScene, Document};
 use crate::simulation::{RunError, Simulation};
-use crate::surface::{EquivalentLine, MeasuredRoughness};
+use crate::surface::{EquivalentLine, MeasuredRoughness, read_faces};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -37,11 +37,8 @@ pub struct ProfileAdhesion {
 }
 
 impl ProfileAdhesion {
-    /// Solves a checked scene of a measured surface on one random profile of its equivalent line.
-    ///
-    /// # Errors
-    /// When a profile or its contact fails, or `stop` returns true.
-    pub fn solve(
+    /// Solves a scene of a measured surface on one random profile of its equivalent line.
+    pub(crate) fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
         seed: u64,
@@ -78,12 +75,26 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Solves a checked scene on `count` profiles: its seed and the seeds that follow. `jobs` threads share the
-    /// profiles; no bit of a result depends on their number.
+    /// Solves the scene of a document on `count` profiles of its measured surface: its seed and the seeds that follow. The
+    /// files are read with the scene's own options, from the folder of the scene file. `jobs` threads share the profiles; no
+    /// bit of a result depends on their number.
     ///
     /// # Errors
-    /// The first profile that fails.
-    pub fn solve(
+    /// A scene without the equivalent line of a measured surface, a file that cannot be read, or the first profile that
+    /// fails.
+    pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
+        let scene = document.scene();
+        if scene.measured().is_none() || scene.measured_as_line() {
+            let reason = "the scene has no equivalent line; allowed: roughness: Measured with as_line: false";
+            return Err(StudyError::Records(reason.into()));
+        }
+        let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
+        let line = EquivalentLine::new(&faces, &scene.measured_options())?;
+        MeasuredAdhesion::solve(scene, &line, count, jobs)
+    }
+
+    /// The same for a line that has been made with the options of the scene.
+    pub(crate) fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
         count: u32,
@@ -138,7 +149,7 @@ fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Document, Scene};
+    use crate::scene::Scene;
 
     fn scene_and_line(adhesion: &str) -> (CheckedScene, EquivalentLine) {
         let text = format!(
@@ -181,6 +192,28 @@ mod tests {
         let deviation = found.fit_deviation().unwrap();
         assert!((deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0, "{deviation}");
         assert_eq!(found.regimes().map(|of| of.present().map(|(_, count)| count).sum::<usize>()), [6; 2]);
+    }
+
+    /// With `periodic: true` as without it, the files are read as the scene says.
+    #[test]
+    fn the_options_are_those_of_the_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let rows: String =
+            (0..128).map(|i| format!("{i} {}\n", 30.0 * (f64::from(i * i) * 0.37).sin())).collect();
+        std::fs::write(folder.path().join("line.txt"), format!("x [um] z [nm]\n{rows}")).unwrap();
+        for periodic in [true, false] {
+            let text = format!(
+                "(version: 2, material: (effective_modulus: 1.0e6), length: 1.28e-4, adhesion: (work: 0.05), roughness: \
+                 Measured(file: \"line.txt\", periodic: {periodic}), numerics: (points: 512), loading: [ToTouch, \
+                 ToSeparation])"
+            );
+            let document =
+                Document::parse(&text, &folder.path().join("scene.ron").display().to_string()).unwrap();
+            let found = MeasuredAdhesion::of(&document, 1, 1).unwrap();
+            let outcome = crate::run(&document).unwrap();
+            assert_eq!(found.profiles[0].adhesion_force, outcome.figures.adhesion_force, "{periodic}");
+        }
+        assert!(MeasuredAdhesion::of(&crate::scene::open("jkr-sphere").unwrap(), 1, 1).is_err());
     }
 
     #[test]

@@ -6,13 +6,19 @@ use super::place::strip;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
 use crate::analysis::Governing;
+use crate::contact::ContactError;
 use crate::scene::{CheckedScene, Move, Roughness, Solver};
 use crate::simulation::{Outcome, RunError, Simulation};
 use crate::spectrum::slope;
+use crate::surface::SurfaceError;
+use crate::text::printable;
 
 /// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case
 /// does not have.
 pub(super) type Records = Vec<Vec<f64>>;
+
+/// Values of a record, or the reason, on one line, why they cannot be computed.
+pub(super) type Recorded = Result<Vec<f64>, String>;
 
 /// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
 pub(super) struct Recorder<'p> {
@@ -27,6 +33,26 @@ impl<'p> Recorder<'p> {
     /// A recorder that stops within a case as soon as `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
         Recorder { plan, simulation, profile: None, stop }
+    }
+
+    /// Solves a run. A cell that cannot be computed has the reason in place of its values.
+    ///
+    /// # Errors
+    /// Too little memory, or a stop: neither is a property of a cell.
+    pub fn record_each(&mut self, run: &Run) -> Result<Vec<Recorded>, RunError> {
+        match self.record(run) {
+            Ok(records) => Ok(records.into_iter().map(Ok).collect()),
+            Err(error) if is_of_machine(&error) => Err(error),
+            Err(error) if run.cells.end - run.cells.start == 1 => {
+                let reason = error.to_string();
+                Ok(vec![Err(printable(reason.lines().next().unwrap_or_default()).into_owned())])
+            }
+            // Of several preloads some may be within reach.
+            Err(_) => {
+                let one = |cell| self.record_each(&Run { cells: cell..cell + 1, line: run.line });
+                Ok(run.cells.clone().map(one).collect::<Result<Vec<_>, _>>()?.concat())
+            }
+        }
     }
 
     /// Solves a run.
@@ -45,8 +71,10 @@ impl<'p> Recorder<'p> {
                     // Preloads in units of E* h L, or in N.
                     let unit = || governing.force_unit(scene.length).unwrap_or(f64::NAN);
                     let unit = if preloads.unit == "N" { 1.0 } else { unit() };
-                    let press = |preload| vec![Move::ToForce(preload * unit), Move::ToSeparation];
-                    loops.extend(preloads.values.iter().map(press));
+                    let press = |preload: &f64| vec![Move::ToForce(preload * unit), Move::ToSeparation];
+                    let first = run.cells.start as usize % preloads.values.len();
+                    let count = (run.cells.end - run.cells.start) as usize;
+                    loops.extend(preloads.values[first..first + count].iter().map(press));
                 }
                 None => loops.push(scene.loading.clone()),
             }
@@ -64,7 +92,7 @@ impl<'p> Recorder<'p> {
         let zero_force = each.get(count).filter(|_| needs_zero_force);
         let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
         each.truncate(count);
-        each.resize(plan.preloads().map_or(1, |axis| axis.values.len()), LoadingOutcome::default());
+        each.resize((run.cells.end - run.cells.start) as usize, LoadingOutcome::default());
         let values = |loading: LoadingOutcome| {
             let smooth = match touch_regime || regime {
                 true => self.simulation.smooth_adhesion_force(&scene, &governing, &loading.figures)?,
@@ -165,4 +193,15 @@ impl<'p> Recorder<'p> {
         let forces: Vec<_> = points.iter().map(|at| (at.indentation.ln(), at.force.ln())).collect();
         Ok(slope(&lengths).zip(slope(&forces)))
     }
+}
+
+/// Returns true for an error of the machine or of the user rather than of a cell.
+fn is_of_machine(error: &RunError) -> bool {
+    let is_short = matches!(
+        error,
+        RunError::OutOfMemory { .. }
+            | RunError::Surface(SurfaceError::OutOfMemory(_))
+            | RunError::Contact(ContactError::OutOfMemory(_))
+    );
+    is_short || error.is_interruption()
 }

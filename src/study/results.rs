@@ -6,7 +6,7 @@ use super::cells::Run;
 use super::grid::{Cell, Grid, Layer};
 use super::plan::{ONE_PROFILE, Plan};
 use super::quantity::{Quantity, regime_of};
-use super::recorder::{Recorder, Records};
+use super::recorder::{Recorded, Recorder, Records};
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
 use crate::analysis::Regime;
@@ -15,7 +15,7 @@ use crate::parallel::on_threads;
 use crate::scene::{Scene, Solver};
 use crate::simulation::{RunError, Simulation};
 use crate::text::path_name;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 const MOST_NAMED: usize = 8;
@@ -27,6 +27,8 @@ pub struct Results {
     /// Values of each record, by cell, then by profile; NaN where there are none.
     values: Vec<f64>,
     done: Vec<bool>,
+    /// Reasons of the records that cannot be computed, by the same places.
+    failed: BTreeMap<u64, String>,
 }
 
 /// Contents of the shard files of a study.
@@ -34,6 +36,10 @@ pub struct Results {
 pub struct Merged {
     /// Existing records, each counted once.
     pub records: u64,
+    /// Records without values, since they cannot be computed.
+    pub failed: u64,
+    /// The first of these: cell, seed and reason.
+    pub first_failed: Vec<(u64, u64, String)>,
     /// All records of the study.
     pub total: u64,
     /// Records that occurred more than once, bit for bit the same.
@@ -53,7 +59,7 @@ pub struct Merged {
 impl PartialEq for Results {
     /// Equal plans and values bit by bit, so that missing values are equal.
     fn eq(&self, other: &Self) -> bool {
-        self.plan == other.plan && same(&self.values, &other.values)
+        self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
     }
 }
 
@@ -69,6 +75,13 @@ fn same(one: &[f64], other: &[f64]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(equal)
 }
 
+fn same_record(one: &Recorded, other: &Recorded) -> bool {
+    match (one, other) {
+        (Ok(one), Ok(other)) => same(one, other),
+        _ => one.is_err() && one == other,
+    }
+}
+
 impl Results {
     /// A study without records.
     ///
@@ -81,7 +94,7 @@ impl Results {
             .try_reserve_exact(count)
             .map_err(|_| StudyError::Records(format!("there is not enough memory for {records} records")))?;
         values.resize(count, f64::NAN);
-        Ok(Results { plan, values, done: vec![false; records as usize] })
+        Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
     /// A study in memory of a checked scene on random profiles, at each of these preloads, N, if there are any; without
@@ -176,14 +189,14 @@ impl Results {
         for file in &files {
             let mut has_records = false;
             for record in folder.records(file)? {
-                let Some((place, values)) = record? else {
+                let Some((place, record)) = record? else {
                     damaged += 1;
                     continue;
                 };
                 has_records = true;
-                match results.at(place) {
-                    None => results.set(place, &values),
-                    Some(known) if same(known, &values) => duplicates += 1,
+                match results.recorded(place) {
+                    None => results.set_record(place, record),
+                    Some(known) if same_record(&known, &record) => duplicates += 1,
                     Some(_) => return Err(results.conflict(folder, &files, place, file)),
                 }
             }
@@ -193,9 +206,12 @@ impl Results {
             }
         }
         let plan = &results.plan;
+        let failure = |(cell, line, reason): (u64, u64, &str)| (cell, plan.seed_of(line), reason.to_owned());
         let missing: Vec<u64> = (0..plan.cells()).filter(|cell| !results.is_whole(*cell)).collect();
         let merged = Merged {
             records: results.count(),
+            failed: results.failed.len() as u64,
+            first_failed: results.failed().take(MOST_NAMED).map(failure).collect(),
             total: plan.records_in_all(),
             duplicates,
             damaged,
@@ -232,6 +248,43 @@ impl Results {
         self.done[place as usize] = true;
     }
 
+    /// Sets the record at a place, of which a reason is kept in place of the values.
+    pub(super) fn set_record(&mut self, place: u64, record: Recorded) {
+        match record {
+            Ok(values) => self.set(place, &values),
+            Err(reason) => {
+                self.done[place as usize] = true;
+                self.failed.insert(place, reason);
+            }
+        }
+    }
+
+    /// The record at a place, if there is one.
+    fn recorded(&self, place: u64) -> Option<Recorded> {
+        match self.failed.get(&place) {
+            Some(reason) => Some(Err(reason.clone())),
+            None => self.at(place).map(|values| Ok(values.to_vec())),
+        }
+    }
+
+    /// The records that cannot be computed: cell, number of the profile and reason.
+    pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
+        let lines = self.plan.lines;
+        self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
+    }
+
+    /// Reason why a record has no values.
+    pub(super) fn reason(&self, cell: u64, line: u64) -> Option<&str> {
+        self.failed.get(&(cell * self.plan.lines + line)).map(String::as_str)
+    }
+
+    /// Reason why nothing of a cell is known, if it cannot be computed on any profile.
+    pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
+        let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
+        let reasons = || self.failed.range(places.clone()).map(|(_, reason)| reason.as_str());
+        (reasons().count() as u64 == self.plan.lines).then(|| reasons().next()).flatten()
+    }
+
     /// The plan of the study.
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -246,7 +299,7 @@ impl Results {
     fn at(&self, place: u64) -> Option<&[f64]> {
         let columns = self.plan.record.len();
         let values = self.values.get(place as usize * columns..)?.get(..columns)?;
-        self.done[place as usize].then_some(values)
+        (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
     /// A recorded quantity of a cell on a profile, if it has a value.
@@ -319,7 +372,9 @@ impl Results {
             }
             for column in axes[across].order() {
                 places[across] = column;
-                cells.push(self.cell(self.plan.cell_at(&places), &quantities).map(Ok));
+                let cell = self.plan.cell_at(&places);
+                let reason = || self.failure_of(cell).map(|reason| Err(reason.to_owned()));
+                cells.push(self.cell(cell, &quantities).map(Ok).or_else(reason));
             }
         }
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up);

@@ -12,7 +12,7 @@ use crate::simulation::Simulation;
 use std::fs::File;
 use std::io::{self, Write};
 use std::panic::resume_unwind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
@@ -73,7 +73,7 @@ impl Progress {
 /// then and at the end.
 ///
 /// # Errors
-/// A record that cannot be computed or written. Earlier records are kept.
+/// Too little memory for a record, or a record that cannot be written. Earlier records are kept.
 pub fn run(
     folder: &Folder,
     options: Options,
@@ -113,14 +113,14 @@ pub fn run(
                     break;
                 }
                 let (cell, seed) = (run.cells.start, plan.seed_of(run.line));
-                let records = recorder.record(&run).map_err(|error| {
+                let records = recorder.record_each(&run).map_err(|error| {
                     ended.store(true, Ordering::SeqCst);
                     let place = format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
                     StudyError::Run { place, error }
                 })?;
                 let mut text = String::new();
-                for (cell, values) in run.cells.zip(&records).filter(|(cell, _)| is_missing(*cell)) {
-                    encode(cell, seed, values, &mut text);
+                for (cell, record) in run.cells.zip(&records).filter(|(cell, _)| is_missing(*cell)) {
+                    encode(cell, seed, record, &mut text);
                 }
                 // The text has no receiver once the file cannot be written.
                 ended.fetch_or(sender.send(text).is_err(), Ordering::SeqCst);
@@ -131,7 +131,7 @@ pub fn run(
     std::thread::scope(|scope| {
         let work = move || on_threads(units.len() as u64, options.jobs, worker).map(drop);
         let threads = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
-        let written = write(&mut file, receiver, clock, &mut progress, report);
+        let written = write((&path, &mut file), receiver, clock, &mut progress, report);
         threads.join().unwrap_or_else(|panic| resume_unwind(panic))?;
         written.map_err(StudyError::unwritable(&path))
     })?;
@@ -142,7 +142,7 @@ pub fn run(
 /// Writes records as they arrive. Syncs with the disk after the longest wait and at the end; the progress counts only
 /// records that have reached the disk.
 fn write(
-    file: &mut File,
+    (path, file): (&Path, &mut File),
     receiver: Receiver<String>,
     clock: Instant,
     progress: &mut Progress,
@@ -166,6 +166,9 @@ fn write(
             (synced, pending) = (Instant::now(), 0);
         }
         if reported.elapsed() >= TICK {
+            if !path.exists() {
+                return Err(io::Error::other("the file has been removed while the study was computed"));
+            }
             report(progress);
             reported = Instant::now();
         }

@@ -18,6 +18,8 @@ pub struct Status {
     pub total: u64,
     /// Records that are missing.
     pub missing: u64,
+    /// Records without values, since they cannot be computed.
+    pub failed: u64,
     /// Lines of shard files that are torn or damaged.
     pub damaged: u64,
     /// The parts assigned to processes.
@@ -63,14 +65,15 @@ impl Status {
     /// A folder that cannot be read.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let total = folder.plan().records_in_all();
-        let (mut done, mut damaged) = (vec![false; total as usize], 0);
+        let (mut done, mut damaged, mut failed) = (vec![false; total as usize], 0, 0);
         let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
         for file in folder.files()? {
             let mut records = 0;
             for record in folder.records(&file)? {
                 match record? {
-                    Some((place, _)) => {
+                    Some((place, record)) => {
                         records += 1;
+                        failed += u64::from(record.is_err() && !done[place as usize]);
                         done[place as usize] = true;
                     }
                     None => damaged += 1,
@@ -94,7 +97,7 @@ impl Status {
         };
         let shards = attempts.into_iter().map(of_shard).collect();
         let found = done.iter().filter(|done| **done).count() as u64;
-        Ok(Status { done: found, total, missing: total - found, damaged, shards })
+        Ok(Status { done: found, total, missing: total - found, failed, damaged, shards })
     }
 }
 

@@ -8,6 +8,7 @@ use super::StudyError;
 use super::measured::{changed, file_of, with_hash};
 use super::plan::{PLAN_FILE, Plan};
 use super::plan_text::Changes;
+use super::recorder::Recorded;
 use super::shard::Shard;
 use crate::io::{WriteError, open_regular, read_regular_text, sync_folder, write_new};
 use crate::scene::LONGEST_TEXT;
@@ -27,6 +28,9 @@ const LONGEST_LINE: u64 = 1 << 16;
 
 const SHARDS: &str = "shards";
 const ENDING: &str = "shard";
+
+/// Begins the reason of a record without values, after cell and seed.
+const FAILED: &str = ",:";
 
 /// Characters of the checksum and the comma behind it.
 const CHECKSUM: usize = 9;
@@ -69,8 +73,8 @@ pub struct ShardFile {
 }
 
 /// A record: its place among all records of a study, by cell, then by seed, and one value for each quantity of the
-/// plan, NaN for missing ones.
-pub(super) type Record = (u64, Vec<f64>);
+/// plan, NaN for missing ones, or the reason why there are none.
+pub(super) type Record = (u64, Recorded);
 
 impl Folder {
     /// Makes the folder of a plan, or opens one that holds the same plan.
@@ -81,6 +85,12 @@ impl Folder {
     pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
         let plan = with_hash(plan)?;
         let shards = path.join(SHARDS);
+        if path.exists() && !path.is_dir() {
+            return Err(StudyError::folder(
+                path,
+                "this is not a folder; allowed: a new one, or that of this study",
+            ));
+        }
         for folder in [path, &shards] {
             fs::create_dir_all(folder).map_err(StudyError::unwritable(folder))?;
         }
@@ -196,10 +206,10 @@ impl Folder {
         let size = opened.metadata().map_err(StudyError::unreadable(&file.path))?.len();
         let lines = lines(BufReader::with_capacity(size.clamp(1 << 10, 1 << 18) as usize, opened));
         let record = |line: &str| {
-            let (cell, seed, values) = decode(unseal(line)?, self.plan.record.len())?;
+            let (cell, seed, record) = decode(unseal(line)?, self.plan.record.len())?;
             let profile = seed.wrapping_sub(self.plan.seed);
             let is_of_plan = cell < self.plan.cells() && profile < self.plan.lines;
-            is_of_plan.then_some((cell * self.plan.lines + profile, values))
+            is_of_plan.then_some((cell * self.plan.lines + profile, record))
         };
         Ok(lines.skip(1).map(move |line| {
             let line = line.map_err(StudyError::unreadable(&file.path))?;
@@ -270,10 +280,14 @@ pub(super) fn unseal(line: &str) -> Option<&str> {
     is_ours.then_some(payload)
 }
 
-/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column.
-pub(super) fn encode(cell: u64, seed: u64, values: &[f64], into: &mut String) {
+/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column; a reason follows a colon.
+pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String) {
     let mut payload = format!("{cell},{seed}");
-    for value in values {
+    if let Err(reason) = record {
+        payload.push_str(FAILED);
+        payload.push_str(reason);
+    }
+    for value in record.iter().flatten() {
         payload.push(',');
         if !value.is_nan() {
             // The shortest text that is read back bit for bit.
@@ -283,13 +297,17 @@ pub(super) fn encode(cell: u64, seed: u64, values: &[f64], into: &mut String) {
     seal(&payload, into);
 }
 
-/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has `count` values.
-pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Vec<f64>)> {
+/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has `count` values or a reason.
+pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)> {
+    if let Some((place, reason)) = payload.split_once(FAILED) {
+        let (cell, seed) = place.split_once(',')?;
+        return Some((cell.parse().ok()?, seed.parse().ok()?, Err(reason.to_owned())));
+    }
     let mut columns = payload.split(',');
     let (cell, seed) = (columns.next()?.parse().ok()?, columns.next()?.parse().ok()?);
     let value = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
     let values: Vec<f64> = columns.map(value).collect::<Option<_>>()?;
-    (values.len() == count).then_some((cell, seed, values))
+    (values.len() == count).then_some((cell, seed, Ok(values)))
 }
 
 /// Lines of a text without their breaks; `None` for a line that is too long, torn or not text.
@@ -363,14 +381,14 @@ mod tests {
         ) {
             let values: Vec<f64> = values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
             let mut text = String::new();
-            encode(cell, seed, &values, &mut text);
+            encode(cell, seed, &Ok(values.clone()), &mut text);
             let line = text.trim_end_matches('\n');
             let payload = unseal(line).unwrap();
             let (of_cell, of_seed, read) = decode(payload, values.len()).unwrap();
             prop_assert_eq!((of_cell, of_seed), (cell, seed));
             prop_assert!(decode(payload, values.len() + 1).is_none());
             prop_assert!(decode(payload, values.len() - 1).is_none());
-            for (read, value) in read.iter().zip(&values) {
+            for (read, value) in read.unwrap().iter().zip(&values) {
                 prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
             }
             // Every cut or change is noticed.

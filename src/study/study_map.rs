@@ -7,7 +7,7 @@ use super::live_plan::live_plan;
 use super::place::{governing, moved, press, scene_with, strip};
 use super::plan::{PRELOAD, Plan};
 use super::results::Results;
-use crate::scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
+use crate::scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneError, SceneErrors};
 use std::path::{Path, PathBuf};
 
 /// Map of a finished study.
@@ -92,7 +92,7 @@ impl StudyMap {
 
     /// The scene of a map on the first profile of the study, with these values on the axes of the maps; axes
     /// without a value here keep that of the plan's scene.
-    fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Scene {
+    fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
         if scene.title.is_empty() {
@@ -107,13 +107,13 @@ impl StudyMap {
         scene.set_seed(plan.seed);
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
-        // The plan has been checked with these values.
-        scene = scene_with(&scene, values.iter().copied()).unwrap_or(scene);
+        let unknown = |message| SceneError { message, ..SceneError::default() };
+        scene = scene_with(&scene, values.iter().copied()).map_err(unknown)?;
         let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
         if let Some(preload) = preload.or_else(|| Some(plan.preloads()?.values[0])) {
             press(&mut scene, preload);
         }
-        scene
+        Ok(scene)
     }
 
     /// The scene of the study for the explorer, named by its folder.
@@ -122,14 +122,15 @@ impl StudyMap {
     /// An invalid scene.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As typed, so that this name in a command opens the study again.
-        Document::from_scene(&self.scene(0, &[]), &self.folder.display().to_string())
+        Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
     /// Returns true for the scene of a map, but for the axes that the map is over and the resolution of its curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
-        let [mut of_map, mut scene] = [self.scene(slice, &known), scene.clone()];
+        let Ok(mut of_map) = self.scene(slice, &known) else { return false };
+        let mut scene = scene.clone();
         match [&of_map, &scene].map(|scene| live_plan(scene, RoughnessParameter::Kappa)) {
             [Ok(one), Ok(other)] => one == other && is_close(place(&of_map), place(&scene)),
             _ => {

@@ -9,7 +9,10 @@ use super::results::{Merged, Results};
 use super::statistics::{CONFIDENCE, Statistics};
 use super::store::{Folder, lines};
 use crate::analysis::Regime;
-use crate::io::{Kind, ReadError, Table, TableOf, object, open_regular, write_json_value, write_new_file};
+use crate::io::{
+    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, sha256_of, write_json_value,
+    write_new_file,
+};
 use serde::Serialize;
 use std::io::{self, BufReader};
 use std::path::Path;
@@ -22,6 +25,10 @@ pub const RESULTS: &str = "results.csv";
 pub const SUMMARY: &str = "summary.csv";
 /// The results with types, if requested.
 pub const PARQUET: &str = "results.parquet";
+/// Column of the reasons of records without values.
+const REASON: &str = "reason";
+/// Longest sidecar that is read.
+const LONGEST_SIDECAR: usize = 1 << 26;
 /// Name of the file with the meanings of the columns.
 pub const SIDECAR: &str = "results.json";
 
@@ -52,12 +59,13 @@ pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     }
     write_new_file(&path(RESULTS), true, |out| results.table().write_csv(out, ""))?;
     write_new_file(&path(SUMMARY), true, |out| results.summary().write_csv(out, ""))?;
-    write_new_file(&path(SIDECAR), true, |out| write_json_value(out, &sidecar(plan, &merged)))?;
+    let hash = sha256_of(&path(RESULTS)).map_err(|error| StudyError::folder(&path(RESULTS), error))?;
+    write_new_file(&path(SIDECAR), true, |out| write_json_value(out, &sidecar(plan, &merged, &hash)))?;
     Ok(merged)
 }
 
 /// The meanings of the columns, with the plan and the contents found by a merge.
-fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged) -> impl Serialize + 'a {
+fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> impl Serialize + 'a {
     let axis = |axis: &'a Axis| {
         object! {
             "path": &axis.path, "symbol": axis.symbol, "unit": axis.unit, "scale": axis.spacing,
@@ -87,12 +95,12 @@ fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged) -> impl Serialize + 'a {
         "confidence": CONFIDENCE,
         "records": merged.records,
         "total": merged.total,
-        "duplicates": merged.duplicates,
-        "damaged": merged.damaged,
+        "failed": merged.failed,
+        "first_failed": &merged.first_failed,
         "missing_cells": merged.missing_cells,
         "first_missing": &merged.first_missing,
-        "files": merged.files,
         "programs": &merged.programs,
+        "results_sha256": hash,
     }
 }
 
@@ -110,29 +118,73 @@ fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u6
     table.real("preload", move |row| preload.map(|axis| plan.value(cell(row), axis)))
 }
 
+/// Refuses results that are not those of the last merge: cut, doubled or changed.
+fn check_hash(folder: &Path, results: &Path) -> Result<(), StudyError> {
+    let sidecar = folder.join(SIDECAR);
+    let text = read_regular_text(&sidecar, LONGEST_SIDECAR);
+    let recorded = text.ok().and_then(|text| {
+        let all: serde_json::Value = serde_json::from_str(&text).ok()?;
+        Some(all.get("results_sha256")?.as_str()?.to_owned())
+    });
+    let found = sha256_of(results).map_err(|error| StudyError::folder(results, error))?;
+    if recorded.as_deref() == Some(found.as_str()) {
+        return Ok(());
+    }
+    let merge = crate::scene::quoted(folder.display().to_string());
+    let reason = match recorded {
+        Some(_) => {
+            format!("this file is not the one of the last merge: its SHA-256 is not the one in {SIDECAR}")
+        }
+        None => format!("{SIDECAR}, which has the SHA-256 of this file, is missing or damaged"),
+    };
+    Err(StudyError::folder(results, format!("{reason}; asperity sweep merge {merge} makes both again")))
+}
+
 impl Results {
     pub(super) fn table(&self) -> Table<'_> {
         let rows = || {
-            let of_cell = |cell| self.records_of(cell).map(move |(line, values)| (cell, line, values));
-            (0..self.plan.cells()).flat_map(of_cell)
+            let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
+            let record = |(cell, line)| (cell, line, self.record(cell, line), self.reason(cell, line));
+            (0..self.plan.cells())
+                .flat_map(of_cell)
+                .map(record)
+                .filter(|row| row.2.is_some() || row.3.is_some())
         };
         let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
         table = table.whole("seed", |row| self.plan.seed_of(row.1));
         for (column, quantity) in self.plan.record.iter().enumerate() {
             let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
             table = match quantity.is_regime() {
-                true => table.with(name, text, move |row| regime_of(row.2[column]).map(Regime::name)),
-                false => table.real(name, move |row| row.2[column]),
+                true => table.with(name, text, move |row| regime_of(row.2?[column]).map(Regime::name)),
+                false => table.real(name, move |row| row.2.map(|values| values[column])),
             };
         }
-        table.done()
+        self.with_reasons(table, |row| row.3)
+    }
+
+    /// The table, with the reasons of records without values if there are any.
+    fn with_reasons<'a, T: 'a>(
+        &'a self,
+        table: TableOf<'a, T>,
+        reason: impl Fn(&T) -> Option<&'a str> + 'a,
+    ) -> Table<'a> {
+        let longest = self.failed().map(|(_, _, reason)| reason.chars().count()).max();
+        match longest {
+            Some(longest) => table.with(REASON, Kind::Text(longest), reason).done(),
+            None => table.done(),
+        }
     }
 
     /// The cells with records: number of profiles and, for each quantity, mean, standard deviation and confidence
     /// interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
-        let rows = move || (0..self.plan.cells()).filter_map(|cell| Some((cell, self.cell(cell, record)?)));
+        let nothing = |cell| Cell { statistics: vec![None; record.len()], regimes: self.regimes(cell) };
+        let of_cell = move |cell| {
+            let reason = self.failure_of(cell);
+            self.cell(cell, record).or_else(|| reason.map(|_| nothing(cell))).map(|all| (cell, all, reason))
+        };
+        let rows = move || (0..self.plan.cells()).filter_map(of_cell);
         let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
         table = table.whole("lines", |row| row.1.regimes[0].profiles() as u64);
         for (place, quantity) in record.iter().enumerate() {
@@ -150,7 +202,7 @@ impl Results {
                     table.with(name, Kind::Real, move |row| row.1.statistics[place].as_ref().and_then(of));
             }
         }
-        table.done()
+        self.with_reasons(table, |row| row.2)
     }
 
     /// Reads the results of a merged study.
@@ -170,15 +222,20 @@ impl Results {
             }
             error => wrong(error.to_string()),
         })?;
+        check_hash(folder, &path)?;
         let header =
             results.table().columns().iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>().join(",");
+        let mut has_reasons = false;
         for (number, line) in (1..).zip(lines(BufReader::new(file))) {
             let line = line.map_err(StudyError::unreadable(&path))?.unwrap_or_default();
             let row = line.trim_end_matches('\r');
-            if number == 1 && row != header {
-                return Err(wrong("its columns are not those of the plan".into()));
-            }
-            if number > 1 && results.add_row(row).is_none() {
+            if number == 1 {
+                let rest = row.strip_prefix(&header);
+                has_reasons = rest.and_then(|rest| rest.strip_prefix(',')) == Some(REASON);
+                if !has_reasons && rest != Some("") {
+                    return Err(wrong("its columns are not those of the plan".into()));
+                }
+            } else if results.add_row(row, has_reasons).is_none() {
                 return Err(wrong(format!("line {number} is not a row of this study")));
             }
         }
@@ -186,9 +243,11 @@ impl Results {
     }
 
     /// Adds a row of the results; `None` if the row is not one of this study.
-    fn add_row(&mut self, row: &str) -> Option<()> {
+    fn add_row(&mut self, row: &str, has_reason: bool) -> Option<()> {
         let plan = &self.plan;
-        let mut columns = row.split(',');
+        // Only the last column, a reason, may contain a comma.
+        let count = 3 + plan.scene_axes().len() + plan.record.len() + usize::from(has_reason);
+        let mut columns = row.splitn(count, ',');
         let cell = columns.next()?.parse().ok().filter(|cell| *cell < plan.cells())?;
         // The values of the axes are those of the plan.
         for axis in 0..plan.axes.len() {
@@ -207,10 +266,16 @@ impl Results {
         };
         let values: Option<Vec<f64>> = plan.record.iter().zip(&mut columns).map(value).collect();
         let values = values.filter(|values| values.len() == plan.record.len())?;
-        if columns.next().is_some() || line >= plan.lines {
+        let reason = columns.next().unwrap_or_default();
+        if columns.next().is_some() || line >= plan.lines || values.iter().any(|value| value.is_infinite()) {
             return None;
         }
-        self.set(cell * self.plan.lines + line, &values);
+        let quoted = reason.strip_prefix('"').and_then(|reason| reason.strip_suffix('"'));
+        let reason = quoted.map_or_else(|| reason.to_owned(), |reason| reason.replace("\"\"", "\""));
+        self.set_record(
+            cell * self.plan.lines + line,
+            if reason.is_empty() { Ok(values) } else { Err(reason) },
+        );
         Some(())
     }
 }

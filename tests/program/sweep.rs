@@ -5,8 +5,8 @@ use asperity::analysis::Regime;
 use asperity::scene::{Adhesion, Material, Move, Roughness, RoughnessParameter, Scene};
 use asperity::simulation::{Outcome, Simulation};
 use asperity::study::{
-    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics,
-    StudyError, merge, run,
+    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status,
+    StudyError, StudyMap, merge, run,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -153,6 +153,63 @@ fn no_bit_depends_on_who_computes() {
     let merged = merge(&folder, false).unwrap();
     assert_eq!((merged.records, merged.duplicates, merged.files), (96, 0, 3));
     assert_eq!(tables(&folder), expected, "three shards");
+}
+
+/// Cells that cannot be computed have their reason in every table, and no numbers; the others are as without them.
+#[test]
+fn cells_that_cannot_be_computed_have_a_reason() {
+    let text = r#"(version: 1, axes: [
+        List(path: "loading.1.0", values: [0.0, -1.0e3]),
+        List(path: "roughness.modes.1", values: [32, 64]),
+    ], scene: (version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
+        roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 64), seed: 1), adhesion: (kappa: 1.0),
+        loading: [ToForce(1.0e-5), ToForce(0.0), ToSeparation], numerics: (points: 256),
+    ), lines: 2, record: [adhesion_force, regime])"#;
+    let mut plan = plan(text);
+    // As in the folder of a plan that was not checked: more modes than springs.
+    plan.axes[1].values[1] = 512.0;
+    let (_place, folder) = study(&plan);
+    compute(&folder, 2, Shard::WHOLE);
+    let merged = merge(&folder, false).unwrap();
+    assert_eq!((merged.records, merged.total, merged.failed), (8, 8, 6));
+    assert_eq!(Status::of(&folder).unwrap().failed, 6);
+    let [rows, summary] = tables(&folder);
+    let rows: Vec<&str> = rows.lines().collect();
+    assert!(rows[0].ends_with("seed,adhesion_force,regime,reason"), "{}", rows[0]);
+    assert!(rows[1..3].iter().all(|row| row.ends_with("pressure-insensitive,")), "{rows:?}");
+    for (row, said) in [(3, "last mode at most points/2"), (5, "detaches before"), (7, "last mode at most")] {
+        assert!(rows[row].contains(",1,,,\"") || rows[row].contains(",1,,,"), "{}", rows[row]);
+        assert!(rows[row].contains(said), "{}", rows[row]);
+    }
+    assert_eq!(summary.lines().count(), 5);
+    let results = Results::open(folder.path()).unwrap();
+    let known = |cell| results.statistics(cell, Quantity::AdhesionForce).map(|all| all.count);
+    assert_eq!([0, 1, 2, 3].map(known), [Some(2), None, None, None]);
+    assert_eq!(results.failed().count(), 6);
+    let map = StudyMap::open(folder.path()).unwrap().grid(0);
+    assert_eq!(map.cells.iter().filter(|cell| matches!(cell, Some(Err(_)))).count(), 3);
+}
+
+/// Rows that are doubled, missing or changed are not those of the merge.
+#[test]
+fn a_changed_table_is_refused() {
+    let (_place, folder) = study(&plan(SMALL));
+    compute(&folder, 2, Shard::WHOLE);
+    merge(&folder, false).unwrap();
+    let path = folder.path().join(RESULTS);
+    let [table, _] = tables(&folder);
+    let rows: Vec<&str> = table.lines().collect();
+    for changed in [[&rows[..], &rows[1..2]].concat(), rows[..rows.len() - 1].to_vec()] {
+        fs::write(&path, changed.join("\n") + "\n").unwrap();
+        let refused = Results::open(folder.path()).unwrap_err().to_string();
+        assert!(refused.contains("asperity sweep merge"), "{refused}");
+    }
+    fs::write(&path, table.replacen("e-", "e-1", 1)).unwrap();
+    assert!(Results::open(folder.path()).is_err());
+    merge(&folder, false).unwrap();
+    assert!(Results::open(folder.path()).is_ok());
+    fs::remove_file(folder.path().join("results.json")).unwrap();
+    assert!(Results::open(folder.path()).unwrap_err().to_string().contains("missing or damaged"));
 }
 
 #[test]

@@ -51,10 +51,11 @@ pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Resul
 }
 
 pub(super) fn write_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let Merged { records, total, duplicates, damaged, missing_cells, .. } = merged;
+    let Merged { records, failed, first_failed, total, duplicates, damaged, missing_cells, .. } = merged;
     let path = path_name(folder.path());
     writeln!(stdout, "{records} of {total} records in {path}: {RESULTS}, {SUMMARY}, {SIDECAR}")?;
     for (count, what) in [
+        (failed, "records cannot be computed; results.csv has the reasons"),
         (duplicates, "records were computed twice, with the same bits"),
         (damaged, "torn or damaged lines were left out"),
         (missing_cells, "cells are not complete"),
@@ -63,5 +64,10 @@ pub(super) fn write_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Wr
             writeln!(stdout, "{count} {what}")?;
         }
     }
-    Ok(())
+    match first_failed.first() {
+        Some((.., reason)) if failed == records => {
+            Err(CliError::named(path, format!("none of the {records} records can be computed: {reason}")))
+        }
+        _ => Ok(()),
+    }
 }

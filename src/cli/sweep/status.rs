@@ -14,6 +14,9 @@ Examples:
   asperity sweep status study
   asperity sweep status study --format json";
 
+/// Most characters of the name of a machine in the table.
+const LONGEST_HOST: usize = 20;
+
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct StatusArguments {
@@ -41,6 +44,10 @@ fn text(folder: &Folder, status: &Status) -> String {
         grouped(status.total),
         grouped(status.missing)
     ));
+    if status.failed > 0 {
+        let failed = grouped(status.failed);
+        sheet.paragraph(&format!("{failed} records cannot be computed; a merge states the reasons."));
+    }
     if status.damaged > 0 {
         sheet.paragraph(&format!("{} torn or damaged lines are left out.", grouped(status.damaged)));
     }
@@ -53,7 +60,7 @@ fn text(folder: &Folder, status: &Status) -> String {
                 first(shard.shard.clone()),
                 first(grouped(shard.done)),
                 first(grouped(shard.total)),
-                attempt.host.clone(),
+                attempt.host.chars().take(LONGEST_HOST).collect(),
                 attempt.process.to_string(),
                 grouped(attempt.records),
                 attempt.rate.map_or_else(String::new, |rate| format!("{rate:.2}")),
