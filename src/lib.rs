@@ -27,7 +27,7 @@
 //! # A scene
 //!
 //! A [`scene::Scene`] holds all that a computation needs; the program reads it from RON files and [`scene::open`] finds
-//! the built-in ones. [`run`] computes it:
+//! the built-in ones. Only a checked one is computed ([`Scene::checked`]). [`run`] computes the scene of a file:
 //!
 //! ```
 //! let document = asperity::scene::open("jkr-sphere")?;
@@ -52,7 +52,7 @@
 //!
 //! | from | by | to |
 //! | --- | --- | --- |
-//! | a file | [`scene::open`] | [`scene::Scene`], checked |
+//! | a file | [`scene::open`] | [`scene::CheckedScene`] |
 //! | measured files | [`topography::read`] and [`spectrum::analyse`] | equivalent line, its moments |
 //! | form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
 //! | gaps | [`contact::Springs`] | merge tree of the local maxima of the gap |

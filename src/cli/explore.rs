@@ -165,7 +165,7 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
             if is_word && !std::path::Path::new(name).exists() {
                 let near = did_you_mean(name, commands.split(", "));
-                CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help){near}"))
+                CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help{near})"))
             } else {
                 errors.into()
             }

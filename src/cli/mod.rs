@@ -113,7 +113,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
             let unknown =
                 unknown.map_or(String::new(), |unknown| format!("unexpected argument '{unknown}': "));
             let near = did_you_mean(first, names.iter().map(String::as_str));
-            format!("{unknown}'{first}' is not a command{near}; the commands are {}", names.join(", "))
+            format!("{unknown}'{first}' is not a command{near} (commands: {})", names.join(", "))
         }
         _ => return error,
     };
