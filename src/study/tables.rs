@@ -118,26 +118,11 @@ fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u6
     table.real("preload", move |row| preload.map(|axis| plan.value(cell(row), axis)))
 }
 
-/// Refuses results that are not those of the last merge: cut, doubled or changed.
-fn check_hash(folder: &Path, results: &Path) -> Result<(), StudyError> {
-    let sidecar = folder.join(SIDECAR);
-    let text = read_regular_text(&sidecar, LONGEST_SIDECAR);
-    let recorded = text.ok().and_then(|text| {
-        let all: serde_json::Value = serde_json::from_str(&text).ok()?;
-        Some(all.get("results_sha256")?.as_str()?.to_owned())
-    });
-    let found = sha256_of(results).map_err(|error| StudyError::folder(results, error))?;
-    if recorded.as_deref() == Some(found.as_str()) {
-        return Ok(());
-    }
-    let merge = crate::scene::quoted(folder.display().to_string());
-    let reason = match recorded {
-        Some(_) => {
-            format!("this file is not the one of the last merge: its SHA-256 is not the one in {SIDECAR}")
-        }
-        None => format!("{SIDECAR}, which has the SHA-256 of this file, is missing or damaged"),
-    };
-    Err(StudyError::folder(results, format!("{reason}; asperity sweep merge {merge} makes both again")))
+/// SHA-256 of the results of the last merge, if it is recorded.
+fn recorded_hash(folder: &Path) -> Option<String> {
+    let text = read_regular_text(&folder.join(SIDECAR), LONGEST_SIDECAR).ok()?;
+    let all: serde_json::Value = serde_json::from_str(&text).ok()?;
+    Some(all.get("results_sha256")?.as_str()?.to_owned())
 }
 
 impl Results {
@@ -212,17 +197,17 @@ impl Results {
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(RESULTS);
-        let wrong = |reason: String| StudyError::folder(&path, reason);
+        let merge = crate::scene::quoted(folder.display().to_string());
+        let again = format!("asperity sweep merge {merge} makes it again");
+        let wrong = |reason: String| StudyError::folder(&path, format!("{reason}; {again}"));
         let file = open_regular(&path).map_err(|error| match error {
             ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
-                let merge = crate::scene::quoted(folder.display().to_string());
                 let reason =
                     format!("the study has not been merged yet; asperity sweep merge {merge} does it");
                 StudyError::folder(folder, reason)
             }
-            error => wrong(error.to_string()),
+            error => StudyError::folder(&path, error),
         })?;
-        check_hash(folder, &path)?;
         let header =
             results.table().columns().iter().map(|(name, _)| name.as_ref()).collect::<Vec<_>>().join(",");
         let mut has_reasons = false;
@@ -239,7 +224,17 @@ impl Results {
                 return Err(wrong(format!("line {number} is not a row of this study")));
             }
         }
-        Ok(results)
+        // Rows that are doubled, missing or changed may still be rows.
+        let found = sha256_of(&path).map_err(|error| StudyError::folder(&path, error))?;
+        match recorded_hash(folder) {
+            Some(recorded) if recorded == found => Ok(results),
+            Some(_) => {
+                Err(wrong(format!("this is not the table of the last merge, by its SHA-256 in {SIDECAR}")))
+            }
+            None => {
+                Err(wrong(format!("{SIDECAR}, which has the SHA-256 of this table, is missing or damaged")))
+            }
+        }
     }
 
     /// Adds a row of the results; `None` if the row is not one of this study.
