@@ -1,15 +1,17 @@
 //! The parameters of a scene that describe a measured curve, their errors, and those that the curve does not separate.
 
 use super::baseline::{dot, ends};
+use super::limits::{check_curve, check_options};
 use super::model::Model;
 use super::parameter::{Coordinate, Free, Parameter, Values};
 use super::population::WRONG_SIDE;
 use super::scene::{most_on_closing, radius_of, values_of, with_values, written_out, wrong};
-use super::search::{MISFIT, Search, Space};
+use super::search::{MISFIT, Search};
+use super::space::Space;
 use super::statistics::{block_error, correlated, correlation, spread, widen};
 use super::{ExperimentError, MeasuredCurve, refused};
 use crate::parallel::on_threads;
-use crate::scene::{Document, Solver, format_quantity, format_range, format_within};
+use crate::scene::{Document, Solver, format_within};
 use crate::simulation::Simulation;
 use std::f64::consts::PI;
 
@@ -18,8 +20,6 @@ const FACTOR: f64 = 30.0;
 /// Pull-off force of a smooth body over that of the curve up to which the coordinate of the work of adhesion is linear, if the
 /// noise does not hide more.
 const LINEAR: f64 = 0.01;
-/// Forces, N, and displacements, m, beyond those of any instrument.
-const MOST: [f64; 2] = [1e9, 1e6];
 /// Correlation of parameters that are not separated, and half width of the 95 % interval of a logarithm that is flat.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
@@ -111,7 +111,7 @@ pub fn fit(
     report: &mut dyn FnMut(usize),
 ) -> Result<Fit, ExperimentError> {
     check_curve(curve)?;
-    check_options(options)?;
+    check_options(&options.free, options.lines, options.jobs)?;
     let mut simulation = Simulation::new(document.resolve(""));
     let (document, space) = prepare(curve, document, &mut simulation, options, stop)?;
     let model = Model::new(curve, document.scene(), &mut simulation);
@@ -184,44 +184,6 @@ pub fn fit(
         model,
         document: with_values(&document, &values, is_free, curve)?,
     })
-}
-
-/// Checks the values of a curve, which a caller may have changed.
-fn check_curve(curve: &MeasuredCurve) -> Result<(), ExperimentError> {
-    let quantities = [(&curve.force, "force", "N"), (&curve.displacement, "displacement", "m")];
-    for ((values, name, unit), most) in quantities.into_iter().zip(MOST) {
-        if let Some((index, value)) = values.iter().enumerate().find(|(_, value)| !(value.abs() <= most)) {
-            let fault = format!("{name} of point {} = {}", index + 1, format_quantity(*value, unit));
-            return refused(fault, format_range((-most, most), 1, unit));
-        }
-    }
-    if !(curve.noise > 0.0 && curve.noise.is_finite()) {
-        return refused(format!("noise = {}", format_quantity(curve.noise, "N")), "a force above 0");
-    }
-    Ok(())
-}
-
-fn check_options(options: &FitOptions) -> Result<(), ExperimentError> {
-    let FitOptions { free, lines, jobs } = options;
-    if free.is_empty() {
-        let names = Parameter::ALL.map(Parameter::name).join(", ");
-        return refused("no free parameter", format!("one or more of {names}"));
-    }
-    for (index, Free { parameter, range }) in free.iter().enumerate() {
-        let name = parameter.name();
-        if free[..index].iter().any(|other| other.parameter == *parameter) {
-            return refused(format!("{name} is free twice"), "each parameter once");
-        }
-        if let Some((low, high)) = range.filter(|range| !parameter.allows(*range)) {
-            return refused(format!("range of {name} = {low:e}..{high:e}"), parameter.ranges());
-        }
-    }
-    for (name, count) in [("lines", *lines), ("jobs", *jobs as u64)] {
-        if count == 0 {
-            return refused(format!("{name} = 0"), "1 or more");
-        }
-    }
-    Ok(())
 }
 
 /// Checks parameters and scene; returns the document with a work of adhesion, and the coordinates of the fit.
@@ -319,4 +281,127 @@ fn other_profiles(
         }
     };
     on_threads(options.lines.saturating_sub(1), options.jobs, worker)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made::{
+        Made, fit_from, fitted, force_curve, measured, noise, on_rubber, random, read, rubber, stiffness,
+        truth,
+    };
+    use super::super::read::Drift;
+    use super::*;
+    use crate::scene::Move;
+
+    /// Asserts that the values differ from the truth by a few standard errors at most, and that the residuals are those of the
+    /// noise.
+    fn assert_found(made: &Made, fit: &Fit) {
+        assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
+        for one in &fit.parameters {
+            let truth = truth(made, one.parameter);
+            assert!((one.value - truth).abs() < 4.0 * one.noise_error, "{one:?}: {truth:e}");
+            assert!(one.noise_error < 0.02 * truth, "{one:?}");
+        }
+    }
+
+    /// The force of a rough sphere jumps at many displacements.
+    #[test]
+    fn a_rough_sphere_is_found_within_its_errors() {
+        let made = random(11, 1024);
+        let curve = measured(&made, 11);
+        assert_found(&made, &fitted(&curve, &made, "work,offset"));
+    }
+
+    #[test]
+    fn a_sphere_is_found_within_its_errors_and_written_into_its_scene() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let fit = fitted(&curve, &made, "work,modulus,offset");
+        assert_found(&made, &fit);
+        let scene = fit.document.scene();
+        assert_eq!(scene.adhesion.unwrap().work, Some(fit.parameters[0].value));
+        assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
+        // A wrong stiffness does not describe the curve, and says so.
+        let mut wrong = made;
+        wrong.scene.loading_stiffness = Some(0.2 * stiffness(&wrong.scene));
+        assert!(!fitted(&curve, &wrong, "work,offset").describes());
+    }
+
+    /// A fit that begins at its own result, or at the truth, has the intervals of one that begins far away.
+    #[test]
+    fn a_good_start_makes_no_interval_narrow() {
+        let made = random(8, 512);
+        // Every third point of approach and retraction.
+        let points = force_curve(&made.scene).into_iter().zip(noise(&made, 8)).step_by(3);
+        let curve =
+            read(points.map(|((displacement, force), noise)| (displacement, force + noise)), Drift::Keep);
+        let free = "work,closing_work,modulus,offset";
+        let first = fitted(&curve, &made, free);
+        let true_scene = Document::from_scene(&made.scene, "made").unwrap();
+        for start in [&first.document, &true_scene] {
+            let again = fit_from(&curve, start, free);
+            assert!((again.misfit / first.misfit - 1.0).abs() < 0.01, "{} {}", first.misfit, again.misfit);
+            for (one, before) in again.parameters.iter().zip(&first.parameters) {
+                let [width, of_first] = [one, before].map(|one| one.interval.1 - one.interval.0);
+                assert!((0.6..1.7).contains(&(width / of_first)), "{before:?}: {one:?}");
+            }
+        }
+    }
+
+    /// For any start the work of adhesion is at most a few times that which the noise hides, γ = noise/(1.5 π R) = 1.1 mJ/m².
+    #[test]
+    fn a_curve_without_adhesion_has_an_upper_bound_of_it() {
+        for (seed, work) in [(1, 0.05), (2, 1e-6)] {
+            let curve = read(rubber(4e-8, seed, |_, _| 1.0).into_iter(), Drift::Keep);
+            let fit = fit_from(&curve, &on_rubber(work, 2.7e6), "work,modulus,offset");
+            let [work, modulus, _] = fit.parameters[..] else { panic!("{:?}", fit.parameters) };
+            assert!(fit.describes() && work.interval.0 == 0.0, "{fit:?}");
+            assert!((2e-4..5e-3).contains(&work.interval.1), "{work:?}");
+            assert_eq!(fit.work_at_most, Some(work.interval.1));
+            assert_eq!(fit.not_distinguished.iter().filter(|pair| pair.0 == Parameter::Work).count(), 1);
+            assert!(modulus.interval.0 < 2e6 && 2e6 < modulus.interval.1, "{modulus:?}");
+        }
+    }
+
+    /// A contact that stiffens, with hysteresis: parts of one curve have intervals that overlap, and the residual is stated as it
+    /// is.
+    #[test]
+    fn parts_of_a_curve_that_is_not_described_have_intervals_that_overlap() {
+        let points = rubber(1e-9, 3, |indentation, direction| {
+            1.0 + 0.3 * indentation.max(0.0) / 1e-6 + 0.1 * direction
+        });
+        let fits = [0, 1].map(|part| {
+            let curve = read(points.iter().copied().skip(part).step_by(2), Drift::Keep);
+            fit_from(&curve, &on_rubber(1e-3, 2.7e6), "work,modulus,offset")
+        });
+        for fit in &fits {
+            assert!(!fit.describes() && fit.misfit > 10.0 && fit.beyond_five_sigma > 0.2, "{fit:?}");
+            assert!((fit.residual_over_noise / fit.misfit - 0.8).abs() < 0.2, "{fit:?}");
+        }
+        for (one, other) in fits[0].parameters.iter().zip(&fits[1].parameters) {
+            let overlap = one.interval.1.min(other.interval.1) - one.interval.0.max(other.interval.0);
+            assert!(overlap > 0.2 * (one.interval.1 - one.interval.0), "{one:?} {other:?}");
+        }
+        let modulus = fits[0].parameters[1];
+        assert!(modulus.interval.1 / modulus.interval.0 > 1.02, "{modulus:?}");
+    }
+
+    /// The scatter over profiles counts twice: for that of the specimen and that of the scene.
+    #[test]
+    fn the_interval_holds_the_scatter_over_profiles() {
+        let made = random(11, 256);
+        let points = force_curve(&made.scene).into_iter().zip(noise(&made, 11)).step_by(5);
+        let curve =
+            read(points.map(|((displacement, force), noise)| (displacement, force + noise)), Drift::Keep);
+        let document = Document::from_scene(&made.scene, "made").unwrap();
+        let options = |lines| FitOptions { free: vec!["work".parse().unwrap()], lines, jobs: 1 };
+        let fit =
+            |lines| fit(&curve, &document, &options(lines), &|| false, &mut |_| ()).unwrap().parameters[0];
+        let (one, two) = (fit(1), fit(2));
+        assert_eq!((one.profile_error, one.value, one.noise_error), (None, two.value, two.noise_error));
+        let profile_error = two.profile_error.unwrap();
+        assert!(profile_error > 1e-3 * two.value, "{two:?}");
+        let half = NORMAL * (2.0 * profile_error.powi(2) + two.noise_error.powi(2)).sqrt();
+        assert!((two.interval.1 - two.value - half).abs() < 0.01 * half, "{two:?}");
+    }
 }

@@ -7,6 +7,9 @@ mod coverage;
 mod curve;
 mod fit;
 mod free;
+mod limits;
+#[cfg(test)]
+mod made;
 mod model;
 mod options;
 mod parameter;
@@ -16,6 +19,7 @@ mod read;
 mod scene;
 mod search;
 mod segment;
+mod space;
 mod statistics;
 mod zero;
 
@@ -53,3 +57,8 @@ impl From<ContactError> for ExperimentError {
 fn refused<T>(fault: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
     Err(ExperimentError::Refused(fault.into(), allowed.into()))
 }
+
+#[cfg(test)]
+mod coverage;
+#[cfg(test)]
+mod made;

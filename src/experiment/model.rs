@@ -197,3 +197,46 @@ impl Sampling {
         Ok(DisplacementCurve::new(leg.direction(), &points, self.stiffness))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::made::{Made, force_curve, random, read, stiffness, truth};
+    use super::super::read::Drift;
+    use super::super::scene::radius_of;
+    use super::super::statistics::scale;
+    use super::*;
+
+    /// Residuals without noise, in units of 1 % of the pull-off force, of exact and of coarse forces.
+    fn rests(made: &Made) -> [Vec<f64>; 2] {
+        let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
+        curve.noise = made.noise;
+        let [work, modulus] = [Parameter::Work, Parameter::Modulus].map(|one| truth(made, one));
+        let radius = radius_of(&made.scene).unwrap();
+        let values = [work, work, modulus, 0.0, 0.0, stiffness(&made.scene), radius];
+        let mut simulation = Simulation::default();
+        let mut model = Model::new(&curve, &made.scene, &mut simulation);
+        let rests = [1.0, 10.0].map(|noise| {
+            model.noise = noise;
+            let forces = model.forces(&values).unwrap();
+            curve.force.iter().zip(&forces).map(|(force, model)| (force - model) / curve.noise).collect()
+        });
+        assert_eq!(model.evaluations, 2);
+        rests
+    }
+
+    #[test]
+    fn forces_are_those_of_a_fine_curve_with_all_its_jumps() {
+        for (seed, points, most) in [(4, 512, [0.1, 0.5]), (11, 1024, [0.1, 1.0]), (14, 512, [0.1, 0.5])] {
+            let found = rests(&random(seed, points)).map(|rests| {
+                let beyond = rests.iter().filter(|rest| rest.abs() > 5.0).count();
+                (scale(&rests, 5.0), beyond)
+            });
+            let [exact, coarse] = found;
+            assert!(exact.0 < most[0] && exact.1 <= 2, "{seed}: {exact:?}");
+            assert!(
+                coarse.0 < most[1] && coarse.0 > exact.0 && coarse.1 <= 8,
+                "{seed}: {exact:?} {coarse:?}"
+            );
+        }
+    }
+}

@@ -107,3 +107,41 @@ pub(super) fn wrong(errors: SceneErrors) -> ExperimentError {
     let error = errors.first();
     ExperimentError::Refused(format!("{} = {}", error.field, error.value), error.allowed.clone())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::made::{on_rubber, read, rubber};
+    use super::super::read::Drift;
+    use super::*;
+
+    #[test]
+    fn values_found_are_written_where_they_belong() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let document = on_rubber(1e-3, 2e6);
+        let values = [0.04, 0.03, 3e6, 2e-6, 0.0, 5.0, 6e-6];
+        let all = with_values(&document, &values, |_| true, &curve).unwrap();
+        let scene = all.scene();
+        let adhesion = scene.adhesion.unwrap();
+        assert_eq!((adhesion.work, adhesion.closing_work), (Some(0.04), Some(0.03)));
+        assert_eq!((scene.material.effective_modulus(), scene.loading_stiffness), (3e6, Some(5.0)));
+        assert_eq!((radius_of(scene), most_on_closing(scene)), (Some(6e-6), 0.03));
+        // Those that are not free stay.
+        let none = with_values(&document, &values, |_| false, &curve).unwrap();
+        let scene = none.scene();
+        assert_eq!(
+            scene.adhesion.map(|adhesion| (adhesion.work, adhesion.closing_work)),
+            Some((Some(1e-3), None))
+        );
+        assert_eq!((scene.material.effective_modulus(), scene.loading_stiffness), (2e6, Some(3.0)));
+        assert_eq!((radius_of(scene), most_on_closing(scene)), (Some(7.5e-6), f64::INFINITY));
+        // The modulus of a material by Young's modulus and Poisson's ratio.
+        let plane = [("material".to_owned(), "(youngs_modulus: 1e6, poisson_ratio: 0.5)".to_owned())];
+        let plane = document.set_all(&plane).unwrap();
+        let found = with_values(&plane, &values, |one| one == Parameter::Modulus, &curve).unwrap();
+        assert!((found.scene().material.effective_modulus() / 3e6 - 1.0).abs() < 1e-12);
+        // A work on closing that the scene has follows the work of adhesion.
+        let closing = document.set_all(&[("adhesion.closing_work".to_owned(), "1e-4".to_owned())]).unwrap();
+        let found = with_values(&closing, &values, |one| one == Parameter::Work, &curve).unwrap();
+        assert_eq!(found.scene().adhesion.unwrap().closing_work, Some(0.03));
+    }
+}

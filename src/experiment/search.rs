@@ -10,10 +10,10 @@
 
 use super::baseline::{dot, ends};
 use super::model::Model;
-use super::parameter::{Coordinate, Parameter, Values};
+use super::parameter::{Coordinate, Parameter};
 use super::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
-use super::statistics::{PARTS, scale};
-use super::{ExperimentError, MeasuredCurve, refused};
+use super::space::Space;
+use super::{ExperimentError, refused};
 use crate::contact::ContactError;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -69,58 +69,6 @@ pub(super) struct Found {
     pub blocks: Vec<Vec<f64>>,
     /// Least cost without adhesion in addition to that of the best member; infinite if no sample comes close to it.
     pub without_adhesion: f64,
-}
-
-/// The coordinates in which a scene is fitted, from these values on.
-pub(super) struct Space<'a> {
-    pub base: Values,
-    pub coordinates: Vec<Coordinate>,
-    /// Largest work of adhesion on closing, J/m².
-    pub most_on_closing: f64,
-    pub curve: &'a MeasuredCurve,
-    pub stop: &'a (dyn Fn() -> bool + Sync),
-}
-
-impl Space<'_> {
-    /// Values of all parameters at these coordinates.
-    pub fn values(&self, at: &[f64]) -> Values {
-        let mut values = self.base;
-        for (coordinate, &at) in self.coordinates.iter().zip(at) {
-            values[coordinate.parameter as usize] = coordinate.value(at, &values);
-            if coordinate.parameter == Parameter::Work {
-                let work = values[Parameter::Work as usize];
-                values[Parameter::ClosingWork as usize] = work.min(self.most_on_closing);
-            }
-        }
-        values
-    }
-
-    /// Coordinates of the start.
-    fn start(&self) -> Vec<f64> {
-        self.coordinates.iter().map(|one| one.of(one.start, &self.base)).collect()
-    }
-
-    /// Consecutive parts of each segment in contact, which depend on each other less than points do.
-    fn blocks(&self) -> Vec<Range<usize>> {
-        let (mut blocks, mut from) = (Vec::new(), self.curve.free);
-        for segment in self.curve.segment[from..].chunk_by(|one, next| one == next) {
-            let end = |part: usize| from + segment.len() * part / PARTS;
-            blocks.extend((0..PARTS).map(|part| end(part)..end(part + 1)));
-            from += segment.len();
-        }
-        blocks
-    }
-
-    /// Straight lines of the curve that are refined with each model, see [`MeasuredCurve::lines`].
-    pub fn lines(&self) -> Vec<Vec<f64>> {
-        let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
-        self.curve.lines(has_zero)
-    }
-
-    /// Root mean square residual in contact, in units of the noise; see [`scale`].
-    pub fn misfit(&self, rests: &[f64]) -> f64 {
-        scale(&rests[self.curve.free..], WRONG_SIDE)
-    }
 }
 
 /// A search on one profile.

@@ -36,9 +36,8 @@ pub(super) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let influences: Vec<f64> = (0..blocks.first().map_or(0, Vec::len)).map(influence).collect();
     let error = |joined: usize| {
         let of: Vec<f64> = influences.chunks(joined).map(|part| part.iter().sum()).collect();
-        let (number, mean) = (of.len() as f64, of.iter().sum::<f64>() / of.len() as f64);
-        let squares: f64 = of.iter().map(|one| (one - mean).powi(2)).sum();
-        (squares * number / (number - 1.0)).sqrt()
+        let mean = of.iter().sum::<f64>() / of.len() as f64;
+        of.iter().map(|one| (one - mean).powi(2)).sum::<f64>().sqrt()
     };
     [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
 }
@@ -108,14 +107,17 @@ mod tests {
             values.iter().map(|value| (0..8).map(|block| 7.0 + value * slope(block)).collect()).collect()
         };
         let alternating = block_error(&values, &costs(&|block| [2.0, -2.0][block % 2]));
-        assert!(is_close(alternating, (8.0_f64 / 7.0 * 32.0).sqrt()), "{alternating}");
+        assert!(is_close(alternating, 32.0_f64.sqrt()), "{alternating}");
         // Approach against retraction: joined to two segments, of influences of 8 and -8.
         let branches = block_error(&values, &costs(&|block| if block < 4 { 2.0 } else { -2.0 }));
-        assert!(is_close(branches, (2.0_f64 * 128.0).sqrt()), "{branches}");
-        // A mean influence, which a population aside of the minimum has, is no scatter.
+        assert!(is_close(branches, 128.0_f64.sqrt()), "{branches}");
+        // One block has no scatter, and a mean influence, which a population aside of the minimum has, is no scatter.
         let error = block_error(&values, &costs(&|_| 2.0));
         assert!(error.abs() < 1e-9, "{error}");
-        assert_eq!(block_error(&values, &[]), 0.0);
+        assert_eq!(
+            (block_error(&values, &[]), block_error(&[1.0, 2.0], &[vec![1.0], vec![3.0]])),
+            (0.0, 0.0)
+        );
     }
 
     #[test]

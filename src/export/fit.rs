@@ -27,8 +27,7 @@ impl Report for FitReport<'_> {
         if !fit.describes() {
             let times = format_quantity(fit.misfit, "1");
             sheet.paragraph(&format!(
-                "The model does not describe the curve: in contact the residual is {times} times the noise. The intervals are \
-                 by the scatter over parts of the curve."
+                "The model does not describe the curve: in contact the residual is {times} times the noise."
             ));
         }
         sheet.heading(&format!("Curve {title}"));
@@ -49,12 +48,9 @@ impl Report for FitReport<'_> {
         let rows = fit.parameters.iter().map(row);
         sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
         let [residual, noise] = [fit.residual, curve.noise].map(|force| format_quantity(force, "N"));
-        let [times, in_contact] =
-            [fit.residual_over_noise, fit.misfit].map(|times| format_quantity(times, "1"));
         sheet.heading(&format!(
-            "Residual {residual}, {times} times the noise of {noise}; {} % of the points are beyond 5 times the noise. In \
-             contact {in_contact} times the noise, where single points count little. {} curves were computed.",
-            format_rounded(100.0 * fit.beyond_five_sigma, 2, "1"),
+            "Residual {residual}, noise {noise}; in contact {} times the noise. {} curves were computed.",
+            format_quantity(fit.misfit, "1"),
             grouped(fit.evaluations as u64)
         ));
         if let Some(work) = fit.work_at_most {
@@ -103,8 +99,6 @@ impl Report for FitReport<'_> {
             "describes": fit.describes(),
             "residual": fit.residual,
             "noise": curve.noise,
-            "residual_over_noise": fit.residual_over_noise,
-            "beyond_five_sigma": fit.beyond_five_sigma,
             "misfit": fit.misfit,
             "points_used": curve.points,
             "points_left_out": curve.missing,

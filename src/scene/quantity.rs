@@ -249,6 +249,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn an_uncertainty_determines_the_digits_of_a_value() {
+        for (value, uncertainty, text) in [
+            (50.0512e-3, 0.13e-3, "50.05 mJ/m²"),
+            (-7.577_123_456e-6, 4.3e-11, "-7.5771235 µm"),
+            (5.0, 13.0, "5 m"),
+            (0.3, 13.0, "0 m"),
+            (0.0, 1.0, "0 m"),
+            (99.96, 1.0, "100 m"),
+            (1.234_56, 0.0, "1.235 m"),
+            (1.234_56, f64::INFINITY, "1.235 m"),
+        ] {
+            let unit = text.split_once(' ').unwrap().1.trim_start_matches(['m', 'µ']);
+            let unit = if unit.is_empty() { "m" } else { unit };
+            assert_eq!(format_within(value, uncertainty, unit), text);
+        }
+    }
+
+    #[test]
     fn what_people_type_is_read() {
         for (unit, all) in [
             ("Pa", "2.5 MPa = 2.5e6; 2.5e6 = 2.5e6; 2.5M = 2.5e6; 2 E = 2e18; 2EPa = 2e18; 2E3Pa = 2e3"),

@@ -1,0 +1,176 @@
+//! Curves of scenes with known values, for tests.
+
+use super::MeasuredCurve;
+use super::fit::{Fit, FitOptions, fit};
+use super::parameter::Parameter;
+use super::options::{CurveOptions, Drift};
+use super::scene::radius_of;
+use crate::contact::CurvePoint;
+use crate::scene::{Adhesion, Document, Material, Move, Scene, open};
+use crate::simulation::Simulation;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+/// Scene and disturbances from which a curve is made.
+pub(super) struct Made {
+    pub scene: Scene,
+    pub offset: f64,
+    pub noise: f64,
+    pub drift: f64,
+}
+
+pub(super) fn stiffness(scene: &Scene) -> f64 {
+    scene.loading_stiffness.unwrap()
+}
+
+/// Displacements and forces at 500 almost evenly spaced displacements of approach and of retraction: points of a fine curve
+/// at which d + F/k first goes so far.
+pub(super) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
+    let mut fine = scene.clone();
+    fine.numerics.samples = 1 << 18;
+    let fine = fine.checked().unwrap();
+    let outcome = Simulation::default().run(&fine, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let legs = &outcome.history.legs;
+    let base = |point: &CurvePoint| point.indentation + point.force / stiffness(scene);
+    let top = legs[0].curve.iter().map(base).fold(f64::MIN, f64::max);
+    let low = -0.5 * top - legs[1].curve.iter().map(|point| base(point).abs()).fold(0.0, f64::max);
+    let mut points = Vec::new();
+    for (leg, sign) in legs.iter().zip([1.0, -1.0]) {
+        let mut at = 0;
+        for index in 0..500 {
+            let share = index as f64 / 499.0;
+            let wanted = if sign > 0.0 { low + share * (top - low) } else { top + share * (low - top) };
+            while at < leg.curve.len() && sign * base(&leg.curve[at]) < sign * wanted {
+                at += 1;
+            }
+            let last = if sign > 0.0 { leg.curve.last() } else { None };
+            points.push(match leg.curve.get(at).or(last).filter(|_| sign < 0.0 || wanted > 0.0) {
+                Some(point) => (base(point), point.force),
+                None => (wanted, 0.0),
+            });
+        }
+    }
+    points
+}
+
+/// Normally distributed noise of 1000 points, N.
+pub(super) fn gauss(deviation: f64, seed: u64) -> Vec<f64> {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let mut one = || {
+        let [one, other]: [f64; 2] = [generator.random(), generator.random()];
+        deviation * (-2.0 * (1.0 - one).ln()).sqrt() * (std::f64::consts::TAU * other).cos()
+    };
+    (0..1000).map(|_| one()).collect()
+}
+
+/// Noise of the force at each point, N.
+pub(super) fn noise(made: &Made, seed: u64) -> Vec<f64> {
+    gauss(made.noise, seed)
+}
+
+/// The curve with noise, drift, an offset and a zero, in nm and µN.
+pub(super) fn measured(made: &Made, seed: u64) -> MeasuredCurve {
+    let points = force_curve(&made.scene).into_iter().zip(noise(made, seed)).enumerate();
+    let disturbed = points.map(|(index, ((displacement, force), noise))| {
+        (displacement + made.offset, force + noise + made.drift * index as f64 / 1000.0 + 3e-7)
+    });
+    read(disturbed, Drift::Remove)
+}
+
+/// The curve of these displacements, m, and forces, N.
+pub(super) fn read(points: impl Iterator<Item = (f64, f64)>, drift: Drift) -> MeasuredCurve {
+    let mut text = "displacement [nm],force [uN]\n".to_owned();
+    points
+        .for_each(|(displacement, force)| writeln!(text, "{},{}", displacement * 1e9, force * 1e6).unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("curve.csv");
+    std::fs::write(&path, &text).unwrap();
+    MeasuredCurve::read(&path, &CurveOptions { drift, ..CurveOptions::default() }).unwrap()
+}
+
+/// A sphere without adhesion on rubber (Hertz): R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm; 100 points there and back, with a
+/// force of this multiple of that of Hertz at an indentation, m, and a direction of 1 or -1.
+pub(super) fn rubber(deviation: f64, seed: u64, times: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+    let force = |indentation: f64| 4.0 / 3.0 * 2e6 * (7.5e-6 * indentation.max(0.0).powi(3)).sqrt();
+    let point = |(index, noise): (usize, f64)| {
+        let (way, direction) = if index < 100 { (index, 1.0) } else { (199 - index, -1.0) };
+        let indentation = (way as f64 / 99.0 - 0.5) * 2e-6;
+        let force = force(indentation) * times(indentation, direction);
+        (2e-6 + indentation + force / 3.0, force + noise)
+    };
+    gauss(deviation, seed).into_iter().take(200).enumerate().map(point).collect()
+}
+
+/// The scene of [`rubber`] with this work of adhesion, J/m², and modulus, Pa.
+pub(super) fn on_rubber(work: f64, modulus: f64) -> Document {
+    let changes = [
+        ("form.radius", "7.5e-6"),
+        ("length", "2.4e-5"),
+        ("loading_stiffness", "3"),
+        ("numerics.points", "256"),
+        ("adhesion.work", &format!("{work:e}")),
+        ("material", &format!("(effective_modulus: {modulus:e})")),
+    ];
+    open("jkr-sphere")
+        .unwrap()
+        .set_all(&changes.map(|(path, value)| (path.to_owned(), value.to_owned())))
+        .unwrap()
+}
+
+/// A smooth or a rough sphere on a compliant instrument, with noise of 1 % of its pull-off force.
+pub(super) fn random(seed: u64, points: u64) -> Made {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let mut between = |low: f64, high: f64| low * (high / low).powf(generator.random::<f64>());
+    let name = if seed.is_multiple_of(2) { "jkr-sphere" } else { "rough-sphere" };
+    let mut scene = Scene::clone(open(name).unwrap().scene());
+    scene.numerics.points = points;
+    scene.set_seed(seed);
+    let (modulus, work) = (2.7e6 * between(0.5, 2.0), 0.05 * between(0.5, 2.0));
+    (scene.material, scene.adhesion) = (Material::effective(modulus), Some(Adhesion::by_work(work)));
+    let radius = radius_of(&scene).unwrap();
+    scene.loading = vec![Move::ToForce(1.5 * PI * work * radius * between(1.0, 4.0)), Move::ToSeparation];
+    // Contact radius at pull-off of a sphere.
+    let contact = (radius * radius * 9.0 * PI * work / (8.0 * modulus)).cbrt();
+    scene.loading_stiffness = Some(2.0 * modulus * contact * between(0.5, 10.0));
+    let checked = scene.clone().checked().unwrap();
+    let outcome = Simulation::default().run(&checked, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let force = outcome.figures.adhesion_force.unwrap();
+    Made { scene, offset: 1e-6 * between(0.1, 1.0), noise: 0.01 * force, drift: 0.1 * force }
+}
+
+pub(super) fn truth(made: &Made, parameter: Parameter) -> f64 {
+    match parameter {
+        Parameter::Work => made.scene.adhesion.unwrap().work.unwrap(),
+        Parameter::Modulus => made.scene.material.effective_modulus(),
+        Parameter::Offset => made.offset,
+        Parameter::Stiffness => stiffness(&made.scene),
+        _ => 0.0,
+    }
+}
+
+pub(super) fn fit_from(curve: &MeasuredCurve, document: &Document, free: &str) -> Fit {
+    let free = free.split(',').map(|one| one.parse().unwrap()).collect();
+    fit(curve, document, &FitOptions { free, lines: 1, jobs: 1 }, &|| false, &mut |_| ()).unwrap()
+}
+
+/// The fit of free parameters that begin far from the truth.
+pub(super) fn fitted(curve: &MeasuredCurve, made: &Made, free: &str) -> Fit {
+    let mut scene = made.scene.clone();
+    scene.adhesion = Some(Adhesion::by_work(3.0 * truth(made, Parameter::Work)));
+    if free.contains("modulus") {
+        scene.material = Material::effective(0.5 * truth(made, Parameter::Modulus));
+    }
+    if free.contains("stiffness") {
+        scene.loading_stiffness = Some(3.0 * stiffness(&made.scene));
+    }
+    fit_from(curve, &Document::from_scene(&scene, "made").unwrap(), free)
+}
+
+/// Free parameters of the fit of a seed.
+pub(super) fn free(seed: u64) -> &'static str {
+    let free =
+        ["work,modulus,offset", "work,offset", "work,modulus,offset,zero", "work,modulus,offset,stiffness"];
+    free[(seed / 2 % 4) as usize]
+}
