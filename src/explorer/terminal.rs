@@ -78,8 +78,8 @@ impl Drop for TerminalGuard {
     }
 }
 
-/// Leaves the screen, and then raw mode: outside of raw mode a Ctrl+C makes the terminal throw away output that it has not
-/// read yet.
+/// Leaves the screen, and then raw mode: outside of raw mode a Ctrl+C makes the system throw away output that the terminal
+/// has not read yet.
 fn give_back(mouse: bool) -> io::Result<()> {
     let mouse = if mouse { MOUSE_OFF } else { "" };
     let left = execute!(io::stdout(), Print(mouse), DisableBracketedPaste, LeaveAlternateScreen, Show);
@@ -87,10 +87,12 @@ fn give_back(mouse: bool) -> io::Result<()> {
     left.and(disable_raw_mode())
 }
 
-/// Waits until the terminal has the output.
+/// Waits until the output has been sent and, since a pseudo-terminal does not say when that is read, for a moment.
 #[cfg(unix)]
 fn wait_until_written() {
+    const READING: std::time::Duration = std::time::Duration::from_millis(20);
     let _ = rustix::termios::tcdrain(rustix::stdio::stdout());
+    std::thread::sleep(READING);
 }
 
 /// Output is written at once on other systems.

@@ -84,13 +84,16 @@ fn scene((place, entry): (usize, &Entry), is_selected: bool, theme: Theme) -> Li
         (None, false) => "  ",
     };
     let origin = match entry.origin {
-        Source::BuiltIn => format!("built-in {}", place + 1),
-        Source::Own => "own".to_owned(),
-        Source::Working => "here".to_owned(),
+        Source::BuiltIn => "built-in",
+        Source::Own => "own",
+        Source::Working => "here",
     };
     let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
+    // The number finds a built-in scene.
+    let number = if entry.origin == Source::BuiltIn { (place + 1).to_string() } else { String::new() };
+    let number = Span::styled(format!("{number:>2} "), theme.style(Meaning::Quiet));
     let name = Span::styled(format!("{mark}{}", entry.name), style);
-    Line::from_iter([name, Span::styled(format!("  {origin}"), theme.style(Meaning::Quiet))])
+    Line::from_iter([number, name, Span::styled(format!("  {origin}"), theme.style(Meaning::Quiet))])
 }
 
 fn text(entry: &Entry, width: u16, theme: Theme) -> Vec<Line<'static>> {

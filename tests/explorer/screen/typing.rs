@@ -96,7 +96,7 @@ fn a_number_alone_has_the_unit_of_its_row_and_the_row_says_so() {
             ("adhesion.work", "50m", "50 mJ/m²", "(work: 0.05)"),
             ("loading.0.0", "60", "60 µN", "[ToForce(6.0e-5), ToSeparation]"),
             ("loading.1", "-2", "-2 µN", "[ToForce(2.0e-5), ToForce(-2.0e-6)]"),
-            ("loading.0.0", "indentation 20", "indentation 20 m", ""),
+            ("loading.0.0", "indentation 20", "20 m", ""),
         ] {
             let scene = rough().set_all(&[("adhesion".into(), "(work: 0.0044)".into())]).unwrap();
             let mut driver = Driver::start(scene);
