@@ -15,12 +15,14 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   asperity fit curve.csv jkr-sphere --free work,offset
-  asperity fit curve.txt my-scene.ron --free work,modulus,offset --units nm,nN --drift remove
+  asperity fit curve.txt my-scene.ron --free work,modulus,offset --units nm,nN --tilt remove
+  asperity fit curve.csv my-scene.ron --free work,modulus,offset --segments 2
   asperity fit curve.csv rough.ron --free work=1mJ/m^2..1J/m^2,offset --lines 16 -o fit.json
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
-retraction. JSON is one object with the parameters and their errors; CSV and .npy hold the columns
+retraction, or a retraction alone that ends without contact. A form.radius of two round bodies
+is R1 R2/(R1 + R2). JSON is one object with the parameters and their errors; CSV and .npy hold the columns
 displacement, force, model, residual and segment. docs/experiment.md lists the parameters.";
 
 /// Arguments of `fit`.

@@ -18,7 +18,7 @@ const MOST_POINTS: usize = 4096;
 const FEWEST_POINTS: usize = 4 * FEWEST;
 /// Noise over the range of the force in a curve without noise.
 const NO_NOISE: f64 = 1e-6;
-/// Mean force at the end of the approach in standard deviations of the noise below which the sign is in doubt.
+/// Force in standard deviations of the noise that is a tension: at the end of the approach its sign is in doubt.
 const PULLS: f64 = -5.0;
 
 /// A measured curve in SI units: displacement of the instrument that grows on pressing, m, and force, N, without that
@@ -47,8 +47,9 @@ pub struct MeasuredCurve {
     turns: Vec<f64>,
     /// True at the points of a pause.
     pub(super) is_still: Vec<bool>,
-    /// Changes of the force over time and over the displacement that remain in the curve, N: 0 where there is none.
-    pub(super) remaining: [f64; 2],
+    /// Changes of the force over time, over the displacement, and from before to after contact that remain in the curve, N: 0
+    /// where there is none.
+    pub(super) remaining: [f64; 3],
     /// Share of time and of displacement of each point in those of the whole curve.
     pub(super) shares: [Vec<f64>; 2],
     /// True if the zero of the force, a drift and a tilt are estimated from the points without contact and taken off.
@@ -93,13 +94,14 @@ impl MeasuredCurve {
             points.segment.fill(1);
             statements.push("A retraction alone: the model is loaded up to its first point.".to_owned());
         } else if is_single && options.segments != [1] {
-            let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without                            contact; --segments 1 for an approach alone";
+            let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without \
+                           contact; --segments 1 for an approach alone";
             return refused("the displacement does not turn: one segment", allowed);
         }
         let negate = points.reverse(options.negate)?;
         let free = FreeParts::of(&points, options, averaged, least)?;
         let noise = options.noise.unwrap_or(free.line(&points).noise).max(least);
-        let (slopes, text) = free.take_off_lines(&mut points, options, noise)?;
+        let (remaining, text) = free.take_off_lines(&mut points, options, noise)?;
         check_sign(&points, options, noise)?;
         let kept = kept(&points, options)?;
         let grouped_of = |count: usize| grouped(count as u64);
@@ -114,9 +116,9 @@ impl MeasuredCurve {
             _ => format!("{} after contact", sum(&|index| index >= points.counts.len() - free.after)),
         };
         statements.push(format!(
-            "{} points in {} segments, {} left out since a value is missing, {place}.",
+            "{} points in {}, {} left out since a value is missing, {place}.",
             grouped_of(count),
-            last + 1 - points.segment[0],
+            if last == points.segment[0] { "1 segment".to_owned() } else { format!("{} segments", last + 1) },
             grouped_of(missing)
         ));
         if averaged > 1 {
@@ -161,7 +163,7 @@ impl MeasuredCurve {
             averaged,
             turns,
             is_still: kept.iter().map(|index| points.is_still[*index]).collect(),
-            remaining: slopes,
+            remaining,
             shares: free.shares.each_ref().map(|shares| of_kept(shares)),
             is_estimated: [
                 options.zero.is_none(),
@@ -175,6 +177,18 @@ impl MeasuredCurve {
     /// Displacements at which the segments end, m.
     pub fn turns(&self) -> Vec<f64> {
         self.turns.clone()
+    }
+
+    /// Largest tension of the curve, N.
+    pub(super) fn largest_tension(&self) -> f64 {
+        -ends(self.force.iter().copied()).0
+    }
+
+    /// Largest tension of the retractions, N, if it exceeds the noise.
+    pub fn pull_off_force(&self) -> Option<f64> {
+        let pulled = self.force.iter().zip(&self.segment).filter(|(_, segment)| *segment % 2 == 1);
+        let force = -ends(pulled.map(|(force, _)| *force)).0;
+        (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
     /// Straight lines of the zero of the force, of a removed drift and of a removed tilt, of length 1 and at right angles,
@@ -301,7 +315,7 @@ mod tests {
         let mut text = "displacement [nm],force [nN]\nNaN,1\n0,\n".to_owned();
         points(100_000).into_iter().for_each(|(d, f)| writeln!(text, "{d},{f}").unwrap());
         let curve = read(text.as_bytes(), &CurveOptions::default()).unwrap();
-        assert_eq!((curve.missing, curve.averaged), (2, 25));
+        assert_eq!((curve.missing, curve.averaged, curve.points), (2, 25, 100_000));
         assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 3, "{:?}", curve.statements);
         assert!((curve.force[2000] / 1e-7 - 1.0).abs() < 0.01, "{:e}", curve.force[2000]);
     }
@@ -320,6 +334,142 @@ mod tests {
         assert!((known.force[599] - without.force[599]).abs() < 2e-10);
     }
 
+    const HEADER: &str = "displacement [nm],force [nN]\n";
+
+    fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
+        points.into_iter().fold(HEADER.to_owned(), |all, (d, f)| all + &format!("{d},{f}\n"))
+    }
+
+    /// A curve of `count` points, so many of them in the approach.
+    fn few(count: usize, approach: usize) -> String {
+        let at =
+            |index: usize| if index < approach { 10 * index } else { 10 * approach - 7 * (index - approach) };
+        lines((0..count).map(|index| (at(index) as f64, (at(index) as f64 - 90.0).max(0.0))))
+    }
+
+    fn shuffled() -> String {
+        let all = points(600);
+        lines((0..600).map(|index| all[index * 251 % 600]))
+    }
+
+    fn retraction_first() -> String {
+        let all = points(600);
+        lines(all[300..].iter().chain(&all[..300]).copied())
+    }
+
+    /// Tables of analysis programs and instruments, also with approach and retraction side by side.
+    #[test]
+    fn exports_of_other_programs_are_read_without_options() {
+        let all = points(600);
+        let expected = read(lines(all.iter().copied()).as_bytes(), &CurveOptions::default()).unwrap();
+        let joined = |head: &str, line: &dyn Fn(usize) -> String| {
+            (0..600).fold(head.to_owned(), |all, index| all + &line(index) + "\n")
+        };
+        let tab = "# afmformats\n# BEGIN METADATA\n# {}\n# END METADATA\n# force\theight (measured)\theight (piezo)\ttime\n";
+        let tab = joined(tab, &|index| {
+            format!("{:e}\t{:e}\t0\t{index}", all[index].1 * 1e-9, -all[index].0 * 1e-9)
+        });
+        let jpk = "# segment: extend\n# columns: time height vDeflection\n# fancyNames: \"a b\" \"c d\"\n# units: s m N\n";
+        let jpk = joined(jpk, &|index| {
+            let again = if index == 300 { "# segment: retract\n" } else { "" };
+            format!("{again}{index} {:e} {:e}", all[index].0 * 1e-9, all[index].1 * 1e-9)
+        });
+        // The retraction along the same direction as the approach, and with minus signs of a spreadsheet.
+        let side =
+            (0..300).fold("Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n".to_owned(), |text, index| {
+                let (one, other) = (all[index], all[599 - index]);
+                text + &format!("{};{};{};{}\n", one.0, one.1, other.0, other.1)
+            });
+        let one_height = (0..300)
+            .fold("x [nm],approach force [nN],retract force [nN]\n".to_owned(), |text, index| {
+                text + &format!("{},{},{}\n", all[index].0, all[index].1, all[599 - index].1)
+            });
+        for (text, reversed) in
+            [(tab, true), (jpk, false), (side.replace('-', "\u{2212}"), false), (one_height, false)]
+        {
+            let found = read(text.as_bytes(), &CurveOptions::default()).unwrap();
+            let pairs = found.force.iter().zip(&expected.force);
+            assert!(pairs.into_iter().all(|(one, other)| (one - other).abs() < 1e-20), "{text:.60}");
+            assert_eq!((found.free, &found.segment), (expected.free, &expected.segment));
+            assert_eq!(found.statements.iter().any(|text| text.starts_with("Reversed")), reversed);
+        }
+        let words = joined("d [nm],f [nN],s\n", &|index| {
+            format!("{},{},{}", all[index].0, all[index].1, ["extend", "retract"][index / 300])
+        });
+        let found = read(words.as_bytes(), &columns(&["d", "f", "s"])).unwrap();
+        assert_eq!((found.segment[299], found.segment[300]), (0, 1));
+    }
+
+    #[test]
+    fn units_of_the_command_line_overrule_those_of_the_file() {
+        let text = text("Piezo [nm],Deflection [nm]\n", |d, f| format!("{},{}", d / 1e3, f / 4.0));
+        let options =
+            CurveOptions { units: vec!["um".to_owned(), "4nN".to_owned()], ..CurveOptions::default() };
+        let curve = read(text.as_bytes(), &options).unwrap();
+        assert!((curve.turns()[0] / 5e-8 - 1.0).abs() < 0.01 && (curve.force[300] / 1e-7 - 1.0).abs() < 0.01);
+        assert_eq!(curve.statements[0], "Unit of the displacement by --units: um; the file states nm.");
+        assert_eq!(curve.statements[1], "Unit of the force by --units: 4nN; the file states nm.");
+    }
+
+    /// Drift over time and tilt over the displacement, told apart by the parts before and after contact; a force that differs
+    /// before and after contact is neither.
+    #[test]
+    fn what_remains_without_contact_is_named_with_its_remedy() {
+        let made = |drift: f64, tilt: f64, step: f64| {
+            lines(points(600).into_iter().enumerate().map(|(index, (d, f))| {
+                let step = if index < 300 { 0.0 } else { step };
+                (d, f + drift * index as f64 / 599.0 + tilt * (d + 100.0) / 150.0 + step)
+            }))
+        };
+        let read = |text: &str, drift, tilt| {
+            read(text.as_bytes(), &CurveOptions { drift, tilt, ..CurveOptions::default() }).unwrap()
+        };
+        let keep = |text: &str| read(text, Drift::Keep, Tilt::Keep).remaining.map(|one| (one * 1e9).round());
+        assert_eq!(keep(&made(0.0, 0.0, 0.0)), [0.0; 3]);
+        assert_eq!(keep(&made(0.0, 3.0, 0.0)), [0.0, 3.0, 0.0]);
+        assert_eq!(keep(&made(-3.0, 0.0, 0.0)), [-3.0, 0.0, 0.0]);
+        assert_eq!(keep(&made(2.0, -4.0, 0.0)), [2.0, -4.0, 0.0]);
+        assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
+        let tilted = made(0.0, 3.0, 0.0);
+        let stated = |drift, tilt| read(&tilted, drift, tilt).statements.concat();
+        assert!(stated(Drift::Keep, Tilt::Keep).contains("A tilt remains: --tilt remove takes it off."));
+        assert!(!stated(Drift::Keep, Tilt::Keep).contains("--drift"));
+        assert!(!stated(Drift::Keep, Tilt::Remove).contains("remains"));
+        let without = read(&made(2.0, 3.0, 0.0), Drift::Remove, Tilt::Remove);
+        let plain = read(&made(0.0, 0.0, 0.0), Drift::Keep, Tilt::Keep);
+        assert!(without.force.iter().zip(&plain.force).all(|(one, other)| (one - other).abs() < 1e-10));
+    }
+
+    /// The approach gives zero and contact of a retraction; a retraction alone has both at its end.
+    #[test]
+    fn chosen_segments_are_used_without_pauses() {
+        let mut all = points(600);
+        let pause = (0..200).map(|index| (50.0, 101.0 - 0.02 * f64::from(index))).collect::<Vec<_>>();
+        let segments =
+            |numbers: &[usize]| CurveOptions { segments: numbers.to_vec(), ..CurveOptions::default() };
+        let whole = read(lines(all.iter().copied()).as_bytes(), &CurveOptions::default()).unwrap();
+        let retraction = read(lines(all.iter().copied()).as_bytes(), &segments(&[2])).unwrap();
+        assert_eq!((retraction.points, retraction.free, retraction.segment[0]), (300, 0, 1));
+        assert_eq!((&retraction.force[..], retraction.touch), (&whole.force[300..], whole.touch));
+        assert_eq!(retraction.turns(), whole.turns());
+        let alone = read(lines(all[300..].iter().copied()).as_bytes(), &CurveOptions::default()).unwrap();
+        assert_eq!((alone.points, alone.segment[0], alone.turns().len()), (300, 1, 2));
+        assert!(alone.force.iter().zip(&retraction.force).all(|(one, other)| (one - other).abs() < 5e-11));
+        assert!((alone.touch - whole.touch).abs() < 2e-9, "{} {}", alone.touch, whole.touch);
+        let approach = read(lines(all[..300].iter().copied()).as_bytes(), &segments(&[1])).unwrap();
+        assert_eq!((&approach.force[..], approach.turns().len()), (&whole.force[..300], 2));
+        all.splice(300..300, pause);
+        let paused = read(lines(all.iter().copied()).as_bytes(), &CurveOptions::default()).unwrap();
+        assert_eq!(paused.points, 800);
+        assert!(
+            paused.statements.concat().contains("--segments 1,2 leaves them out"),
+            "{:?}",
+            paused.statements
+        );
+        let moving = read(lines(all.iter().copied()).as_bytes(), &segments(&[1, 2])).unwrap();
+        assert!((590..=600).contains(&moving.points), "{}", moving.points);
+    }
+
     #[test]
     fn what_is_no_curve_is_refused() {
         let header = "displacement [nm],force [nN]\n";
@@ -333,7 +483,45 @@ mod tests {
                 "no contact: ",
             ),
             // A curve that begins in contact: it has no line before a change.
-            (text(header, |d, f| comma(d, f + (d + 100.0).powi(2))), plain(), "no contact: "),
+            (
+                text(header, |d, f| comma(d, f + (d + 100.0).powi(2))),
+                plain(),
+                "no part before contact: the force",
+            ),
+            (text(header, |d, f| comma(d, f + 9.0 * d)), plain(), "no part before contact: the force"),
+            (
+                text(header, |d, _| comma(d, 9.0 * d + (d * 7.0).sin())),
+                plain(),
+                "no contact, or contact from the first",
+            ),
+            (few(42, 17), plain(), "17 points in the approach are too few"),
+            (shuffled(), plain(), "the displacement goes to and fro"),
+            (
+                text(header, |d, f| comma(-d, f))
+                    .lines()
+                    .skip(1)
+                    .fold(header.to_owned(), |all, line| all + line + "\n"),
+                CurveOptions { negate: Some(Negate::None), ..plain() },
+                "the body moves away",
+            ),
+            (retraction_first(), plain(), "the first segment begins in contact and ends without it"),
+            (
+                text(header, comma) + "1e11,0\n",
+                plain(),
+                "line 602: a displacement of 1e2 m far from all others",
+            ),
+            (text(header, comma) + "0,1e299\n", plain(), "line 602: a force of 1e290 N"),
+            (text(header, comma) + &"9".repeat(400) + ",0\n", plain(), "line 602: column 1: \"999"),
+            (
+                text(header, comma),
+                CurveOptions { noise: Some(-5e-9), ..plain() },
+                "a noise of -0.000000005 N",
+            ),
+            (
+                text(header, comma),
+                CurveOptions { segments: vec![3], ..plain() },
+                "--segments 3: the curve has no such segment",
+            ),
             (
                 text(header, comma).lines().take(302).collect::<Vec<_>>().join("\n"),
                 plain(),

@@ -5,11 +5,13 @@ use super::limits::{check_curve, check_options};
 use super::model::Model;
 use super::parameter::{Coordinate, Free, Parameter, Values};
 use super::population::WRONG_SIDE;
+use super::reason::{Reason, reason};
 use super::scene::{most_on_closing, radius_of, values_of, with_values, written_out, wrong};
 use super::search::{MISFIT, Search};
 use super::space::Space;
 use super::statistics::{block_error, correlated, correlation, spread, widen};
 use super::{ExperimentError, MeasuredCurve, refused};
+use crate::analysis::scene_tabor_number;
 use crate::parallel::on_threads;
 use crate::scene::{Document, Solver, format_within};
 use crate::simulation::Simulation;
@@ -79,6 +81,10 @@ pub struct Fit {
     pub misfit: f64,
     /// Upper end of the interval of the work of adhesion, J/m², if a curve without adhesion describes the measured one as well.
     pub work_at_most: Option<f64>,
+    /// Tabor number of the scene with the values found.
+    pub tabor: Option<f64>,
+    /// Why the model does not describe the curve, if it does not.
+    pub reason: Option<Reason>,
     /// Correlation of each pair of parameters.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
     /// Pairs that the curve does not separate; one parameter twice that the curve does not determine.
@@ -168,21 +174,29 @@ pub fn fit(
     let work_at_most = work.filter(|_| is_without_adhesion).map(|work| work.interval.1);
     let model =
         curve.force.iter().zip(&rests).map(|(measured, rest)| measured - rest * curve.noise).collect();
-    let is_free = |parameter| space.coordinates.iter().any(|one| one.parameter == parameter);
+    let free: Vec<Parameter> = space.coordinates.iter().map(|one| one.parameter).collect();
+    let found = with_values(&document, &values, |parameter| free.contains(&parameter), curve)?;
+    let (_, governing) = simulation.contact(found.scene())?;
+    let tabor = scene_tabor_number(found.scene(), &governing);
+    let misfit = space.misfit(&rests);
+    let reason =
+        (misfit > MISFIT).then(|| reason(curve, found.scene(), &mut simulation, (&values, &free), tabor));
     let residual_over_noise = (dot(&rests, &rests) / rests.len() as f64).sqrt();
-    let beyond = rests.iter().filter(|rest| rest.abs() > 5.0).count();
+    let beyond = rests.iter().filter(|rest| rest.abs() > WRONG_SIDE).count();
     Ok(Fit {
         parameters,
         residual: curve.noise * residual_over_noise,
+        misfit,
         residual_over_noise,
         beyond_five_sigma: beyond as f64 / rests.len() as f64,
-        misfit: space.misfit(&rests),
         work_at_most,
+        tabor,
+        reason: reason.transpose()?,
         correlations,
         not_distinguished,
         evaluations,
         model,
-        document: with_values(&document, &values, is_free, curve)?,
+        document: found,
     })
 }
 

@@ -86,26 +86,27 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
 }
 
 /// Drift and tilt of the force at points without contact: changes of the force over the whole curve, N, with their standard
-/// errors, from the first to the last point and over the range of the displacement.
+/// errors, from the first to the last point and over the range of the displacement; and the step of the force from the part
+/// before contact to that after it, which is no slope.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Slopes {
     pub zero: f64,
     pub drift: (f64, f64),
     pub tilt: (f64, f64),
+    pub step: (f64, f64),
 }
 
 impl Slopes {
-    /// Slopes through points of time and displacement, as shares of the whole curve, and force; only those asked for differ
-    /// from 0. `None` if the points do not tell them apart.
-    pub fn through(points: &[[f64; 3]], has_drift: bool, has_tilt: bool) -> Option<Slopes> {
+    /// Slopes through points of time and displacement, as shares of the whole curve, 1 after contact and 0 before it, and
+    /// force; only those asked for differ from 0. `None` if the points do not tell them apart.
+    pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let mut columns = vec![vec![1.0; points.len()]];
-        columns.extend(has_drift.then(|| column(0)));
-        columns.extend(has_tilt.then(|| column(1)));
-        let mut found = least_squares(&columns, &column(2))?.into_iter();
+        columns.extend((0..3).filter(|of| is_asked[*of]).map(column));
+        let mut found = least_squares(&columns, &column(3))?.into_iter();
         let zero = found.next()?.0;
-        let mut slope = |is_asked: bool| if is_asked { found.next() } else { Some((0.0, 0.0)) };
-        Some(Slopes { zero, drift: slope(has_drift)?, tilt: slope(has_tilt)? })
+        let mut slope = |of: usize| if is_asked[of] { found.next() } else { Some((0.0, 0.0)) };
+        Some(Slopes { zero, drift: slope(0)?, tilt: slope(1)?, step: slope(2)? })
     }
 }
 
@@ -139,4 +140,74 @@ pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<
         found[index] = (value, noise * dot(&row, &row).sqrt());
     }
     Some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// Values of a curve with normal noise of this standard deviation.
+    fn noisy(values: impl Iterator<Item = f64>, noise: f64, seed: u64) -> Vec<f64> {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut gauss = || (0..12).map(|_| generator.random::<f64>()).sum::<f64>() - 6.0;
+        values.map(|value| value + noise * gauss()).collect()
+    }
+
+    /// The force of a sphere without adhesion, 1 at the end, which touches after this share of the points.
+    fn hertz(count: usize, touch: f64) -> impl Iterator<Item = f64> {
+        let share = move |index: usize| (index as f64 / count as f64 - touch).max(0.0) / (1.0 - touch);
+        (0..count).map(move |index| share(index).powf(1.5))
+    }
+
+    /// Noise up to 5 % of the largest force hides no contact; the later the contact is found, the less of it is beyond the
+    /// noise.
+    #[test]
+    fn contacts_are_found_under_noise() {
+        for (count, seed) in [(200, 1), (200, 2), (200, 3), (500, 4), (500, 5), (500, 6)] {
+            for noise in [0.001, 0.02, 0.05] {
+                for touch in [0.3, 0.6] {
+                    let values = noisy(hertz(count, touch), noise, seed);
+                    let free = free_count(&values, 0.0).unwrap() as f64 / count as f64;
+                    let late = touch + (1.0 - touch) * (1.5 * noise).powf(2.0 / 3.0) + 0.02;
+                    assert!((touch - 0.1..late).contains(&free), "{count} {noise} {touch}: {free}");
+                }
+                let snap = (0..count)
+                    .map(|index| if 2 * index < count { 0.0 } else { index as f64 / count as f64 - 0.95 });
+                let free = free_count(&noisy(snap, noise, seed), 0.0).unwrap();
+                assert!(free.abs_diff(count / 2) <= count / 20, "{count} {noise}: {free}");
+            }
+            let flat = noisy((0..count).map(|index| 0.01 * index as f64), 1.0, seed);
+            assert!(matches!(free_count(&flat, 0.0), Err(NoBaseline::Straight(..))), "{count}");
+        }
+    }
+
+    /// Weak first contact is no noise: a force of a few noises long before the strong one.
+    #[test]
+    fn weak_contact_is_not_part_of_the_noise() {
+        for seed in 1..=6 {
+            let force = |index: usize| {
+                let weak = 0.02 * (index as f64 - 250.0).max(0.0) / 100.0;
+                weak + (index as f64 - 400.0).max(0.0).powf(1.5) / 1000.0
+            };
+            let values = noisy((0..500).map(force), 0.002, seed);
+            let free = free_count(&values, 0.0).unwrap();
+            let noise = Line::through(&values[..free]).noise / 0.002;
+            assert!((0.85..1.2).contains(&noise), "{seed}: {free} {noise}");
+        }
+    }
+
+    #[test]
+    fn coefficients_are_found_with_their_errors() {
+        let columns: Vec<Vec<f64>> = (0..3)
+            .map(|power| (0..400).map(|index| (f64::from(index) / 400.0).powi(power)).collect())
+            .collect();
+        let value = |index: usize| 1.0 - 2.0 * columns[1][index] + 3.0 * columns[2][index];
+        let found = least_squares(&columns, &noisy((0..400).map(value), 0.1, 7)).unwrap();
+        for ((value, error), expected) in found.into_iter().zip([1.0, -2.0, 3.0]) {
+            assert!((value - expected).abs() < 3.0 * error && error < 0.1, "{value} ± {error}");
+        }
+        assert_eq!(least_squares(&[columns[0].clone(), columns[0].clone()], &columns[1]), None);
+    }
 }

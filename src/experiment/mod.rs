@@ -16,6 +16,7 @@ mod parameter;
 mod points;
 mod population;
 mod read;
+mod reason;
 mod scene;
 mod search;
 mod segment;
@@ -27,6 +28,7 @@ pub use curve::MeasuredCurve;
 pub use fit::{Fit, FitOptions, FittedParameter, fit};
 pub use options::{CurveOptions, Drift, Negate, Tilt};
 pub use parameter::{Free, Parameter};
+pub use reason::Reason;
 
 use crate::contact::ContactError;
 use crate::simulation::RunError;
@@ -57,8 +59,3 @@ impl From<ContactError> for ExperimentError {
 fn refused<T>(fault: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
     Err(ExperimentError::Refused(fault.into(), allowed.into()))
 }
-
-#[cfg(test)]
-mod coverage;
-#[cfg(test)]
-mod made;

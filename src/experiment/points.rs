@@ -41,6 +41,19 @@ impl Points {
         self.segment.partition_point(|one| *one < number)..self.segment.partition_point(|one| *one <= number)
     }
 
+    /// Place of a segment without the pause at its turn.
+    pub fn moving(&self, number: usize) -> Range<usize> {
+        let of = self.of(number);
+        let Range { mut start, mut end } = of.clone();
+        let pause = |index: &usize| self.is_still[*index];
+        if number % 2 == 1 {
+            start += of.clone().take_while(pause).count();
+        } else {
+            end -= of.rev().take_while(pause).count();
+        }
+        start..end
+    }
+
     /// Reverses the quantities so that pressing is positive, as asked for or as the first segment has it.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.of(self.segment[0]);
@@ -80,7 +93,7 @@ impl Points {
 
     /// Number of the last points, those after contact.
     pub fn free_at_the_end(&self, least: f64) -> Option<usize> {
-        let last = self.of(*self.segment.last()?);
+        let last = self.moving(*self.segment.last()?);
         let reversed: Vec<f64> = self.force[last].iter().rev().copied().collect();
         free_count(&reversed, least).ok()
     }

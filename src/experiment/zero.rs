@@ -28,7 +28,7 @@ impl FreeParts {
         least: f64,
     ) -> Result<Self, ExperimentError> {
         let count = points.force.len();
-        let approach = &points.force[points.of(0)];
+        let approach = &points.force[points.moving(0)];
         let is_retraction = approach.is_empty();
         let asked = options.free_points.map(|free| free / averaged);
         let before = match asked.filter(|_| !is_retraction) {
@@ -43,7 +43,8 @@ impl FreeParts {
             if needs_approach { (before, approach.len()) } else { (before.or(Ok(after)), count) };
         let free = number.map_or_else(|why| refuse_baseline(why, points, approach, least), Ok)?;
         if !(FEWEST..of).contains(&free) {
-            let fault = format!("no part without contact: {free} of {of} points");
+            let place = if needs_approach { "before" } else { "without" };
+            let fault = format!("no part {place} contact: {free} of {of} points");
             return refused(fault, format!("at least {FEWEST}, found or by --free-points"));
         }
         let (low, high) = ends(points.displacement.iter().copied());
@@ -74,13 +75,13 @@ impl FreeParts {
         points.displacement[points.of(1).start + crossing.unwrap_or(end / 2)]
     }
 
-    /// Takes zero, drift and tilt off as asked for. Returns the slopes that remain, N, and says all that.
+    /// Takes zero, drift and tilt off as asked for. Returns drift, tilt and step that remain, N, and says all that.
     pub fn take_off_lines(
         &self,
         points: &mut Points,
         options: &CurveOptions,
         noise: f64,
-    ) -> Result<([f64; 2], String), ExperimentError> {
+    ) -> Result<([f64; 3], String), ExperimentError> {
         let [time, displacement] = &self.shares;
         let (count, base) = (points.force.len(), self.base());
         let mean = |values: &[f64]| values[base.clone()].iter().sum::<f64>() / base.len() as f64;
@@ -90,18 +91,20 @@ impl FreeParts {
         }
         let has_both = self.before.is_some() && self.after >= FEWEST;
         let ends = if has_both { count - self.after..count } else { 0..0 };
-        let free: Vec<[f64; 3]> = base
-            .clone()
-            .chain(ends)
-            .map(|index| [time[index], displacement[index], points.force[index]])
-            .collect();
+        let point = |index: usize| {
+            let is_after = f64::from(u8::from(!base.contains(&index)));
+            [time[index], displacement[index], is_after, points.force[index]]
+        };
+        let free: Vec<[f64; 4]> = base.clone().chain(ends).map(point).collect();
         let is_removed = [options.drift == Drift::Remove, options.tilt == Tilt::Remove];
-        let Some(slopes) = Slopes::through(&free, is_removed[0], is_removed[1]) else {
+        let remains = |(value, error): (f64, f64)| value.abs() > noise.max(REMAINS * error);
+        let with_step = Slopes::through(&free, [true; 3]).filter(|slopes| has_both && remains(slopes.step));
+        let Some(slopes) = Slopes::through(&free, [is_removed[0], is_removed[1], with_step.is_some()]) else {
             let fault = "drift and tilt are one line in the part before contact, and there is none after it";
             return refused(fault, "one of --drift remove and --tilt remove");
         };
-        let both = Slopes::through(&free, true, true).filter(|_| has_both);
-        let stated = both.or_else(|| Slopes::through(&free, true, false)).unwrap_or_default();
+        let both = with_step.or_else(|| Slopes::through(&free, [true, true, false]).filter(|_| has_both));
+        let stated = both.or_else(|| Slopes::through(&free, [true, false, false])).unwrap_or_default();
         let taken = [slopes.drift.0, slopes.tilt.0];
         let found = slopes.zero + taken[0] * middle[0] + taken[1] * middle[1];
         let zero = options.zero.unwrap_or(if is_removed == [false; 2] { mean(&points.force) } else { found });
@@ -135,8 +138,12 @@ impl FreeParts {
                 if is_removed[1] { "was removed" } else { drift }
             );
         }
-        let remains = |(value, error): (f64, f64)| value.abs() > noise.max(REMAINS * error);
-        let mut remaining = [0.0; 2];
+        let mut remaining = [0.0, 0.0, stated.step.0];
+        if with_step.is_some() {
+            let step = newton(stated.step.0);
+            text +=
+                &format!(" Beside these lines the force after contact differs by {step} from that before.");
+        }
         if has_both {
             for (of, (slope, name)) in
                 [(stated.drift, "drift"), (stated.tilt, "tilt")].into_iter().enumerate()

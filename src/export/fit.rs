@@ -2,12 +2,14 @@
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
+use super::summary::tabor_number;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
 use crate::io::{Table, object};
-use crate::scene::{format_quantity, format_rounded};
+use crate::scene::{Form, format_quantity, format_rounded};
 use crate::text::grouped;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 /// A curve and its fit.
 #[derive(Clone, Copy, Debug)]
@@ -24,10 +26,11 @@ impl Report for FitReport<'_> {
     fn text(&self) -> Option<String> {
         let FitReport { title, curve, fit } = *self;
         let mut sheet = Sheet::default();
-        if !fit.describes() {
-            let times = format_quantity(fit.misfit, "1");
+        if let Some(reason) = &fit.reason {
+            let times = format_quantity(fit.residual_over_noise, "1");
             sheet.paragraph(&format!(
-                "The model does not describe the curve: in contact the residual is {times} times the noise."
+                "The model does not describe the curve: the residual is {times} times the noise. {reason} The intervals \
+                 are by the scatter over parts of the curve."
             ));
         }
         sheet.heading(&format!("Curve {title}"));
@@ -49,13 +52,25 @@ impl Report for FitReport<'_> {
         sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
         let [residual, noise] = [fit.residual, curve.noise].map(|force| format_quantity(force, "N"));
         sheet.heading(&format!(
-            "Residual {residual}, noise {noise}; in contact {} times the noise. {} curves were computed.",
-            format_quantity(fit.misfit, "1"),
+            "Residual {residual}, {} times the noise of {noise}; {} of the points deviate by more than 5 times the noise. {} \
+             curves were computed.",
+            format_quantity(fit.residual_over_noise, "1"),
+            format_args!("{} %", format_rounded(100.0 * fit.beyond_five_sigma, 2, "1")),
             grouped(fit.evaluations as u64)
         ));
         if let Some(work) = fit.work_at_most {
             let work = format_rounded(work, 2, "J/m²");
             sheet.paragraph(&format!("γ is at most {work}: a curve without adhesion describes it as well."));
+        }
+        if let Some(force) = curve.pull_off_force() {
+            let work = self.pull_off_work(force).map_or_else(String::new, |work| {
+                let work = format_quantity(work, "J/m²");
+                format!("; by itself, for any E* and k, it gives γ = F/(1.5πR) = {work}")
+            });
+            sheet.paragraph(&format!("Pull-off force of the curve {}{work}.", format_quantity(force, "N")));
+        }
+        if let Some(number) = fit.tabor {
+            sheet.paragraph(&format!("Tabor number μ = {}.", tabor_number(number)));
         }
         let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
         if let Some((one, other, value)) = strongest {
@@ -96,10 +111,16 @@ impl Report for FitReport<'_> {
         let pair = |&(one, other): &(Parameter, Parameter)| [one.name(), other.name()];
         Some(Box::new(object! {
             "parameters": fit.parameters.iter().map(parameter).collect::<BTreeMap<_, _>>(),
-            "describes": fit.describes(),
+            "described": fit.describes(),
+            "reason": fit.reason.map(|reason| reason.to_string()),
             "residual": fit.residual,
             "noise": curve.noise,
+            "residual_over_noise": fit.residual_over_noise,
+            "beyond_five_sigma": fit.beyond_five_sigma,
             "misfit": fit.misfit,
+            "pull_off_force": curve.pull_off_force(),
+            "pull_off_work": curve.pull_off_force().and_then(|force| self.pull_off_work(force)),
+            "tabor": fit.tabor,
             "points_used": curve.points,
             "points_left_out": curve.missing,
             "correlations": fit.correlations.iter().map(correlation).collect::<Vec<_>>(),
@@ -147,6 +168,15 @@ impl Report for FitReport<'_> {
         let notes = vec![Label::plain(&format!("95 % intervals: {}", found.collect::<Vec<_>>().join(", ")))];
         let charts = vec![Chart::new(x(), force, layers), Chart::new(x(), rest, rests)];
         Some(Figure { title: title.to_owned(), notes, charts, size: Figure::SMALL, ..Figure::default() })
+    }
+}
+
+impl FitReport<'_> {
+    /// Work of adhesion, J/m², of a smooth sphere with this pull-off force, N (Johnson, Kendall and Roberts).
+    fn pull_off_work(&self, force: f64) -> Option<f64> {
+        let scene = self.fit.document.scene();
+        let Some(Form::Paraboloid { radius }) = scene.form else { return None };
+        scene.roughness.is_none().then_some(force / (1.5 * PI * radius))
     }
 }
 

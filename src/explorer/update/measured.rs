@@ -103,11 +103,13 @@ fn sentence(fit: &Fit) -> String {
         format!("{} {} ({interval})", one.parameter.row().2, one.text(one.value))
     };
     let found = fit.parameters.iter().map(found).collect::<Vec<_>>().join(", ");
-    let times = format_quantity(fit.misfit, "1");
-    match fit.describes() {
-        true => format!("fit: {found}; u undoes"),
-        false => {
-            format!("the scene does not describe the curve, residual {times} × noise; {found}; u undoes")
+    match fit.reason {
+        None => format!("fit: {found}; u undoes"),
+        Some(reason) => {
+            let times = format_quantity(fit.residual_over_noise, "1");
+            format!(
+                "the scene does not describe the curve, residual {times} × noise; {found}; {reason} u undoes"
+            )
         }
     }
 }

@@ -197,7 +197,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
         facts.push(of_loop(format!("F_max {}{error}", force(largest)), Meaning::Title));
     }
     if let Some(measured) = &app.measured {
-        let times = |fit: &Fit| format!("{} × noise", format_quantity(fit.misfit, "1"));
+        let times = |fit: &Fit| format!("{} × noise", format_quantity(fit.residual_over_noise, "1"));
         let residual = match measured::failure(app) {
             Some(why) => why.to_owned(),
             None => measured::fitted(app).map_or_else(|| "…".to_owned(), times),

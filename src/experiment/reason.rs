@@ -1,0 +1,363 @@
+//! The reason why a model does not describe a curve, by the pattern of its residuals.
+
+use super::baseline::{dot, ends, right_angled, take_off};
+use super::free::least_squares;
+use super::model::Model;
+use super::parameter::{Parameter, Values};
+use super::{ExperimentError, MeasuredCurve};
+use crate::analysis::LEAST_TABOR_NUMBER;
+use crate::scene::{CheckedScene, Form, format_quantity};
+use crate::simulation::Simulation;
+use std::fmt;
+
+/// Share of the length in contact of a body that is longer than its profile, and fewest springs in contact.
+const FULL: f64 = 0.99;
+const FEWEST_SPRINGS: u64 = 20;
+/// Jump between two points over the noise, and over the largest tension: a sphere on a rigid instrument jumps by 5/9 of it.
+const JUMPS: f64 = 20.0;
+const RIGID: f64 = 0.65;
+/// Share of the squared residuals that a pattern explains.
+const EXPLAINS: f64 = 0.4;
+/// Tabor number of an attraction that is no adhesion of Johnson, Kendall and Roberts at all.
+const LONG_RANGE: f64 = 1.0;
+/// Slope of the force over the stiffness of an instrument that does not allow it, and the part of the way from first touch to
+/// the turn, and fewest points there, by which it is found.
+const STEEPER: f64 = 1.03;
+const PRESSED: f64 = 0.2;
+const FEWEST: usize = 5;
+/// Relative step of a derivative, and change of the force over its range that is a jump and no derivative.
+const STEP: f64 = 1e-3;
+const LEAPS: f64 = 0.02;
+/// Residual over their median that counts no further: a point on the wrong side of a jump.
+const CUT: f64 = 5.0;
+
+/// Why a model does not describe a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason {
+    /// The contact fills the profile of this length, m.
+    ShortProfile(f64),
+    /// So few springs are in contact at most.
+    CoarseProfile(u64),
+    /// The force jumps by this, N, on an instrument that the scene takes as rigid.
+    Rigid(f64),
+    /// Residuals at pauses.
+    Pause,
+    /// Slopes of the force where nothing touches: over time, and over the displacement.
+    Slopes(bool, bool),
+    /// The force differs before and after contact by this, N.
+    Step(f64),
+    /// Attraction of long range: its Tabor number.
+    TaborNumber(f64),
+    /// Approach and retraction differ.
+    Branches,
+    /// The force rises by so many N/m, more than the stiffness of the instrument in the scene allows.
+    Stiffness(f64),
+    /// Approach and retraction deviate alike: another stiffness of the instrument, or another form or profile.
+    StiffnessOrForm,
+    /// Another form or profile.
+    Form,
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Reason::ShortProfile(length) => {
+                let length = format_quantity(length, "m");
+                write!(out, "The contact fills the profile of {length}: it needs a larger length.")
+            }
+            Reason::CoarseProfile(springs) => write!(
+                out,
+                "Few springs are in contact, {springs} at most: the profile needs more numerics.points, or a smaller length."
+            ),
+            Reason::Rigid(jump) => write!(
+                out,
+                "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
+                format_quantity(jump, "N")
+            ),
+            Reason::Pause => out.write_str(
+                "Most of the residual is at pauses, where the body creeps or relaxes: --segments 1,2 leaves them out.",
+            ),
+            Reason::Slopes(over_time, over_displacement) => {
+                let (slope, remedy) = match (over_time, over_displacement) {
+                    (true, false) => ("drifts over time", "--drift remove takes it off"),
+                    (false, true) => ("has a slope over the displacement", "--tilt remove takes it off"),
+                    _ => ("has slopes over time and displacement", "--drift remove --tilt remove takes them off"),
+                };
+                write!(out, "The force {slope} where nothing touches: {remedy}.")
+            }
+            Reason::Step(step) => write!(
+                out,
+                "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the \
+                 retraction alone.",
+                format_quantity(step, "N")
+            ),
+            Reason::TaborNumber(number) => write!(
+                out,
+                "The Tabor number is {}, below {LEAST_TABOR_NUMBER}: attraction of this range is not that of Johnson, Kendall \
+                 and Roberts.",
+                format_quantity(number, "1")
+            ),
+            Reason::Branches => out.write_str(
+                "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres \
+                 less on closing. --free closing_work tries the second, --segments 2 fits the retraction alone.",
+            ),
+            Reason::Stiffness(slope) => write!(
+                out,
+                "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
+                format_quantity(slope, "N/m")
+            ),
+            Reason::StiffnessOrForm => out.write_str(
+                "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or \
+                 the body another form or profile.",
+            ),
+            Reason::Form => out.write_str("Another form or profile than that of the scene is likely."),
+        }
+    }
+}
+
+/// The reason why a scene with these values does not describe a curve, for these free parameters.
+///
+/// # Errors
+/// A failure of the computation.
+pub(super) fn reason(
+    curve: &MeasuredCurve,
+    scene: &CheckedScene,
+    simulation: &mut Simulation,
+    (values, free): (&Values, &[Parameter]),
+    tabor: Option<f64>,
+) -> Result<Reason, ExperimentError> {
+    if let Some(reason) = of_profile(scene, simulation) {
+        return Ok(reason);
+    }
+    let is_rigid = scene.loading_stiffness.is_none() && !free.contains(&Parameter::Stiffness);
+    let jump = largest_jump(curve);
+    if is_rigid && jump > JUMPS * curve.noise && jump > RIGID * curve.largest_tension() {
+        return Ok(Reason::Rigid(jump));
+    }
+    let mut model = Model::new(curve, scene, simulation);
+    let forces = model.forces(values)?;
+    let mut rests: Vec<f64> = curve.force.iter().zip(&forces).map(|(force, model)| force - model).collect();
+    let lines = curve.lines(free.contains(&Parameter::Zero));
+    lines.iter().for_each(|line| {
+        take_off(&mut rests, line);
+    });
+    let squares = dot(&rests, &rests);
+    let still = rests.iter().zip(&curve.is_still).filter(|(_, is_still)| **is_still);
+    if 2.0 * still.map(|(rest, _)| rest * rest).sum::<f64>() > squares {
+        return Ok(Reason::Pause);
+    }
+    let residual = (squares / rests.len() as f64).sqrt();
+    let [drift, tilt, step] = curve.remaining.map(|slope| slope.abs() > residual);
+    if drift || tilt {
+        return Ok(Reason::Slopes(drift, tilt));
+    }
+    if step && curve.segment.first() != curve.segment.last() {
+        return Ok(Reason::Step(curve.remaining[2]));
+    }
+    let low = tabor.filter(|number| *number < LEAST_TABOR_NUMBER);
+    if let Some(number) = low.filter(|number| *number < LONG_RANGE) {
+        return Ok(Reason::TaborNumber(number));
+    }
+    let stiffness = values[Parameter::Stiffness as usize];
+    let is_stated = stiffness.is_finite() && !free.contains(&Parameter::Stiffness);
+    let slope = slope_when_pressed(curve);
+    if is_stated && slope > STEEPER * stiffness {
+        return Ok(Reason::Stiffness(slope));
+    }
+    if curve.segment.first() != curve.segment.last()
+        && branches_differ(curve, &mut model, (values, free), (&forces, rests, lines))?
+    {
+        return Ok(Reason::Branches);
+    }
+    let other = if is_stated { Reason::StiffnessOrForm } else { Reason::Form };
+    Ok(low.map_or(other, Reason::TaborNumber))
+}
+
+/// A contact that fills its profile, or has few springs.
+fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
+    let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).ok()?;
+    let points = || outcome.history.legs.iter().flat_map(|leg| &leg.curve);
+    let length = ends(points().map(|point| point.contact_length)).1;
+    let springs = points().map(|point| point.springs).max()?;
+    let grows = !matches!(scene.form, None | Some(Form::Punch { .. }));
+    if grows && length >= FULL * outcome.line.length {
+        return Some(Reason::ShortProfile(outcome.line.length));
+    }
+    (springs < FEWEST_SPRINGS).then_some(Reason::CoarseProfile(springs))
+}
+
+/// Largest change of the force between two points of a segment, N.
+fn largest_jump(curve: &MeasuredCurve) -> f64 {
+    let pairs =
+        curve.segment.windows(2).zip(curve.force.windows(2)).filter(|(segment, _)| segment[0] == segment[1]);
+    pairs.map(|(_, force)| (force[1] - force[0]).abs()).fold(0.0, f64::max)
+}
+
+/// Slope of the force over the displacement in the last fifth of the first approach, or the first one of a retraction, N/m.
+fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
+    let (touch, turn) = (curve.touch, curve.turns()[0]);
+    let first = curve.segment.iter().zip(curve.displacement.iter().zip(&curve.force));
+    let pressed = first.filter(|(segment, (at, _))| {
+        Some(*segment) == curve.segment.first() && **at > turn - PRESSED * (turn - touch)
+    });
+    let points: Vec<(f64, f64)> = pressed.map(|(_, (at, force))| (at - turn, *force)).collect();
+    let columns = [vec![1.0; points.len()], points.iter().map(|point| point.0).collect()];
+    let forces: Vec<f64> = points.iter().map(|point| point.1).collect();
+    let slope = (points.len() >= FEWEST).then(|| least_squares(&columns, &forces)).flatten();
+    // Less what the noise may add.
+    slope.map_or(0.0, |found| found[1].0 - 3.0 * found[1].1)
+}
+
+/// Returns true if another modulus or work of adhesion of the retractions alone explains most of the residuals, beside small
+/// changes of the free parameters: their effects are linear.
+fn branches_differ(
+    curve: &MeasuredCurve,
+    model: &mut Model<'_>,
+    (values, free): (&Values, &[Parameter]),
+    (forces, mut rests, mut columns): (&[f64], Vec<f64>, Vec<Vec<f64>>),
+) -> Result<bool, ExperimentError> {
+    let (low, high) = ends(curve.force.iter().copied());
+    let mut change = |parameter: Parameter| -> Result<Vec<f64>, ExperimentError> {
+        let mut moved = *values;
+        let unit = match parameter {
+            Parameter::Offset => curve.turns()[0] - values[Parameter::Offset as usize],
+            Parameter::Zero => high - low,
+            _ => -values[parameter as usize],
+        };
+        moved[parameter as usize] += STEP * unit;
+        let most = moved[Parameter::Work as usize];
+        moved[Parameter::ClosingWork as usize] = moved[Parameter::ClosingWork as usize].min(most);
+        let changed = model.forces(&moved)?;
+        let is_leap = |change: f64| !(change.abs() <= LEAPS * (high - low));
+        let changes = changed.iter().zip(forces).map(|(one, other)| one - other);
+        Ok(changes.map(|change| if is_leap(change) { 0.0 } else { change }).collect())
+    };
+    for parameter in free {
+        columns.push(change(*parameter)?);
+    }
+    let mut candidates = vec![change(Parameter::Modulus)?];
+    if values[Parameter::Work as usize] > 0.0 {
+        candidates.push(change(Parameter::Work)?);
+    }
+    // A point on the wrong side of a jump counts no more than others.
+    let mut sizes: Vec<f64> = rests[curve.free..].iter().map(|rest| rest.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let most = CUT * sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    rests.iter_mut().for_each(|rest| *rest = rest.clamp(-most, most));
+    let basis = right_angled(&columns);
+    let rest_of = |column: &mut Vec<f64>| {
+        basis.iter().for_each(|one| {
+            take_off(column, one);
+        });
+    };
+    rest_of(&mut rests);
+    let whole = dot(&rests, &rests);
+    let explains = |mut column: Vec<f64>| {
+        let of_approach = column.iter_mut().zip(&curve.segment).filter(|(_, segment)| **segment % 2 == 0);
+        of_approach.for_each(|(one, _)| *one = 0.0);
+        rest_of(&mut column);
+        dot(&rests, &column).powi(2) > EXPLAINS * dot(&column, &column) * whole
+    };
+    Ok(candidates.into_iter().any(explains))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::options::CurveOptions;
+    use super::super::scene::values_of;
+    use super::*;
+    use crate::scene::{Document, open};
+    use std::fmt::Write;
+
+    const HERTZ: [(&str, &str); 6] = [
+        ("form.radius", "7.5e-6"),
+        ("length", "2.4e-5"),
+        ("material", "(effective_modulus: 2e6)"),
+        ("adhesion", "None"),
+        ("loading_stiffness", "3"),
+        ("numerics.points", "256"),
+    ];
+
+    fn scene(changes: &[(&str, &str)]) -> Document {
+        let changes = changes.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned()));
+        open("jkr-sphere").unwrap().set_all(&changes.collect::<Vec<_>>()).unwrap()
+    }
+
+    /// Force of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3 N/m: by bisection of d + F/k.
+    fn hertz(modulus: f64, at: f64) -> f64 {
+        let force = |d: f64| 4.0 / 3.0 * modulus * (7.5e-6 * d.powi(3)).sqrt();
+        let (mut low, mut high) = (0.0, at.max(0.0));
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *if middle + force(middle) / 3.0 < at { &mut low } else { &mut high } = middle;
+        }
+        force(low)
+    }
+
+    /// The reason for a curve of these points, displacement in µm from first touch, force in µN and noise of 1 nN, against a
+    /// scene.
+    fn found(points: impl Iterator<Item = (f64, f64)>, changes: &[(&str, &str)]) -> Reason {
+        let mut text = "displacement [um],force [uN]\n".to_owned();
+        for (index, (at, force)) in points.enumerate() {
+            writeln!(text, "{at},{}", force + if index % 2 == 0 { 1e-3 } else { -1e-3 }).unwrap();
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        std::fs::write(&path, text).unwrap();
+        let curve = MeasuredCurve::read(&path, &CurveOptions::default()).unwrap();
+        let document = curve.load(&scene(&[&HERTZ, changes].concat()), 0.0).unwrap();
+        let mut simulation = Simulation::default();
+        let (_, governing) = simulation.contact(document.scene()).unwrap();
+        let values = values_of(document.scene(), &governing);
+        let tabor = crate::analysis::scene_tabor_number(document.scene(), &governing);
+        let free = [Parameter::Modulus, Parameter::Offset];
+        reason(&curve, document.scene(), &mut simulation, (&values, &free), tabor).unwrap()
+    }
+
+    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, at a displacement, m, and a time from 0
+    /// to 1.
+    fn curve(approach: impl Fn(f64, f64) -> f64, retraction: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+        let point = |index: i32| {
+            let time = f64::from(index) / 399.0;
+            let at =
+                if index < 200 { f64::from(index) / 99.5 - 1.0 } else { 1.0 - f64::from(index - 199) / 99.5 };
+            (at, 1e6 * if index < 200 { approach(1e-6 * at, time) } else { retraction(1e-6 * at, time) })
+        };
+        (0..400).map(point).collect()
+    }
+
+    fn elastic(at: f64, _: f64) -> f64 {
+        hertz(2e6, at)
+    }
+
+    #[test]
+    fn each_pattern_has_its_reason() {
+        let both = || curve(elastic, elastic).into_iter();
+        // A sphere of another modulus is a change by a free parameter.
+        assert_eq!(found(both(), &[("material", "(effective_modulus: 1.9e6)")]), Reason::StiffnessOrForm);
+        assert_eq!(found(both(), &[("loading_stiffness", "None")]), Reason::Form);
+        assert!(
+            matches!(found(both(), &[("loading_stiffness", "0.5")]), Reason::Stiffness(slope) if slope > 0.5)
+        );
+        let stiffer = curve(elastic, |at, _| hertz(2.6e6, at - 1e-7));
+        assert_eq!(found(stiffer.into_iter(), &[]), Reason::Branches);
+        let tilted = |at: f64, time: f64| elastic(at, time) + 0.1 * at;
+        assert_eq!(found(curve(tilted, tilted).into_iter(), &[]), Reason::Slopes(false, true));
+        let drifts = |at: f64, time: f64| elastic(at, time) - 1e-7 * time;
+        assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Slopes(true, false));
+        let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
+        assert!(matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9));
+        let mut paused = curve(elastic, elastic);
+        let top = paused[199].1;
+        paused.splice(200..200, (0..200).map(|index| (1.0, top * (1.0 - f64::from(index) / 1000.0))));
+        assert_eq!(found(paused.into_iter(), &[]), Reason::Pause);
+        assert!(
+            matches!(found(both(), &[("length", "2e-6")]), Reason::ShortProfile(length) if (length - 2e-6).abs() < 1e-9)
+        );
+        assert!(matches!(found(both(), &[("length", "1e-3")]), Reason::CoarseProfile(..)));
+        let jumps = curve(elastic, |at, time| if at < 0.0 { 0.0 } else { elastic(at, time) - 5e-7 });
+        assert!(matches!(found(jumps.into_iter(), &[("loading_stiffness", "None")]), Reason::Rigid(_)));
+        let weak = [("adhesion", "(work: 1e-6)")];
+        assert!(matches!(found(both(), &weak), Reason::TaborNumber(number) if number < 1.0));
+    }
+}
