@@ -58,16 +58,19 @@ pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) 
     values.enumerate().map(add).collect()
 }
 
-/// Columns of length 1 at right angles to each other that span these columns.
+/// Columns of length 1 at right angles to each other that span these columns, 0 for one that depends on those before it.
 pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {
         let mut column = column.clone();
+        let whole = dot(&column, &column).sqrt();
         basis.iter().for_each(|other| {
             take_off(&mut column, other);
         });
         let length = dot(&column, &column).sqrt();
-        column.iter_mut().for_each(|one| *one = if length > 0.0 { *one / length } else { 0.0 });
+        // What remains of a column that depends on the others is rounding.
+        let is_other = length > 1e-9 * whole;
+        column.iter_mut().for_each(|one| *one = if is_other { *one / length } else { 0.0 });
         basis.push(column);
     }
     basis

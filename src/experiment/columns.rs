@@ -183,8 +183,14 @@ fn known(headings: &[Heading]) -> Result<Vec<[usize; 2]>, &'static str> {
     if let Some(pairs) = beside(0).zip(beside(1)) {
         return Ok(vec![pairs.0, pairs.1]);
     }
-    let one = |quantity: usize| of(quantity, None).ok_or(QUANTITIES[quantity].0);
-    Ok(vec![[one(0)?, one(1)?]])
+    match ([of(0, None), of(1, None)], headings.len()) {
+        ([Some(displacement), Some(force)], _) => Ok(vec![[displacement, force]]),
+        // Of two columns the other one.
+        ([Some(displacement), None], 2) => Ok(vec![[displacement, 1 - displacement]]),
+        ([None, Some(force)], 2) => Ok(vec![[1 - force, force]]),
+        ([None, _], _) => Err(QUANTITIES[0].0),
+        ([_, None], _) => Err(QUANTITIES[1].0),
+    }
 }
 
 fn are_unknown(headings: &[Heading]) -> bool {

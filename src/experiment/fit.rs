@@ -321,8 +321,8 @@ mod tests {
     /// The force of a rough sphere jumps at many displacements.
     #[test]
     fn a_rough_sphere_is_found_within_its_errors() {
-        let made = random(11, 1024);
-        let curve = measured(&made, 11);
+        let made = random(13, 1024);
+        let curve = measured(&made, 13);
         assert_found(&made, &fitted(&curve, &made, "work,offset"));
     }
 

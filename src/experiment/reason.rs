@@ -13,8 +13,7 @@ use std::fmt;
 /// Share of the length in contact of a body that is longer than its profile, and fewest springs in contact.
 const FULL: f64 = 0.99;
 const FEWEST_SPRINGS: u64 = 20;
-/// Jump between two points over the noise, and over the largest tension: a sphere on a rigid instrument jumps by 5/9 of it.
-const JUMPS: f64 = 20.0;
+/// Jump between two points over the pull-off force: a sphere on a rigid instrument jumps by 5/9 of it.
 const RIGID: f64 = 0.65;
 /// Share of the squared residuals that a pattern explains.
 const EXPLAINS: f64 = 0.4;
@@ -131,7 +130,7 @@ pub(super) fn reason(
     }
     let is_rigid = scene.loading_stiffness.is_none() && !free.contains(&Parameter::Stiffness);
     let jump = largest_jump(curve);
-    if is_rigid && jump > JUMPS * curve.noise && jump > RIGID * curve.largest_tension() {
+    if is_rigid && curve.pull_off_force().is_some_and(|force| jump > RIGID * force) {
         return Ok(Reason::Rigid(jump));
     }
     let mut model = Model::new(curve, scene, simulation);
@@ -186,11 +185,11 @@ fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reaso
     (springs < FEWEST_SPRINGS).then_some(Reason::CoarseProfile(springs))
 }
 
-/// Largest change of the force between two points of a segment, N.
+/// Largest rise of the force from point to point of a retraction, N: only a contact that is lost makes it rise.
 fn largest_jump(curve: &MeasuredCurve) -> f64 {
-    let pairs =
-        curve.segment.windows(2).zip(curve.force.windows(2)).filter(|(segment, _)| segment[0] == segment[1]);
-    pairs.map(|(_, force)| (force[1] - force[0]).abs()).fold(0.0, f64::max)
+    let pairs = curve.segment.windows(2).zip(curve.force.windows(2));
+    let retracting = pairs.filter(|(segment, _)| segment[0] == segment[1] && segment[0] % 2 == 1);
+    retracting.map(|(_, force)| force[1] - force[0]).fold(0.0, f64::max)
 }
 
 /// Slope of the force over the displacement in the last fifth of the first approach, or the first one of a retraction, N/m.

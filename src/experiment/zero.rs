@@ -71,8 +71,11 @@ impl FreeParts {
         }
         let in_contact = &points.force[points.of(1)];
         let end = in_contact.len().saturating_sub(self.after).max(1);
-        let crossing = in_contact[..end].iter().position(|force| *force <= 0.0).filter(|place| *place > 0);
-        points.displacement[points.of(1).start + crossing.unwrap_or(end / 2)]
+        let place = match in_contact[..end].iter().position(|force| *force <= 0.0) {
+            Some(0) => end / 2,
+            crossing => crossing.unwrap_or(end),
+        };
+        points.displacement[points.of(1).start + place.min(in_contact.len() - 1)]
     }
 
     /// Takes zero, drift and tilt off as asked for. Returns drift, tilt and step that remain, N, and says all that.
