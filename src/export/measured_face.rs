@@ -34,6 +34,8 @@ pub struct SurfaceFile {
     /// Columns and rows without measured points that are left out at the borders; points at the ends of a profile.
     pub cropped: [usize; 2],
     pub interpolated: usize,
+    /// What is odd in the file.
+    pub warnings: Vec<String>,
 }
 
 impl SurfaceFile {
@@ -43,8 +45,8 @@ impl SurfaceFile {
         let spacing = surface.spacing().unwrap_or_default();
         let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
         let (name, interpolated) = (surface.name.clone(), surface.interpolated());
-        let cropped = surface.cropped.counts();
-        SurfaceFile { path, name, format: surface.format, points, lengths, cropped, interpolated }
+        let (cropped, warnings) = (surface.cropped.counts(), surface.warnings.clone());
+        SurfaceFile { path, name, format: surface.format, points, lengths, cropped, interpolated, warnings }
     }
 
     /// Name of the file, and of the measurement in a container.
@@ -123,11 +125,15 @@ impl MeasuredFace {
         })
     }
 
-    /// Limits of an analysis that affect the user.
+    /// What is odd in the files, and limits of their analysis that affect the user.
     pub fn warnings(&self) -> Vec<String> {
         let analysis = &self.analysis;
-        let mut warnings: Vec<String> =
-            [steep(analysis.line.rms_gradient.value), self.far_apart()].into_iter().flatten().collect();
+        let of_file = |file: &SurfaceFile| {
+            let name = file.name();
+            file.warnings.iter().map(|warning| format!("{name}: {warning}")).collect::<Vec<_>>()
+        };
+        let mut warnings: Vec<String> = self.files.iter().flat_map(of_file).collect();
+        warnings.extend([steep(analysis.line.rms_gradient.value), self.far_apart()].into_iter().flatten());
         if let Some(distance) = analysis.displaced {
             warnings.push(format!(
                 "odd rows are displaced by {} along even ones, as trace and retrace are: the gradient is too large; give the rows \

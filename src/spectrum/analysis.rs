@@ -161,7 +161,8 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let apart = powers.maps.iter().map(|map| map.apart).fold(0.0, f64::max);
     let mut power_law = self_affine(&observations, &isotropic).filter(|_| apart == 0.0);
     let mut largest = [0.0_f64; 4];
-    let places = if has_gaps { 1..4 } else { 0..0 };
+    let is_resampled = surfaces.iter().any(Topography::is_resampled);
+    let places = 1..if has_gaps { 4 } else { 1 + usize::from(is_resampled) };
     for quarters in places {
         let powers = Powers::of(surfaces, options, quarters, |_, _, _| Ok(()))?;
         let observations = powers.observations(range[1]);

@@ -101,7 +101,7 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyErr
         return sdf::read(&content);
     }
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
-    reader.map_or_else(|| text::read(&content), |(_, read)| read(&content, options))
+    reader.map_or_else(|| text::read(&content, options.channel), |(_, read)| read(&content, options))
 }
 
 /// The surface of numbers, or its row or column.

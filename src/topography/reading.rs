@@ -53,6 +53,8 @@ pub(super) struct Reading {
     pub unit_between: Option<Unit>,
     /// Place of the first missing point, if the reader knows a better one than its number.
     pub first_missing: Option<Place>,
+    /// What is odd in the file.
+    pub warnings: Vec<String>,
 }
 
 impl Reading {
@@ -92,6 +94,7 @@ impl Reading {
             units,
             unit_between,
             first_missing: None,
+            warnings: Vec::new(),
         }
     }
 
@@ -125,15 +128,20 @@ impl Reading {
             return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
         }
         let [lateral_unit, height_unit] = self.units;
-        let height_option = options.height_unit.or(options.unit);
-        let height_unit = unit("heights", height_unit, height_option, options.convention, lateral_unit)?;
+        // An option for what the file does not state contradicts nothing that it states.
+        let [of_positions, of_heights] = match (lateral_unit, height_unit, options.height_unit) {
+            (None, Some(_), None) => [options.unit, None],
+            (Some(_), None, None) => [None, options.unit],
+            (_, _, of_heights) => [options.unit, of_heights.or(options.unit)],
+        };
+        let height_unit = unit("heights", height_unit, of_heights, options.convention, lateral_unit)?;
         self.heights.iter_mut().for_each(|height| *height = height_unit.to_metres(*height));
         check_range("height", &self.heights, f64::is_finite)?;
         let cropped = self.crop();
         let missing = self.has_missing(&cropped, options.interpolate)?;
-        let Reading { format, mut heights, columns, positions, spacing, unit_between, .. } = self;
+        let Reading { format, mut heights, columns, positions, spacing, unit_between, warnings, .. } = self;
         let unit =
-            |name: &str, stated: Option<Unit>| unit(name, stated, options.unit, options.convention, None);
+            |name: &str, stated: Option<Unit>| unit(name, stated, of_positions, options.convention, None);
         let even = |axis: usize| match (spacing, options.spacing) {
             (Some(spacing), _) => {
                 let unit = unit("distances", [lateral_unit, unit_between][axis])?;
@@ -166,7 +174,7 @@ impl Reading {
         let has_gaps = missing || outliers > 0;
         let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
         let surface = Topography::new(format, heights, columns, grid, interpolated)?;
-        Ok(Topography { aligned: options.align_rows, cropped, ..surface })
+        Ok(Topography { aligned: options.align_rows, cropped, warnings, ..surface })
     }
 
     /// Leaves out the rows and columns without a measured point at the borders of a map, or the points at the ends of a profile.

@@ -72,6 +72,8 @@ pub struct Topography {
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
+    /// Positions before resampling, m; empty for a surface as measured.
+    pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
     /// Name of the measurement in a container; empty for a file of its own.
@@ -79,6 +81,8 @@ pub struct Topography {
     /// Part that is no roughness, and true for a surface that repeats itself at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
+    /// What is odd in the file.
+    pub warnings: Vec<String>,
 }
 
 impl Topography {
@@ -100,7 +104,8 @@ impl Topography {
         let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
         let mut places = (1..heights.len()).filter(|index| index % columns > 0);
         let Some(index) = places.find(is_steep) else {
-            let (name, aligned, detrend, periodic) = (String::new(), false, None, false);
+            let (name, aligned, detrend, periodic, warnings) =
+                (String::new(), false, None, false, Vec::new());
             return Ok(Topography {
                 format,
                 heights,
@@ -108,10 +113,12 @@ impl Topography {
                 grid,
                 cropped: Cropped::default(),
                 interpolated,
+                resampled: Vec::new(),
                 aligned,
                 name,
                 detrend,
                 periodic,
+                warnings,
             });
         };
         let fault = format!("a slope of {:e} from the point before", slope(index));
@@ -130,11 +137,30 @@ impl Topography {
         if before > 0 { Some(0) } else { inside }
     }
 
+    /// True for a profile that was resampled.
+    pub(crate) fn is_resampled(&self) -> bool {
+        !self.resampled.is_empty()
+    }
+
     /// Copies the heights, m. With `quarters` above zero the points at this number of quarters of length and width from the
-    /// interpolated ones are interpolated too. Their change is an estimate of the error of the first interpolation.
+    /// interpolated ones are interpolated too, and a resampled profile gets back what resampling to its former positions and back
+    /// would take. The change is an estimate of the error of the first interpolation.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
+        if let (Grid::Even([spacing, _]), 1.., true) = (&self.grid, quarters, self.is_resampled()) {
+            let (former, first) = (&self.resampled, self.resampled[0]);
+            let places = gathered(columns, (0..columns).map(|index| first + index as f64 * spacing))?;
+            let there = gathered(columns, interpolated(&places, &heights, 0.0, former.iter().copied()))?;
+            let smoother = interpolated(former, &there, 0.0, places.iter().copied());
+            // What was lost before is not lost again: the more, the more the distances between points vary.
+            let squares = former.windows(2).map(|x| ((x[1] - x[0]) / spacing - 1.0).powi(2)).sum::<f64>();
+            let lost = 1.0 + (squares / (columns - 1) as f64).sqrt();
+            heights
+                .iter_mut()
+                .zip(smoother)
+                .for_each(|(height, smoother)| *height += lost * (*height - smoother));
+        }
         if quarters == 0 || self.interpolated.is_empty() {
             return Ok(heights);
         }
@@ -233,11 +259,14 @@ impl Topography {
     /// The same profile equally spaced at the mean distance: heights by linear interpolation. An equally spaced
     /// profile, or a map, is unchanged.
     pub(super) fn resampled(mut self) -> Result<Self, TopographyError> {
-        let Grid::Positions(positions) = &self.grid else { return Ok(self) };
-        let (first, spacing, points) = (positions[0], mean_distance(positions), positions.len());
+        if self.spacing().is_ok() {
+            return Ok(self);
+        }
+        let Grid::Positions(positions) = self.grid else { return Ok(self) };
+        let (first, spacing, points) = (positions[0], mean_distance(&positions), positions.len());
         let places = (0..points).map(|index| first + index as f64 * spacing);
-        self.heights = gathered(points, interpolated(positions, &self.heights, 0.0, places))?;
-        self.grid = Grid::Even([spacing; 2]);
+        self.heights = gathered(points, interpolated(&positions, &self.heights, 0.0, places))?;
+        (self.grid, self.resampled) = (Grid::Even([spacing; 2]), positions);
         Ok(self)
     }
 }
@@ -311,6 +340,11 @@ mod tests {
         assert!(error.starts_with("point 3: x = 2.5e0 m is off") && error.contains("--resample"), "{error}");
         let even = uneven.resampled().unwrap();
         assert_eq!((even.spacing(), &even.heights[..]), (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..]));
+        // A straight line stays, a corner is sharper.
+        assert_eq!(even.copied_heights(1), Ok(vec![0.0, 2.0, 4.0, 6.0]));
+        let corner = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 0.0, 6.0, 6.0]).resampled().unwrap();
+        assert_eq!((corner.copied_heights(0), corner.heights[2]), (Ok(corner.heights.clone()), 4.0));
+        assert!(corner.copied_heights(1).unwrap()[2] > 4.0);
         let digits = profile(&[0.0, 0.3333, 0.6667, 1.0], &[0.0; 4]);
         assert!((digits.spacing().unwrap()[0] - 1.0 / 3.0).abs() < 1e-15);
     }
