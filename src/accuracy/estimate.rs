@@ -234,6 +234,9 @@ pub enum ChoiceError {
     /// The scene could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A tolerance out of its range.
+    #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
+    Range(f64),
     /// The stepwise solver has an error of its own that is independent of the springs.
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
@@ -281,6 +284,9 @@ pub fn choose(
     stop: &dyn Fn() -> bool,
     trying: &mut dyn FnMut(u64),
 ) -> Result<Choice, ChoiceError> {
+    if !(tolerance > 0.0 && tolerance < 1.0) {
+        return Err(ChoiceError::Range(tolerance));
+    }
     if scene.numerics.solver != Solver::Exact {
         return Err(ChoiceError::Stepwise);
     }

@@ -83,6 +83,9 @@ impl MeasuredAdhesion {
     /// A scene without the equivalent line of a measured surface, a file that cannot be read, or the first profile that
     /// fails.
     pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
+        if count == 0 {
+            return Err(StudyError::Records("no profiles; allowed: at least one".into()));
+        }
         let scene = document.scene();
         if scene.measured().is_none() || scene.measured_as_line() {
             let reason = "the scene has no equivalent line; allowed: roughness: Measured with as_line: false";

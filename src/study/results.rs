@@ -109,6 +109,9 @@ impl Results {
         lines: u64,
         preloads: Option<&Axis>,
     ) -> Result<Results, StudyError> {
+        if lines == 0 {
+            return Err(StudyError::Records("no profiles; allowed: at least one".into()));
+        }
         if lines > 1 && scene.seed().is_none() {
             return Err(StudyError::Records(ONE_PROFILE.into()));
         }
