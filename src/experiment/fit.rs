@@ -303,7 +303,7 @@ mod tests {
         Made, fit_from, fitted, force_curve, measured, noise, on_rubber, random, read, rubber, stiffness,
         truth,
     };
-    use super::super::read::Drift;
+    use super::super::options::Drift;
     use super::*;
     use crate::scene::Move;
 

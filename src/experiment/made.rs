@@ -2,8 +2,8 @@
 
 use super::MeasuredCurve;
 use super::fit::{Fit, FitOptions, fit};
-use super::parameter::Parameter;
 use super::options::{CurveOptions, Drift};
+use super::parameter::Parameter;
 use super::scene::radius_of;
 use crate::contact::CurvePoint;
 use crate::scene::{Adhesion, Document, Material, Move, Scene, open};

@@ -201,7 +201,7 @@ impl Sampling {
 #[cfg(test)]
 mod tests {
     use super::super::made::{Made, force_curve, random, read, stiffness, truth};
-    use super::super::read::Drift;
+    use super::super::options::Drift;
     use super::super::scene::radius_of;
     use super::super::statistics::scale;
     use super::*;

@@ -111,7 +111,7 @@ pub(super) fn wrong(errors: SceneErrors) -> ExperimentError {
 #[cfg(test)]
 mod tests {
     use super::super::made::{on_rubber, read, rubber};
-    use super::super::read::Drift;
+    use super::super::options::Drift;
     use super::*;
 
     #[test]

@@ -140,8 +140,10 @@ impl Reading {
         let cropped = self.crop();
         let missing = self.has_missing(&cropped, options.interpolate)?;
         let Reading { format, mut heights, columns, positions, spacing, unit_between, warnings, .. } = self;
-        let unit =
-            |name: &str, stated: Option<Unit>| unit(name, stated, of_positions, options.convention, None);
+        let unit = |name: &str, stated: Option<Unit>| {
+            let option = if stated.is_none() { options.unit } else { of_positions };
+            unit(name, stated, option, options.convention, None)
+        };
         let even = |axis: usize| match (spacing, options.spacing) {
             (Some(spacing), _) => {
                 let unit = unit("distances", [lateral_unit, unit_between][axis])?;

@@ -9,6 +9,7 @@ use asperity::explorer::keys;
 use asperity::scene::{Document, FIELDS, LEG_FIELDS, LEG_FORCE, Range, presets};
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Plan, Quantity};
+use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 /// Longest README, rows.
