@@ -146,4 +146,5 @@ fn steep_waves_of_a_scene_agree_with_the_closed_form() {
     }
     assert_eq!(of(0.01, 0.4, 1e3), None);
     assert_eq!(of(2.0e-3, 0.1, 0.0), None);
+    assert_eq!(of(2.0e-3, 0.1, 1e-303), None, "no finite factor");
 }
