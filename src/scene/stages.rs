@@ -65,6 +65,12 @@ pub fn kind_and_number(stage: &Move) -> (usize, Option<f64>) {
     (STAGE_KINDS.iter().position(is_same).unwrap_or_default(), number)
 }
 
+/// Largest force of loading stages, N; 0 where no stage presses to a force.
+pub fn pressing_force(loading: &[Move]) -> f64 {
+    let force = |stage: &Move| if let Move::ToForce(force) = *stage { force } else { 0.0 };
+    loading.iter().map(force).fold(0.0, f64::max)
+}
+
 /// A stage in RON.
 pub fn stage_in_ron(stage: &Move) -> String {
     let (kind, number) = kind_and_number(stage);

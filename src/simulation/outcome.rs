@@ -129,14 +129,9 @@ pub enum RunError {
         /// Force at first touch, N.
         touch: f64,
     },
-    /// A stage that presses the body deeper than its length beyond full contact.
-    #[error("stage {}: {why}", index + 1)]
-    BeyondFullContact {
-        /// Place of the stage, from 0.
-        index: usize,
-        /// The target, full contact, and what is allowed.
-        why: String,
-    },
+    /// A stage that presses the body deeper than its length beyond full contact: target, full contact, and what is allowed.
+    #[error("{0}")]
+    BeyondFullContact(String),
     /// The contact could not be computed.
     #[error("{}", out_of_reach(.0, Move::ToTouch))]
     Contact(#[from] ContactError),

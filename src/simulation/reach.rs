@@ -1,6 +1,5 @@
 //! Forces that a contact does not reach or is not to reach, in words, with the nearest force within reach.
 
-use super::RunError;
 use crate::contact::{Contact, ContactError};
 use crate::scene::{Move, format_quantity};
 use crate::text::round_to;
@@ -47,7 +46,7 @@ impl Reach {
 }
 
 /// Refuses a loading with a stage out of reach.
-pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), RunError> {
+pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), String> {
     let length = contact.foundation().length;
     // Even without the way to full contact most loadings are within reach.
     let is_near = |stage: &Move| match *stage {
@@ -59,8 +58,7 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), RunError>
         return Ok(());
     }
     let reach = Reach::of(contact);
-    let refused = loading.iter().enumerate().find_map(|(index, stage)| Some((index, reach.refusal(*stage)?)));
-    refused.map_or(Ok(()), |(index, why)| Err(RunError::BeyondFullContact { index, why }))
+    loading.iter().find_map(|stage| reach.refusal(*stage)).map_or(Ok(()), Err)
 }
 
 /// Force by which full contact resists one length of the profile more, N.
@@ -94,7 +92,7 @@ pub(super) fn rounded_up(value: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::scene::{Document, open};
-    use crate::simulation::{Outcome, Simulation};
+    use crate::simulation::{Outcome, RunError, Simulation};
 
     fn run(document: &Document, stage: Move) -> Result<Outcome, RunError> {
         let document = document.with_stages(&[(None, stage)]).unwrap();
@@ -128,7 +126,8 @@ mod tests {
                 assert!((deepest.indentation / reach.indentation - 1.0).abs() < 1e-6, "{name} {field:?}");
                 let refused = run(&document, stage(1.001 * most)).unwrap_err().to_string();
                 assert!(
-                    refused.starts_with("stage 1: ") && refused.contains("; allowed: at most "),
+                    refused.contains(" is far beyond full contact at ")
+                        && refused.contains("; allowed: at most "),
                     "{refused}"
                 );
             }

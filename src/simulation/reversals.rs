@@ -36,7 +36,7 @@ impl Simulation {
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
         let plan = Plan::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
-        reach::check(&contact, ends)?;
+        reach::check(&contact, ends).map_err(RunError::BeyondFullContact)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
             if stop() { Err(ContactError::Interrupted) } else { Ok(()) }

@@ -11,7 +11,7 @@ use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::scene::{
     Computed, Document, Move, Range, SceneErrors, Solver, Step, exact_quantity, kind_and_number,
-    loading_text, parse_quantity, read_stage, ron_float,
+    loading_text, parse_quantity, pressing_force, read_stage, ron_float,
 };
 
 /// Moves the selection in the list of parameters, as far as there are rows.
@@ -184,16 +184,10 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     }
 }
 
-/// Largest force of the loading stages, N; 0 where no stage presses to a force.
-pub fn pressing_force(document: &Document) -> f64 {
-    let force = |stage: &Move| if let Move::ToForce(force) = *stage { force } else { 0.0 };
-    document.scene().loading.iter().map(force).fold(0.0, f64::max)
-}
-
 /// A scene, unless it presses more than the present one and out of reach.
 fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
-    let force = pressing_force(&changed);
-    let is_more = force > pressing_force(&app.edit.document);
+    let force = pressing_force(&changed.scene().loading);
+    let is_more = force > pressing_force(&app.edit.document.scene().loading);
     let solved = app.current().filter(|_| is_more);
     solved.and_then(|solved| solved.reach.refusal(Move::ToForce(force))).map_or(Ok(changed), Err)
 }

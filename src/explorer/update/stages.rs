@@ -2,7 +2,7 @@
 
 use super::edit;
 use crate::explorer::app::{App, Player};
-use crate::scene::{Document, Move, Run, STAGE_KINDS, SceneErrors, StageKind, kind_and_number, runs};
+use crate::scene::{self, Document, Move, Run, STAGE_KINDS, SceneErrors, StageKind, kind_and_number, runs};
 use crate::text::round_to;
 
 /// Stages, those of the present loading with their places in it.
@@ -104,7 +104,10 @@ pub fn change_kind(app: &mut App, forwards: bool) {
 fn pressing_force(app: &App) -> f64 {
     let name = app.edit.document.name();
     let before = app.edit.past.iter().rev().filter(|document| document.name() == name);
-    let given = [&app.edit.document].into_iter().chain(before).map(edit::pressing_force);
+    let given = [&app.edit.document]
+        .into_iter()
+        .chain(before)
+        .map(|document| scene::pressing_force(&document.scene().loading));
     let computed = app.current().map_or(0.0, |solved| {
         round_to(
             solved.outcome.figures.preload.unwrap_or_default().max(0.01 * solved.reach.full_contact.0),

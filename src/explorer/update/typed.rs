@@ -1,11 +1,11 @@
 //! Values being typed: a number without a unit has the unit that its row shows.
 
-use super::edit::pressing_force;
 use crate::explorer::app::App;
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
 use crate::scene::{
-    format_quantity, in_unit, kind_and_number, loading_text, parse_quantity, read_stage, unit_of,
+    format_quantity, in_unit, kind_and_number, loading_text, parse_quantity, pressing_force, read_stage,
+    unit_of,
 };
 
 /// Force whose prefix a loading without a force has, N.
@@ -28,7 +28,8 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
 /// Unit of a typed force, with the prefix of the largest force of the loading or of the computed curve.
 pub fn unit_of_force(app: &App) -> String {
     let computed = || app.current().and_then(|solved| solved.outcome.figures.preload);
-    let given = [pressing_force(&app.edit.document), computed().unwrap_or_default(), USUAL_FORCE];
+    let given =
+        [pressing_force(&app.edit.document.scene().loading), computed().unwrap_or_default(), USUAL_FORCE];
     let force = given.into_iter().find(|force| *force > 0.0).unwrap_or(USUAL_FORCE);
     unit_of(&format_quantity(force, "N")).to_owned()
 }
