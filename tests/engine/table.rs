@@ -136,6 +136,8 @@ fn a_table_without_a_file_or_too_short_is_refused() {
             "point 3: r = 1.0000000000001e-6 m after 1e-6 m; allowed: ",
         ),
         ("0 0\n1e-6 NaN\n2e-6 1e-9", "point 2: the depth is missing; allowed: a number in each row"),
+        ("0 NaN\n1e-6 0\n2e-6 1e-9", "point 1: the depth is missing; allowed: a number in each row"),
+        ("0 0\n1e-6 1e-9\n2e-6 NaN", "point 3: the depth is missing; allowed: a number in each row"),
         ("0 0\n1e-6 what\n2e-6 1e-9", "line 2: \"what\"; allowed: a number"),
         ("0 0\n1e-6 1e-9\n2e-6 4e-9", "the table ends at r = 2e-6 m; allowed: length at most 4e-6 m"),
     ] {
