@@ -41,7 +41,8 @@ const DIRECTIONS: [&[&str]; 2] = [
     &["retraction", "retract", "ret", "rt", "retrace", "withdraw", "unloading", "backward"],
 ];
 /// Remedy for unknown columns.
-const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3";
+const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
+    beside its approach";
 /// Shortest word in round brackets that is part of a name, as in `height (measured)`, unless it is a unit.
 const WORD: usize = 5;
 

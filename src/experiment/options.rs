@@ -60,6 +60,7 @@ fn force(text: &str) -> Result<f64, String> {
     parse_quantity(text, "N").map_err(|error| error.to_string())
 }
 
+#[cfg(feature = "tui")]
 fn positive_force(text: &str) -> Result<f64, String> {
     let found = force(text)?;
     if found > 0.0 { Ok(found) } else { Err("allowed: a standard deviation above 0, such as 2nN".to_owned()) }

@@ -108,7 +108,7 @@ impl Columns {
         let wild = sorted.iter().filter(|at| is_wild(at)).count();
         if room > 0.0
             && (1..=(count / 50).max(1)).contains(&wild)
-            && let Some(first) = self.displacement.iter().position(|at| is_wild(at))
+            && let Some(first) = self.displacement.iter().position(&is_wild)
         {
             let (low, high) = ends(sorted.into_iter().filter(|at| !is_wild(at)));
             return Err(refused(

@@ -227,7 +227,7 @@ fn branches_differ(
         let most = moved[Parameter::Work as usize];
         moved[Parameter::ClosingWork as usize] = moved[Parameter::ClosingWork as usize].min(most);
         let changed = model.forces(&moved)?;
-        let is_leap = |change: f64| !(change.abs() <= LEAPS * (high - low));
+        let is_leap = |change: f64| change.is_nan() || change.abs() > LEAPS * (high - low);
         let changes = changed.iter().zip(forces).map(|(one, other)| one - other);
         Ok(changes.map(|change| if is_leap(change) { 0.0 } else { change }).collect())
     };

@@ -89,9 +89,12 @@ impl FreeParts {
         let (count, base) = (points.force.len(), self.base());
         let mean = |values: &[f64]| values[base.clone()].iter().sum::<f64>() / base.len() as f64;
         let middle = [mean(time), mean(displacement)];
-        if let Drift::Known(drift) = options.drift {
-            points.force.iter_mut().zip(time).for_each(|(force, at)| *force -= drift * (at - middle[0]));
-        }
+        let known = if let Drift::Known(drift) = options.drift { Some(drift) } else { None };
+        points
+            .force
+            .iter_mut()
+            .zip(time)
+            .for_each(|(force, at)| *force -= known.unwrap_or(0.0) * (at - middle[0]));
         let has_both = self.before.is_some() && self.after >= FEWEST;
         let ends = if has_both { count - self.after..count } else { 0..0 };
         let point = |index: usize| {
@@ -117,14 +120,16 @@ impl FreeParts {
         }
         let newton = |force: f64| format_quantity(force, "N");
         let does = |is_removed: bool| if is_removed { "was removed" } else { "stays" };
-        let is_known = matches!(options.drift, Drift::Known(_));
-        let drift = if is_known { "was removed as given" } else { does(is_removed[0]) };
-        let (value, error) = stated.drift;
+        let drift = match known {
+            Some(drift) => format!("{} of it was removed as given", newton(drift)),
+            None => format!("it {}", does(is_removed[0])),
+        };
+        let (value, error) = (stated.drift.0 + known.unwrap_or(0.0), stated.drift.1);
         let mut text = format!("Zero of the force at {}. ", newton(zero));
         if has_both {
             let (tilt, tilt_error) = stated.tilt;
             text += &format!(
-                "Drift over the whole curve, by the parts before and after contact: {} ± {}; it {drift}. Tilt over the range of \
+                "Drift over the whole curve, by the parts before and after contact: {} ± {}; {drift}. Tilt over the range of \
                  the displacement: {} ± {}; it {}.",
                 newton(value),
                 newton(error),
@@ -135,10 +140,10 @@ impl FreeParts {
         } else {
             let place = if self.before.is_some() { "before" } else { "after" };
             text += &format!(
-                "Drift over the whole curve, or tilt, by the part {place} contact alone: {} ± {}; it {}.",
+                "Drift over the whole curve, or tilt, by the part {place} contact alone: {} ± {}; {}.",
                 newton(value),
                 newton(error),
-                if is_removed[1] { "was removed" } else { drift }
+                if is_removed[1] { "it was removed".to_owned() } else { drift }
             );
         }
         let mut remaining = [0.0, 0.0, stated.step.0];
@@ -156,7 +161,7 @@ impl FreeParts {
                     text += &format!(" A {name} remains: --{name} remove takes it off.");
                 }
             }
-        } else if remains(stated.drift) && is_removed == [false; 2] && !is_known {
+        } else if remains(stated.drift) && is_removed == [false; 2] && known.is_none() {
             text += " A line remains: --drift remove takes it off if it is over time, --tilt remove if it is over the displacement.";
         }
         Ok((remaining, text))
