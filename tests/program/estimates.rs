@@ -1,10 +1,11 @@
 //! Stated errors against true ones, on random scenes with known finest solutions.
 //!
-//! Measured: 194 of 200 true errors are within the stated one (any resolution), 120 of 120 (resolved), and 140 of 152 (cones
-//! that adhere everywhere); the stated error is 5.9, 7.9 and 34 times the true one in the median. On cones every even number
-//! of springs has the outermost spring; where it decides, the true error is zero and the stated one is not.
+//! On cones every even number of springs has the outermost spring; where it decides, the true error is zero and the stated
+//! one is not.
 
 use super::common::effort::cases;
+use super::documentation::markdown;
+use super::generated::check;
 use asperity::accuracy::estimate;
 use asperity::scene::Document;
 use asperity::simulation::{Outcome, Simulation};
@@ -63,14 +64,60 @@ fn decided_by_one_spring(uniform: &mut dyn FnMut() -> f64) -> Document {
     cone.set_all(&adhering.map(|(path, value)| (path.to_owned(), value.to_owned()))).unwrap()
 }
 
+/// Roughness of any bandwidth and resolution, flat or on any form, with one or two works of adhesion, turned in any way.
+fn of_any_form(edges: &str, uniform: &mut dyn FnMut() -> f64) -> Document {
+    let [hurst, form, adhesion, turn] = std::array::from_fn(|_| uniform());
+    let mut between = |low: f64, high: f64| low * (high / low).powf(uniform());
+    let points = between(128.0, 2048.0) as u64;
+    let last = (points as f64 / between(2.0, 32.0)).max(2.0) as u64;
+    let first = (between(0.05, last as f64) as u64).max(1);
+    // The depth of the form at the end of the profile is a tenth to a hundred times the rms height.
+    let (half, depth) = (5.0e-5_f64, between(1.0e-8, 1.0e-5));
+    let exponent = between(1.2, 5.0);
+    let form = match (5.0 * form) as u32 {
+        0 => String::new(),
+        1 => format!("form: Paraboloid(radius: {:e}), ", half * half / depth),
+        2 => format!("form: Cone(angle: {:e}), ", (depth / half).atan()),
+        3 => format!("form: Power(coefficient: {:e}, exponent: {exponent}), ", depth / half.powf(exponent)),
+        _ => format!("form: Punch(radius: {:e}), ", between(0.2, 0.9) * half),
+    };
+    let work = between(1.0e-4, 1.0e-1);
+    let adhesion = match (3.0 * adhesion) as u32 {
+        0 => format!("work: {work:e}"),
+        1 => format!("kappa: {}", between(0.3, 30.0)),
+        _ => format!("work: {work:e}, closing_work: {:e}", work / between(1.0, 100.0)),
+    };
+    let turn = match (4.0 * turn) as u32 {
+        0 => "ToTouch".to_owned(),
+        1 => "ToZeroForce".to_owned(),
+        2 => format!("ToForce({:e})", between(1.0e-8, 1.0e-3)),
+        _ => format!("ToIndentation({:e})", between(1.0e-9, 1.0e-6)),
+    };
+    let (hurst, seed) = (0.1 + 0.85 * hurst, between(1.0, 1.0e6) as u64);
+    let text = format!(
+        "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4, {form}\
+         roughness: SelfAffine(hurst: {hurst}, rms_height: 1.0e-7, modes: ({first}, {last}), seed: {seed}), \
+         adhesion: ({adhesion}), loading: [{turn}, ToSeparation], \
+         numerics: (points: {points}, edges: {edges}, samples: 2))"
+    );
+    Document::parse(&text, "random").unwrap_or_else(|errors| panic!("{text}: {errors}"))
+}
+
+/// A random scene, and the ratio of its stated error to its true one.
+type Judged = (Document, f64);
+
 /// Ratios of stated errors to true ones on random scenes, ascending.
 fn ratios(quick: u32, seed: u8, make: fn(&mut dyn FnMut() -> f64) -> Document) -> Vec<f64> {
-    let scenes = cases(quick) as usize;
+    judged(cases(quick) as usize, seed, make).into_iter().map(|(_, ratio)| ratio).collect()
+}
+
+/// Random scenes in the order of their ratios.
+fn judged(scenes: usize, seed: u8, make: impl Fn(&mut dyn FnMut() -> f64) -> Document) -> Vec<Judged> {
     let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);
     let mut uniform = || f64::from(runner.rng().next_u32()) / (f64::from(u32::MAX) + 1.0);
-    let mut ratios = Vec::new();
-    while ratios.len() < scenes {
+    let mut judged = Vec::new();
+    while judged.len() < scenes {
         let document = make(&mut uniform);
         let outcome = run(&document);
         // An odd number, which has no spring of the scene, and suits a Fourier transform.
@@ -84,12 +131,13 @@ fn ratios(quick: u32, seed: u8, make: fn(&mut dyn FnMut() -> f64) -> Document) -
         let (Some(truth), Some(force)) = (truth, outcome.figures.adhesion_force) else { continue };
         let stated = estimate(document.scene(), Path::new(""), &outcome, &|| false).unwrap().error;
         // The finest solution itself is known only to rounding.
-        ratios.push(stated / ((force - truth).abs() / truth).max(1.0e-13));
+        let ratio = stated / ((force - truth).abs() / truth).max(1.0e-13);
+        judged.push((document, ratio));
     }
-    ratios.sort_by(f64::total_cmp);
-    let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
-    println!("{held} of {scenes} hold; median ratio {:.2}", ratios[scenes / 2]);
-    ratios
+    judged.sort_by(|(_, one), (_, other)| one.total_cmp(other));
+    let held = judged.iter().filter(|(_, ratio)| *ratio >= 1.0).count();
+    println!("{held} of {scenes} hold; median ratio {:.2}", judged[scenes / 2].1);
+    judged
 }
 
 fn assert_stated_errors_hold_and_are_not_far_above_the_true_ones(ratios: &[f64]) {
@@ -107,6 +155,27 @@ fn stated_errors_hold_and_are_not_far_above_the_true_ones() {
 #[test]
 fn stated_errors_of_resolved_roughness_are_not_far_above_the_true_ones() {
     assert_stated_errors_hold_and_are_not_far_above_the_true_ones(&ratios(15, 13, resolved));
+}
+
+#[test]
+#[ignore = "solves 600 scenes finely, some ten seconds; .ci/run runs it"]
+fn stated_errors_hold_with_either_rule_of_edges_and_any_form() {
+    let rows = [("SubCell", 41), ("Grid", 42)].map(|(edges, seed)| {
+        let judged = judged(300, seed, |uniform| of_any_form(edges, uniform));
+        let ratios: Vec<f64> = judged.iter().map(|(_, ratio)| *ratio).collect();
+        assert_stated_errors_hold_and_are_not_far_above_the_true_ones(&ratios);
+        let (flat, formed): (Vec<_>, Vec<_>) =
+            judged.into_iter().partition(|(document, _)| document.scene().form.is_none());
+        let [flat, formed] = [flat, formed].map(|some| {
+            let ratios: Vec<f64> = some.into_iter().map(|(_, ratio)| ratio).collect();
+            let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
+            [format!("{held} of {}", ratios.len()), format!("{:.1}", ratios[ratios.len() / 2])]
+        });
+        let [[flat, of_flat], [formed, of_formed]] = [flat, formed];
+        [format!("`{edges}`"), flat, of_flat, formed, of_formed]
+    });
+    let header = ["edges", "flat: within", "stated over true", "with a form: within", "stated over true"];
+    check("docs/accuracy.md", "estimates", &markdown(header, rows.into_iter()));
 }
 
 #[test]
