@@ -5,6 +5,7 @@ mod common {
     pub mod deadline;
     pub mod effort;
 }
+mod claims;
 #[cfg(target_os = "linux")]
 mod console;
 mod cost;
