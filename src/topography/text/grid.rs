@@ -16,6 +16,9 @@ const MOST_LINES: f64 = 1.25;
 /// Most cells of a grid for each point: half of the points may be missing.
 const MOST_CELLS: usize = 2;
 
+/// Relative difference of the distance and the last printed digit below which a missing point looks like a rounded distance.
+const LIKE_DIGIT: f64 = 0.1;
+
 /// Most cuts in the search for an even grid.
 const MOST_CUTS: usize = 64;
 
@@ -64,6 +67,10 @@ fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
     }
     let of_ends = (digits.half(*first) + digits.half(*last)) / last_number;
     let mean = (last - first) / last_number;
+    let digit = 2.0 * digits.half(*first).max(digits.half(*last));
+    if (mean.abs() / digit - 1.0).abs() < LIKE_DIGIT {
+        return None;
+    }
     let [mut low, mut high] = [mean - of_ends, mean + of_ends];
     for _ in 0..MOST_CUTS {
         let distance = f64::midpoint(low, high);
@@ -282,6 +289,11 @@ mod tests {
         }
         // Really uneven, or few.
         let (before, digits) = printed(&|i| f64::from(i) + f64::from(i * i % 7) * 0.03, 2);
+        let mut positions = before.clone();
+        move_to_printed_grid(&mut positions, digits).unwrap();
+        assert_eq!(positions, before);
+        // A point is missing.
+        let (before, digits) = printed(&|i| f64::from(i + u32::from(i > 70)), 0);
         let mut positions = before.clone();
         move_to_printed_grid(&mut positions, digits).unwrap();
         assert_eq!(positions, before);
