@@ -63,11 +63,11 @@ mod tests {
         let warnings =
             |heights: &[f64], is_open| of_heights(heights, is_open, |index| Place::Line(index + 3));
         assert_eq!(warnings(&heights, true), [""; 0]);
-        heights[99] = -7e-6;
+        heights[99] = -2e-7;
         assert_eq!(warnings(&heights, false), [""; 0]);
         let cut = warnings(&heights, true);
         assert!(
-            cut[0].starts_with("line 102: the last number, -7e-6, is far from all others, and its line"),
+            cut[0].starts_with("line 102: the last number, -2e-7, is far from all others, and its line"),
             "{cut:?}"
         );
         (heights[20], heights[30], heights[40]) = (-9999.0, f64::NAN, -9999.0);
