@@ -70,10 +70,13 @@ mod tests {
             cut[0].starts_with("line 102: the last number, -2e-7, is far from all others, and its line"),
             "{cut:?}"
         );
+        heights[50] = 4e-5;
+        let alone = warnings(&heights, false);
+        assert!(alone[0].starts_with("line 53: the height 4e-5 is 2e2 times as far from"), "{alone:?}");
         (heights[20], heights[30], heights[40]) = (-9999.0, f64::NAN, -9999.0);
         let far = warnings(&heights, true);
         assert!(
-            far[0].starts_with("line 23: the height -9.999e3 (like 1 others) is more than 1e6 times"),
+            far[0].starts_with("line 23: the height -9.999e3 and 1 others are more than 1e6 times"),
             "{far:?}"
         );
         assert_eq!((warnings(&[0.0, 0.0, 5.0], false), warnings(&[f64::NAN], true)), (vec![], vec![]));
