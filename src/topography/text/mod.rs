@@ -387,10 +387,7 @@ mod tests {
         );
         let fill = rows.replacen("1e-9", "-9999", 1);
         let warnings = text(&fill).unwrap().warnings;
-        assert!(
-            warnings[0].starts_with("line 1: the height -9.999e3 is more than 1e6 times"),
-            "{warnings:?}"
-        );
+        assert!(warnings[0].starts_with("line 1: the height -9.999e3 is "), "{warnings:?}");
     }
 
     #[test]

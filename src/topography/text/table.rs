@@ -282,7 +282,7 @@ impl Table {
 
     /// The profile or map of a list of points.
     fn points(
-        &self,
+        mut self,
         header: &Header,
         columns: &[Column],
         List { x, y, height, .. }: List,
@@ -293,26 +293,21 @@ impl Table {
         let is_y = |column: usize| columns[column].role == Role::Y;
         // Of the columns X and Y the second is the height.
         let of_heights = unit(2, height).or(unit(1, height).filter(|_| is_y(height)));
-        let place = |row: usize| Place::Line(self.line(row));
-        let positions = |column: usize| {
-            let positions = self.column(column)?;
-            match positions.iter().position(|x| x.is_nan()) {
-                Some(row) => Err(refused(place(row), "a position is missing", "a number for each position")),
-                None => Ok(positions),
-            }
-        };
-        let digits = |column: usize| self.digits[column.min(FEW_COLUMNS - 1)];
+        let digits = self.digits;
+        let digits = |column: usize| digits[column.min(FEW_COLUMNS - 1)];
         match (x, y) {
             (Some(x), Some(y)) => {
                 let [of_x, of_y] = [unit(0, x), unit(1, y)];
-                let (xs, ys) = (positions(x)?, positions(y)?);
+                let (xs, ys) = (self.column(x)?, self.take_positions(y)?);
+                self.check_measured(&xs)?;
+                let place = |row: usize| Place::Line(self.line(row));
                 let map = map_of([&xs, &ys], &heights, [digits(x), digits(y)], place)?;
                 let (distances, lateral) = in_one_unit(map.distances, [of_x, of_y])?;
                 Ok(Reading::even(format, map.heights, map.columns, distances, [lateral, of_heights]))
             }
             (Some(x), None) => {
                 let lateral = unit(if is_y(x) { 1 } else { 0 }, x);
-                let mut positions = positions(x)?;
+                let mut positions = self.take_positions(x)?;
                 move_to_printed_grid(&mut positions, digits(x))?;
                 self.check_order(&positions)?;
                 Ok(Reading::profile(format, positions, heights, [lateral, of_heights]))
@@ -363,6 +358,24 @@ impl Table {
         };
         let reading = Reading::even("text matrix", heights, found, spacing, [lateral, header.unit(2, None)]);
         Ok(Reading { first_missing, warnings, ..reading })
+    }
+
+    /// The positions in a column, in the memory of all numbers, which are no longer needed.
+    fn take_positions(&mut self, column: usize) -> Result<Vec<f64>, TopographyError> {
+        let (cells, mut index) = (self.cells, 0);
+        let mut positions = std::mem::take(&mut self.values);
+        positions.retain(|_| {
+            index += 1;
+            (index - 1) % cells == column
+        });
+        positions.shrink_to_fit();
+        self.check_measured(&positions)?;
+        Ok(positions)
+    }
+
+    fn check_measured(&self, positions: &[f64]) -> Result<(), TopographyError> {
+        let Some(row) = positions.iter().position(|x| x.is_nan()) else { return Ok(()) };
+        Err(refused(Place::Line(self.line(row)), "a position is missing", "a number for each position"))
     }
 
     fn column(&self, column: usize) -> Result<Vec<f64>, TopographyError> {

@@ -5,8 +5,10 @@ use super::super::Place;
 /// Least distance of a height from the median, in medians of these distances, that is an error of the file.
 const FAR: f64 = 1e6;
 
-/// Least distance of the last height from the median, in the largest one of all others, if its line has no end.
-const FAR_AT_OPEN_END: f64 = 10.0;
+/// Least distance of one height from the median, in the largest one of all others, that is an error of the file or a spike; and
+/// that of the last height if its line has no end.
+const ALONE: f64 = 30.0;
+const ALONE_AT_OPEN_END: f64 = 10.0;
 
 /// Most heights from which the median follows.
 const SAMPLE: usize = 4096;
@@ -20,32 +22,40 @@ pub(super) fn of_heights(heights: &[f64], is_open: bool, place: impl Fn(usize) -
     sample.iter_mut().for_each(|height| *height = (*height - level).abs());
     let usual = median(&mut sample).unwrap_or_default();
     let distance = |height: f64| (height - level).abs();
-    let last = heights.len() - 1;
-    let others = heights[..last].iter().filter(|height| height.is_finite());
-    let most = others.fold(0.0_f64, |most, height| most.max(distance(*height)));
-    let mut warnings = Vec::new();
-    if is_open && most > 0.0 && distance(heights[last]) > FAR_AT_OPEN_END * most {
-        warnings.push(format!(
+    let (mut largest, mut next) = ((0.0, 0), 0.0);
+    for (index, height) in heights.iter().enumerate().filter(|(_, height)| height.is_finite()) {
+        if distance(*height) > largest.0 {
+            (largest, next) = ((distance(*height), index), largest.0);
+        } else if distance(*height) > next {
+            next = distance(*height);
+        }
+    }
+    let ((largest, index), last) = (largest, heights.len() - 1);
+    if is_open && index == last && next > 0.0 && largest > ALONE_AT_OPEN_END * next {
+        return vec![format!(
             "{}the last number, {:e}, is far from all others, and its line has no end: the file may be cut off",
             place(last),
             heights[last]
-        ));
-        return warnings;
+        )];
     }
-    let is_far = |(_, height): &(usize, &f64)| usual > 0.0 && distance(**height) > FAR * usual;
-    let mut far = heights.iter().enumerate().filter(is_far);
-    if let Some((index, height)) = far.next() {
-        let all = match far.count() {
-            0 => String::new(),
-            others => format!(" (like {others} others)"),
-        };
-        warnings.push(format!(
-            "{}the height {height:e}{all} is more than {FAR:e} times as far from the median as heights usually are: a mark of a \
-             missing point, or another unit",
-            place(index)
-        ));
+    if next > 0.0 && largest > ALONE * next {
+        return vec![format!(
+            "{}the height {:e} is {:.0e} times as far from the median as all others: a spike, a mark of a missing point, or a \
+             number that is cut off; --robust replaces it",
+            place(index),
+            heights[index],
+            largest / next
+        )];
     }
-    warnings
+    let mut far = (0..heights.len()).filter(|index| usual > 0.0 && distance(heights[*index]) > FAR * usual);
+    let Some(first) = far.next() else { return Vec::new() };
+    vec![format!(
+        "{}the height {:e} and {} others are more than {FAR:e} times as far from the median as heights usually are: marks of \
+         missing points, or other units",
+        place(first),
+        heights[first],
+        far.count()
+    )]
 }
 
 fn median(values: &mut [f64]) -> Option<f64> {
