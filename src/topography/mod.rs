@@ -22,7 +22,7 @@ pub(crate) use npy::columns as npy_columns;
 pub(crate) use open::unpacked;
 pub use open::{content, parse, parse_all, read};
 pub use reading::ReadOptions;
-pub use surface::{Cut, Detrend, Topography};
+pub use surface::{Cropped, Cut, Detrend, Topography};
 pub(crate) use surface::{UNEVEN, first_uneven, interpolated};
 
 use crate::io::ReadError;

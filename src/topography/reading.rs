@@ -175,8 +175,8 @@ impl Reading {
         let outliers = if options.robust { missing::remove_outliers(&mut heights, columns)? } else { 0 };
         let has_gaps = missing || outliers > 0;
         let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
-        let surface = Topography::new(format, heights, columns, grid, interpolated)?;
-        Ok(Topography { aligned: options.align_rows, cropped, warnings, ..surface })
+        let surface = Topography::new(format, heights, columns, grid, cropped, interpolated)?;
+        Ok(Topography { aligned: options.align_rows, warnings, ..surface })
     }
 
     /// Leaves out the rows and columns without a measured point at the borders of a map, or the points at the ends of a profile.

@@ -20,7 +20,7 @@ const TYPES: [(&str, Number, [f64; 2]); 8] = [
     ("DOUBLE", Number::F64, [-1.7e308, 1.7e308]),
 ];
 
-/// Mark before the text of a file.
+/// Byte order mark that some programs write before a text.
 const UTF_8_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Version of the format.
@@ -81,7 +81,7 @@ fn data_type(
     else {
         return Err(refused(place, format!("DataType = {}", shown(name)), "from 0 to 7"));
     };
-    // Real numbers are marked by the largest one of their type, or by one of few digits next to it.
+    // Texts round the largest and the smallest real number to few digits.
     let reach = if matches!(number, Number::F32 | Number::F64) { f64::INFINITY } else { 0.0 };
     let is_largest = version == Version::Bcr || smallest == 0.0;
     let missing = if is_largest { largest..=largest + reach } else { smallest - reach..=smallest };
@@ -249,10 +249,9 @@ mod tests {
 
     fn text(version: &str, kind: &str, heights: &str) -> String {
         format!(
-            "a{version}\nManufacID = x\nNumPoints = 3\nNumProfiles = 1\nXscale = 1\nYscale = 2\nZscale = 0.5\n\
+            "a{version}\nManufacID = x\nNumPoints = 3\nNumProfiles = 2\nXscale = 1\nYscale = 2\nZscale = 0.5\n\
              Compression = 0\nDataType = {kind}\n*\n{heights}\n*\n"
         )
-        .replace("NumProfiles = 1", "NumProfiles = 2")
     }
 
     fn binary(version: &str, kind: u8, heights: &[u8]) -> Vec<u8> {
@@ -262,7 +261,6 @@ mod tests {
         [header.as_bytes(), &count(3), &count(2), &scales, &[0, kind, 0], heights].concat()
     }
 
-    /// Numbers of the types and whether the mark of missing points in BCR is read as the second of six heights.
     #[test]
     fn versions_mark_missing_points_by_the_largest_or_by_the_smallest_height() {
         macro_rules! check {

@@ -92,6 +92,7 @@ impl Topography {
         heights: Vec<f64>,
         columns: usize,
         grid: Grid,
+        cropped: Cropped,
         interpolated: Vec<usize>,
     ) -> Result<Self, TopographyError> {
         let slope = |index: usize| {
@@ -111,7 +112,7 @@ impl Topography {
                 heights,
                 columns,
                 grid,
-                cropped: Cropped::default(),
+                cropped,
                 interpolated,
                 resampled: Vec::new(),
                 aligned,
@@ -122,7 +123,8 @@ impl Topography {
             });
         };
         let fault = format!("a slope of {:e} from the point before", slope(index));
-        Err(refused(Place::Point(index + 1), fault, format!("at most {LARGEST:e}")))
+        let place = Place::Point(cropped.place_in_file(index, columns) + 1);
+        Err(refused(place, fault, format!("at most {LARGEST:e}")))
     }
 
     /// Number of points with interpolated heights, outliers among them.
@@ -322,7 +324,7 @@ mod tests {
     use super::*;
 
     fn surface(heights: &[f64], columns: usize, grid: Grid) -> Result<Topography, TopographyError> {
-        Topography::new("", heights.to_vec(), columns, grid, Vec::new())
+        Topography::new("", heights.to_vec(), columns, grid, Cropped::default(), Vec::new())
     }
 
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {
