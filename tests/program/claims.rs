@@ -210,7 +210,7 @@ fn claims_of_the_paper_are_judged_by_the_program() {
             "three regimes (Fig. 4)",
             "holds",
             "F_a constant, growing, negligible: `asperity run ideal-adhesion pressure-sensitive non-adhesive \
-             --preloads 1e-6..2e-5`"
+             --preloads 1e-6..2e-5 -o figure-4.svg`"
                 .to_owned(),
         ),
         (
