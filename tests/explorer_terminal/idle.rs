@@ -57,10 +57,10 @@ fn nothing_happens_while_nothing_happens() {
     terminal.wait_without("Search:");
     // While a text is typed.
     terminal.send("F1");
-    terminal.wait_for("Go to the force: 1");
+    terminal.wait_for("): 1");
     assert_idle(&mut terminal);
     terminal.send("\x1b");
-    terminal.wait_without("Go to the force:");
+    terminal.wait_without("Go to the force");
     // Played to its end the animation stops by itself: to the last leg, near its end, and on.
     terminal.send(">");
     terminal.settle();
