@@ -245,19 +245,22 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<(Text, Scene), SceneE
     let known = field_at(text, path).or_else(band);
     let wrong = |known: &Field, why: &str| SceneError::of(path, value, known.allowed(), why).at(origin());
     let typed = match known {
-        Some(known) => {
-            let typed = known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?;
-            group_in_ron(path, &typed).unwrap_or(typed)
-        }
+        Some(known) => known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?,
         None => value.to_string(),
     };
-    let text = set(text, path, &typed).map_err(|message| match known {
-        Some(known) if message == NOT_ONE_VALUE => wrong(known, "").into(),
-        _ => refused(message),
-    })?;
-    check_length(text.as_str()).map_err(refused)?;
-    let scene = read(text.as_str(), |_| origin())?;
-    Ok((text, scene))
+    let with = |typed: &str| {
+        let text = set(text, path, typed).map_err(|message| match known {
+            Some(known) if message == NOT_ONE_VALUE => wrong(known, "").into(),
+            _ => refused(message),
+        })?;
+        check_length(text.as_str()).map_err(refused)?;
+        let scene = read(text.as_str(), |_| origin())?;
+        Ok((text, scene))
+    };
+    with(&typed).or_else(|error| {
+        let in_ron = group_in_ron(path, &typed).and_then(|typed| with(&typed).ok());
+        in_ron.ok_or(error)
+    })
 }
 
 /// A group of values with prefixes and units inside, `Cone(angle: 70°)`, in RON; `None` for any other text.
@@ -280,8 +283,9 @@ fn group_in_ron(path: &str, typed: &str) -> Option<String> {
         let value = known.read_typed(value).ok()?;
         Some(format!("{field}: {}", group_in_ron(&path, &value).unwrap_or(value)))
     };
-    // A text may contain any sign.
-    let parts = Some(inside).filter(|inside| !inside.contains(['"', '/']))?.split(between);
+    // A text or a comment may contain any sign.
+    let is_plain = !["\"", "//", "/*"].iter().any(|sign| inside.contains(sign));
+    let parts = Some(inside).filter(|_| is_plain)?.split(between);
     let parts = parts.filter(|part| !part.trim().is_empty()).map(value).collect::<Option<Vec<_>>>()?;
     Some(format!("{name}({})", parts.join(", ")))
 }

@@ -183,7 +183,7 @@ fn where_a_study_cannot_be_is_stated() {
     fs::write(place.path().join("study"), "a file").unwrap();
     let output = finish(command(place.path()));
     assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("study: cannot be written"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("study: this is not a folder"));
     let output = Command::new(env!("CARGO_BIN_EXE_asperity"))
         .args(["sweep", "merge"])
         .arg(place.path())
