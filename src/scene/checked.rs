@@ -24,6 +24,17 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Removes all that changes no figure: texts, what is observed, and all but a few samples of the curve, as figures are at
+    /// the ends of loading stages or exact extremes.
+    pub(crate) fn strip(&mut self, samples: u64) {
+        self.title.clear();
+        self.notice.clear();
+        self.observe.clear();
+        self.numerics.samples = self.numerics.samples.min(samples);
+    }
+}
+
 impl CheckedScene {
     /// The checked scene of a text. Its errors have numbers that are not finite as the text has them: `1e999`.
     pub(super) fn of(
@@ -65,6 +76,13 @@ impl CheckedScene {
     pub fn with_seed(&self, seed: u64) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.set_seed(seed);
+        CheckedScene(scene)
+    }
+
+    /// This scene for its figures alone, see [`Scene::strip`].
+    pub(crate) fn stripped(&self, samples: u64) -> CheckedScene {
+        let mut scene = self.0.clone();
+        scene.strip(samples);
         CheckedScene(scene)
     }
 

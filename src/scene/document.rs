@@ -359,7 +359,7 @@ mod tests {
             let same = document.set(path, group).and_then(|document| document.set(expected.0, expected.1));
             assert_eq!(set.scene(), same.unwrap().scene(), "{group}");
         }
-        let refused = document.set("form", "Cone(angle: 3 m)").unwrap_err().to_string();
+        let refused = document.set("form", "Cone(angle: 3 kg)").unwrap_err().to_string();
         assert!(refused.contains("form"), "{refused}");
     }
 

@@ -1,12 +1,12 @@
 //! The plan of the live map of a scene.
 
 use super::axis::{Axis, Spacing};
-use super::place::strip;
 use super::plan::Plan;
 use super::quantity::Quantity;
 use crate::scene::{
     Adhesion, Edges, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver,
 };
+use crate::simulation::FEW_SAMPLES;
 use crate::text::round_to;
 
 /// Random profiles of each cell.
@@ -67,7 +67,7 @@ pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &
         Some(Roughness::Measured { .. }) => (SPRINGS.1, false),
     };
     scene.adhesion = Some(adhesion);
-    strip(&mut scene);
+    scene.strip(FEW_SAMPLES);
     let points = points.min(scene.numerics.points);
     // Edges between springs: a map of few springs is then as accurate as one of very many.
     scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };

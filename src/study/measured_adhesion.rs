@@ -6,13 +6,12 @@
 //! forces of a profile differ by the spectrum alone.
 
 use super::error::StudyError;
-use super::place::strip;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use crate::analysis::Regime;
 use crate::parallel::on_threads;
 use crate::scene::{CheckedScene, Document};
-use crate::simulation::{RunError, Simulation};
+use crate::simulation::{FEW_SAMPLES, RunError, Simulation};
 use crate::surface::{EquivalentLine, MeasuredRoughness, read_faces};
 use serde::Serialize;
 use std::sync::Arc;
@@ -44,7 +43,7 @@ impl ProfileAdhesion {
         seed: u64,
         stop: &dyn Fn() -> bool,
     ) -> Result<Self, RunError> {
-        let scene = scene.with_seed(seed).with(strip)?;
+        let scene = scene.with_seed(seed).stripped(FEW_SAMPLES);
         let on = |scene: &CheckedScene, line: EquivalentLine| {
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
             Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))

@@ -3,7 +3,6 @@
 use super::axis::{Axis, Spacing, Target};
 use crate::analysis::Governing;
 use crate::scene::{Document, FIELDS, Field, Move, Range, Scene, SceneError, SceneErrors, Tree};
-use crate::simulation::FEW_SAMPLES;
 
 impl Axis {
     /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
@@ -86,15 +85,6 @@ pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
         numbers.extend(number.filter(|_| numbers.iter().all(|(axis, _)| axis.path != path)));
     }
     numbers
-}
-
-/// Removes all that changes no recorded result: texts, what is observed, and the samples of the curve, as all recorded
-/// quantities are at the ends of loading stages or exact extremes.
-pub(super) fn strip(scene: &mut Scene) {
-    scene.title.clear();
-    scene.notice.clear();
-    scene.observe.clear();
-    scene.numerics.samples = FEW_SAMPLES;
 }
 
 pub(super) fn governing(scene: &Scene) -> Option<Governing> {

@@ -2,13 +2,12 @@
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Run;
-use super::place::strip;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
 use crate::analysis::Governing;
 use crate::contact::ContactError;
 use crate::scene::{CheckedScene, Move, Roughness, Solver};
-use crate::simulation::{Outcome, RunError, Simulation};
+use crate::simulation::{FEW_SAMPLES, Outcome, RunError, Simulation};
 use crate::spectrum::slope;
 use crate::surface::SurfaceError;
 use crate::text::printable;
@@ -61,7 +60,7 @@ impl<'p> Recorder<'p> {
     /// A failure of the profile or the contact, or a stop.
     pub fn record(&mut self, run: &Run) -> Result<Records, RunError> {
         let plan = self.plan;
-        let scene = plan.scene_of(run.cells.start)?.with_seed(plan.seed_of(run.line)).with(strip)?;
+        let scene = plan.scene_of(run.cells.start)?.with_seed(plan.seed_of(run.line)).stripped(FEW_SAMPLES);
         let profile = self.profile_record(&scene)?;
         let (_, _, governing) = self.simulation.make_line(&scene)?;
         let mut loops = Vec::new();
