@@ -309,10 +309,10 @@ mod tests {
             let scene = document.scene();
             let paths = ["numerics.points", "springs_per_wave", "kappa", "roughness.modes.1"];
             let more = paths.iter().filter_map(|path| {
-                let axis = Axis::new(path, Spacing::List, Vec::new(), &scene).ok()?;
-                Some((axis.clone(), axis.value_in(&scene, None)?))
+                let axis = Axis::new(path, Spacing::List, Vec::new(), scene).ok()?;
+                Some((axis.clone(), axis.value_in(scene, None)?))
             });
-            let axes: Vec<Axis> = numbers(&scene)
+            let axes: Vec<Axis> = numbers(scene)
                 .into_iter()
                 .chain(more)
                 .map(|(axis, value)| {
@@ -331,7 +331,7 @@ mod tests {
                             ..axis.clone()
                         };
                         let axes = vec![part(one), part(other)];
-                        let plan = Plan { axes, ..Plan::of_scene(&scene, 1, &[Quantity::Regime]) };
+                        let plan = Plan { axes, ..Plan::of_scene(scene, 1, &[Quantity::Regime]) };
                         let is_allowed = |cell| plan.scene_of(cell).is_ok();
                         let ends = plan.extremes(0);
                         assert_eq!(ends.len(), 4);

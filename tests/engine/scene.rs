@@ -233,7 +233,8 @@ fn presets_say_only_what_differs_from_the_defaults() {
 #[test]
 fn a_refused_scene_has_no_numbers() {
     let document = asperity::scene::open("pressure-sensitive").unwrap();
-    let changes: [(&str, fn(&mut Scene)); 7] = [
+    type Change = fn(&mut Scene);
+    let changes: [(&str, Change); 7] = [
         ("roughness.modes", |scene| scene.numerics.points = 1),
         ("roughness.modes", |scene| modes(scene, (10, 1))),
         ("roughness.modes", |scene| modes(scene, (1, 1 << 40))),
