@@ -18,7 +18,7 @@ const STEPS: usize = 1024;
 /// Smallest distance of rows over the reach of a table: the digits of a file do not resolve a smaller one.
 const CLOSEST: f64 = 1e-9;
 
-/// Sine of the angle of a gap below which five terms of power series are accurate to rounding.
+/// Sine of the angle of a gap below which the power series below are accurate to rounding.
 const NARROW: f64 = 0.05;
 /// Coefficients of ascending powers of δ²: arcsin s over s, in powers of s².
 const ARCSINE: [f64; 6] = [1.0, 1.0 / 6.0, 3.0 / 40.0, 15.0 / 336.0, 105.0 / 3456.0, 945.0 / 42240.0];
