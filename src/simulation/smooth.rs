@@ -1,5 +1,6 @@
 //! F_smooth: the adhesion force of the body of a scene without its roughness.
 
+use super::stages::SmoothSprings;
 use super::{FEW_SAMPLES, RunError, Simulation};
 use crate::analysis::{Figures, Governing};
 use crate::contact::{Body, Contact, Foundation, Reversal, Springs};
@@ -7,14 +8,6 @@ use crate::reference::smooth_adhesion_force;
 use crate::scene::{CheckedScene, Form, Move, Scene};
 use crate::surface::Line;
 use std::sync::Arc;
-
-/// Springs under a form without roughness, kept from run to run.
-pub(super) struct SmoothSprings {
-    form: Form,
-    length: f64,
-    points: u64,
-    springs: Arc<Springs>,
-}
 
 impl Simulation {
     /// Adhesion force of the body of a scene without its roughness, N, after the preload of these figures, or after zero

@@ -1,7 +1,6 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
-use super::smooth::SmoothSprings;
 use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings, reach};
 use crate::analysis::{
     Figures, Governing, InstrumentFigures, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number,
@@ -55,6 +54,14 @@ struct LineKey {
     length: f64,
     points: usize,
     form: Option<Form>,
+}
+
+/// Springs under a form without roughness, and all that they depend on.
+pub(super) struct SmoothSprings {
+    pub form: Form,
+    pub length: f64,
+    pub points: u64,
+    pub springs: Arc<Springs>,
 }
 
 /// Contact of a scene before its loading, with the results of making its profile and tree.

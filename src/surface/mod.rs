@@ -4,6 +4,7 @@ mod form;
 mod line;
 mod measured;
 mod modes;
+mod quadrature;
 mod roughness;
 mod spectrum;
 mod table;

@@ -3,7 +3,7 @@
 //! Between two rows the depth is a cubic, with limited slopes at the rows, so that f′ is a + b s + c s² at the distance s
 //! from a row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr a sum over the gaps between rows.
 
-use super::form::quadrature;
+use super::quadrature::quadrature;
 use crate::memory::{OutOfMemory, emptied};
 use crate::topography::{Place, ReadOptions, TopographyError, Unit, content, parse, refused};
 use std::f64::consts::{FRAC_PI_2, PI};
