@@ -104,8 +104,14 @@ impl Governing {
 
     /// The rule of Hess on the foundation under a profile; `None` without adhesion.
     pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
+        let [closing, opening] = self.adhesive_works()?;
+        Some(HessRule::from_works(foundation, closing, opening))
+    }
+
+    /// The works of adhesion on closing and on opening if there is any, J/m².
+    pub fn adhesive_works(&self) -> Option<[f64; 2]> {
         let work = self.adhesive_work()?;
-        Some(HessRule::from_works(foundation, self.closing_work.unwrap_or(work), work))
+        Some([self.closing_work.unwrap_or(work), work])
     }
 
     /// The work of adhesion if there is any, J/m².

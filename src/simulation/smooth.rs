@@ -21,9 +21,8 @@ impl Simulation {
         governing: &Governing,
         figures: &Figures,
     ) -> Result<Option<f64>, RunError> {
-        let Some(work) = governing.adhesive_work() else { return Ok(None) };
+        let Some(works) = governing.adhesive_works() else { return Ok(None) };
         let (length, effective_modulus) = (scene.length, governing.effective_modulus);
-        let works = [governing.closing_work.unwrap_or(work), work];
         let preload = figures.preload.unwrap_or(0.0).max(0.0);
         let closed = smooth_adhesion_force(scene.form.as_ref(), length, effective_modulus, works, preload);
         let Some(form) = scene.form.as_ref().filter(|_| closed.is_none()) else { return Ok(closed) };

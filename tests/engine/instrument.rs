@@ -244,7 +244,7 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
                 curve.points().windows(2).map(work).sum::<f64>()
             })
             .sum();
-        assert!((found.loop_area.unwrap() / area - 1.0).abs() < 1e-5, "{:?} {area}", found.loop_area);
+        assert!((found.loop_area.unwrap() / area - 1.0).abs() < 1e-4, "{:?} {area}", found.loop_area);
         assert!(found.loop_area > figures.dissipated_energy);
         areas.push(found.loop_area.unwrap());
         for leg in &history.legs {
