@@ -425,6 +425,13 @@ mod tests {
         assert_eq!(keep(&made(-3.0, 0.0, 0.0)), [-3.0, 0.0, 0.0]);
         assert_eq!(keep(&made(2.0, -4.0, 0.0)), [2.0, -4.0, 0.0]);
         assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
+        // Waves of the force are neither; a retraction alone has its own zero.
+        let waves = points(600).into_iter().map(|(d, f)| (d, f + 2.0 * (0.04 * d).sin()));
+        let waves = keep(&lines(waves));
+        assert_eq!(waves[..2], [0.0; 2]);
+        let end = CurveOptions { segments: vec![2], ..CurveOptions::default() };
+        let end = super::tests::read(made(0.0, 0.0, 2.0).as_bytes(), &end).unwrap();
+        assert!(end.force[299].abs() < 3e-10, "{:e}", end.force[299]);
         let tilted = made(0.0, 3.0, 0.0);
         let stated = |drift, tilt| read(&tilted, drift, tilt).statements.concat();
         assert!(stated(Drift::Keep, Tilt::Keep).contains("A tilt remains: --tilt remove takes it off."));

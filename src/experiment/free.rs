@@ -113,6 +113,17 @@ impl Slopes {
         let mut slope = |of: usize| if is_asked[of] { found.next() } else { Some((0.0, 0.0)) };
         Some(Slopes { zero, drift: slope(0)?, tilt: slope(1)?, step: slope(2)? })
     }
+
+    /// Root mean square deviation of points from drift, tilt and step, N.
+    pub fn rest(points: &[[f64; 4]]) -> f64 {
+        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
+        let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
+        let mut rests = column(3);
+        right_angled(&columns).iter().for_each(|one| {
+            take_off(&mut rests, one);
+        });
+        (dot(&rests, &rests) / rests.len() as f64).sqrt()
+    }
 }
 
 /// Coefficients of columns that describe values by least squares, with their standard errors; `None` if a column depends on

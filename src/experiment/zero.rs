@@ -10,6 +10,8 @@ use std::ops::Range;
 
 /// Drift or tilt in standard errors that remains in a curve.
 const REMAINS: f64 = 5.0;
+/// Residual of the lines of drift, tilt and step, over the noise, of parts without contact that are not straight.
+const CURVED: f64 = 1.5;
 
 /// The points without contact: the first ones of an approach and the last ones of a retraction.
 pub(super) struct FreeParts {
@@ -113,7 +115,11 @@ impl FreeParts {
         let stated = both.or_else(|| Slopes::through(&free, [true, false, false])).unwrap_or_default();
         let taken = [slopes.drift.0, slopes.tilt.0];
         let found = slopes.zero + taken[0] * middle[0] + taken[1] * middle[1];
-        let zero = options.zero.unwrap_or(if is_removed == [false; 2] { mean(&points.force) } else { found });
+        // A retraction alone has the zero of its own end.
+        let of_end = !options.segments.is_empty() && !options.segments.contains(&1) && has_both;
+        let step = with_step.filter(|_| of_end).map_or(0.0, |slopes| slopes.step.0);
+        let found = step + if is_removed == [false; 2] { mean(&points.force) } else { found };
+        let zero = options.zero.unwrap_or(found);
         for (index, force) in points.force.iter_mut().enumerate() {
             let lines = taken[0] * (time[index] - middle[0]) + taken[1] * (displacement[index] - middle[1]);
             *force -= zero + lines;
@@ -147,6 +153,10 @@ impl FreeParts {
             );
         }
         let mut remaining = [0.0, 0.0, stated.step.0];
+        if has_both && Slopes::rest(&free) > CURVED * noise {
+            text += " The parts without contact are no straight lines, as by interference of light: --noise counts that.";
+            return Ok((remaining, text));
+        }
         if with_step.is_some() {
             let step = newton(stated.step.0);
             text +=
