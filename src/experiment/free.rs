@@ -103,7 +103,7 @@ pub(super) struct Slopes {
 
 impl Slopes {
     /// Slopes through points of time and displacement, as shares of the whole curve, 1 after contact and 0 before it, and
-    /// force; only those asked for differ from 0. `None` if the points do not tell them apart.
+    /// force; only those asked for differ from 0. `None` if the points do not separate them.
     pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let mut columns = vec![vec![1.0; points.len()]];
@@ -114,15 +114,17 @@ impl Slopes {
         Some(Slopes { zero, drift: slope(0)?, tilt: slope(1)?, step: slope(2)? })
     }
 
-    /// Root mean square deviation of points from drift, tilt and step, N.
-    pub fn rest(points: &[[f64; 4]]) -> f64 {
+    /// Root mean square deviation of points from drift, tilt and step, N, and that of their noise from point to point.
+    pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
         let mut rests = column(3);
         right_angled(&columns).iter().for_each(|one| {
             take_off(&mut rests, one);
         });
-        (dot(&rests, &rests) / rests.len() as f64).sqrt()
+        let changes: f64 = rests.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+        let count = rests.len() as f64;
+        ((dot(&rests, &rests) / count).sqrt(), (0.5 * changes / count).sqrt())
     }
 }
 

@@ -6,7 +6,7 @@ use super::model::Model;
 use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
 use crate::analysis::LEAST_TABOR_NUMBER;
-use crate::scene::{CheckedScene, Form, format_quantity};
+use crate::scene::{CheckedScene, format_quantity};
 use crate::simulation::Simulation;
 use std::fmt;
 
@@ -96,9 +96,11 @@ impl fmt::Display for Reason {
                  and Roberts.",
                 format_quantity(number, "1")
             ),
-            Reason::Branches => out.write_str(
+            Reason::Branches => write!(
+                out,
                 "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres \
-                 less on closing. --free closing_work tries the second, --segments 2 fits the retraction alone.",
+                 less on closing. --free {} tries the second, --segments 2 fits the retraction alone.",
+                Parameter::ClosingWork.name()
             ),
             Reason::Stiffness(slope) => write!(
                 out,
@@ -178,7 +180,8 @@ fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reaso
     let points = || outcome.history.legs.iter().flat_map(|leg| &leg.curve);
     let length = ends(points().map(|point| point.contact_length)).1;
     let springs = points().map(|point| point.springs).max()?;
-    let grows = !matches!(scene.form, None | Some(Form::Punch { .. }));
+    // The contact of a flat face does not grow.
+    let grows = scene.form.as_ref().is_some_and(|form| form.summit_curvature() != Some(0.0));
     if grows && length >= FULL * outcome.line.length {
         return Some(Reason::ShortProfile(outcome.line.length));
     }

@@ -10,8 +10,10 @@ use std::ops::Range;
 
 /// Drift or tilt in standard errors that remains in a curve.
 const REMAINS: f64 = 5.0;
-/// Residual of the lines of drift, tilt and step, over the noise, of parts without contact that are not straight.
+/// Residual of the lines of drift, tilt and step over the noise from point to point of parts without contact that are not
+/// straight, and lines over that residual that are drift or tilt all the same.
 const CURVED: f64 = 1.5;
+const DOMINATES: f64 = 20.0;
 
 /// The points without contact: the first ones of an approach and the last ones of a retraction.
 pub(super) struct FreeParts {
@@ -105,7 +107,12 @@ impl FreeParts {
         };
         let free: Vec<[f64; 4]> = base.clone().chain(ends).map(point).collect();
         let is_removed = [options.drift == Drift::Remove, options.tilt == Tilt::Remove];
-        let remains = |(value, error): (f64, f64)| value.abs() > noise.max(REMAINS * error);
+        let (rest, noise_between) = Slopes::rest(&free);
+        let is_straight = rest <= CURVED * noise_between;
+        let remains = |(value, error): (f64, f64)| {
+            let least = if is_straight { noise } else { noise.max(DOMINATES * rest) };
+            value.abs() > least.max(REMAINS * error)
+        };
         let with_step = Slopes::through(&free, [true; 3]).filter(|slopes| has_both && remains(slopes.step));
         let Some(slopes) = Slopes::through(&free, [is_removed[0], is_removed[1], with_step.is_some()]) else {
             let fault = "drift and tilt are one line in the part before contact, and there is none after it";
@@ -153,10 +160,6 @@ impl FreeParts {
             );
         }
         let mut remaining = [0.0, 0.0, stated.step.0];
-        if has_both && Slopes::rest(&free) > CURVED * noise {
-            text += " The parts without contact are no straight lines, as by interference of light: --noise counts that.";
-            return Ok((remaining, text));
-        }
         if with_step.is_some() {
             let step = newton(stated.step.0);
             text +=
@@ -173,6 +176,9 @@ impl FreeParts {
             }
         } else if remains(stated.drift) && is_removed == [false; 2] && known.is_none() {
             text += " A line remains: --drift remove takes it off if it is over time, --tilt remove if it is over the displacement.";
+        }
+        if !is_straight && remaining == [0.0; 3] {
+            text += " The parts without contact are no straight lines, as by interference of light.";
         }
         Ok((remaining, text))
     }

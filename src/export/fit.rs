@@ -6,7 +6,7 @@ use super::summary::tabor_number;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
 use crate::io::{Table, object};
-use crate::scene::{Form, format_quantity, format_rounded};
+use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -175,7 +175,7 @@ impl FitReport<'_> {
     /// Work of adhesion, J/m², of a smooth sphere with this pull-off force, N (Johnson, Kendall and Roberts).
     fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
-        let Some(Form::Paraboloid { radius }) = scene.form else { return None };
+        let radius = scene.form.as_ref()?.sphere_radius()?;
         scene.roughness.is_none().then_some(force / (1.5 * PI * radius))
     }
 }

@@ -137,6 +137,11 @@ impl Form {
         }
     }
 
+    /// Radius of a smooth sphere, m; `None` for other forms.
+    pub(crate) fn sphere_radius(&self) -> Option<f64> {
+        if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
+    }
+
     /// Curvature at the summit, 1/m; `None` for cones and power laws, and for tables alike, which have none or none at their
     /// tip.
     pub(crate) fn summit_curvature(&self) -> Option<f64> {
