@@ -22,8 +22,9 @@ Examples:
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
 retraction, or a retraction alone that ends without contact. A form.radius of two round bodies
-is R1 R2/(R1 + R2). JSON is one object with the parameters and their errors; CSV and .npy hold the columns
-displacement, force, model, residual and segment. docs/experiment.md lists the parameters.";
+is R1 R2/(R1 + R2). JSON is one object with the parameters and their errors; CSV and .npy hold
+the columns displacement, force, model, residual and segment. docs/experiment.md lists the
+parameters.";
 
 /// Arguments of `fit`.
 #[derive(Args, Debug)]
