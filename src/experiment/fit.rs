@@ -13,7 +13,7 @@ use super::statistics::{block_error, correlated, correlation, spread, widen};
 use super::{ExperimentError, MeasuredCurve, refused};
 use crate::analysis::scene_tabor_number;
 use crate::parallel::on_threads;
-use crate::scene::{Document, Solver, format_within};
+use crate::scene::{Document, Solver, format_quantity, format_within};
 use crate::simulation::Simulation;
 use std::f64::consts::PI;
 
@@ -245,10 +245,19 @@ fn prepare<'a>(
     }
     let mut base = values_of(document.scene(), &governing);
     let (touch, turn) = (curve.touch, curve.turns()[0]);
+    if turn <= touch {
+        let [touch, turn] = [touch, turn].map(|at| format_quantity(at, "m"));
+        return refused(
+            format!("the contact begins at {touch}, and the displacement turns at {turn}"),
+            "a contact before the first turning point",
+        );
+    }
+    // Of the force.
+    let extent = (high - low).max(curve.noise);
     base[Parameter::Offset as usize] = touch;
     let stiffness = &mut base[Parameter::Stiffness as usize];
     if is_free(Parameter::Stiffness) && stiffness.is_infinite() {
-        *stiffness = 10.0 * (high - low) / (turn - touch).max(f64::MIN_POSITIVE);
+        *stiffness = 10.0 * extent / (turn - touch);
     }
     let mut coordinates = Vec::new();
     for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
@@ -257,7 +266,7 @@ fn prepare<'a>(
             options.free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
         let range = given.unwrap_or_else(|| match parameter {
             Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
-            Parameter::Zero => (low - high, high - low),
+            Parameter::Zero => (-extent, extent),
             Parameter::Work => (0.0, start.max(of_curve) * FACTOR),
             Parameter::ClosingWork if is_free(Parameter::Work) => {
                 (0.0, base[Parameter::Work as usize].max(of_curve) * FACTOR)
@@ -270,7 +279,7 @@ fn prepare<'a>(
         let unit = match parameter {
             Parameter::Work => least_work,
             // A tenth of the change that the parameter makes at most.
-            Parameter::Zero => 0.1 * (high - low),
+            Parameter::Zero => 0.1 * extent,
             _ => 0.1 * (turn - touch),
         };
         coordinates.push(Coordinate { parameter, start, range, unit });
@@ -332,6 +341,11 @@ mod tests {
         let curve = measured(&made, 4);
         let fit = fitted(&curve, &made, "work,modulus,offset");
         assert_found(&made, &fit);
+        // The forces of the model, with the zero and drift of the curve, leave the residual.
+        let squares = curve.force.iter().zip(&fit.model).map(|(force, model)| (force - model).powi(2));
+        let residual = (squares.sum::<f64>() / curve.force.len() as f64).sqrt();
+        assert!((residual / fit.residual - 1.0).abs() < 1e-9, "{residual} {}", fit.residual);
+        assert!((fit.residual / curve.noise / fit.residual_over_noise - 1.0).abs() < 1e-9);
         let scene = fit.document.scene();
         assert_eq!(scene.adhesion.unwrap().work, Some(fit.parameters[0].value));
         assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
@@ -344,12 +358,13 @@ mod tests {
     /// A fit that begins at its own result, or at the truth, has the intervals of one that begins far away.
     #[test]
     fn a_good_start_makes_no_interval_narrow() {
-        let made = random(8, 512);
-        // Every third point of approach and retraction.
-        let points = force_curve(&made.scene).into_iter().zip(noise(&made, 8)).step_by(3);
+        let mut made = random(4, 512);
+        made.scene.loading_stiffness = Some(20.0);
+        let noises = noise(&made, 8);
+        let points = force_curve(&made.scene).into_iter().zip(noises).step_by(4);
         let curve =
             read(points.map(|((displacement, force), noise)| (displacement, force + noise)), Drift::Keep);
-        let free = "work,closing_work,modulus,offset";
+        let free = "work,modulus,offset,stiffness";
         let first = fitted(&curve, &made, free);
         let true_scene = Document::from_scene(&made.scene, "made").unwrap();
         for start in [&first.document, &true_scene] {
@@ -403,7 +418,7 @@ mod tests {
     /// The scatter over profiles counts twice: for that of the specimen and that of the scene.
     #[test]
     fn the_interval_holds_the_scatter_over_profiles() {
-        let made = random(11, 256);
+        let made = random(11, 1024);
         let points = force_curve(&made.scene).into_iter().zip(noise(&made, 11)).step_by(5);
         let curve =
             read(points.map(|((displacement, force), noise)| (displacement, force + noise)), Drift::Keep);

@@ -9,6 +9,11 @@ const MOST: [f64; 2] = [1e9, 1e6];
 
 /// Checks the values of a curve, which a caller may have changed.
 pub(super) fn check_curve(curve: &MeasuredCurve) -> Result<(), ExperimentError> {
+    let counts = [curve.displacement.len(), curve.segment.len()];
+    if counts != [curve.force.len(); 2] || curve.free >= curve.force.len() {
+        let fault = format!("{} forces, {counts:?} displacements and segments", curve.force.len());
+        return refused(fault, "as many of each, and points after those before contact");
+    }
     let quantities = [(&curve.force, "force", "N"), (&curve.displacement, "displacement", "m")];
     for ((values, name, unit), most) in quantities.into_iter().zip(MOST) {
         if let Some((index, value)) = values.iter().enumerate().find(|(_, value)| !(value.abs() <= most)) {
@@ -102,6 +107,11 @@ mod tests {
                 changed(|curve| curve.displacement[0] = -1e11),
                 "displacement of point 1 = -100 Gm; allowed: -1 to 1 Mm",
             ),
+            (
+                changed(|curve| curve.free = 200),
+                "200 forces, [200, 200] displacements and segments; allowed: as many",
+            ),
+            (changed(|curve| curve.segment.truncate(9)), "200 forces, [200, 9] displacements and segments"),
             (changed(|curve| curve.noise = 0.0), "noise = 0 N; allowed: a force above 0"),
             (changed(|curve| curve.noise = -5e-9), "noise = -5 nN; allowed: "),
             (changed(|curve| curve.noise = f64::INFINITY), "noise = inf N; allowed: "),

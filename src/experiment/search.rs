@@ -337,3 +337,86 @@ impl Search<'_> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::MeasuredCurve;
+    use super::super::made::{on_rubber, read, rubber};
+    use super::super::read::Drift;
+    use super::*;
+    use crate::simulation::Simulation;
+
+    const FREE: [Parameter; 4] = [Parameter::Work, Parameter::Modulus, Parameter::Offset, Parameter::Zero];
+
+    /// Does this with a search on rubber without adhesion.
+    fn searched(of: impl Fn(&mut Search, &MeasuredCurve)) {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let coordinate = |parameter| match parameter {
+            Parameter::Work => Coordinate { parameter, start: 1e-3, range: (0.0, 0.1), unit: 1e-3 },
+            Parameter::Modulus => Coordinate { parameter, start: 2e6, range: (1e6, 4e6), unit: 1.0 },
+            Parameter::Offset => Coordinate { parameter, start: 2e-6, range: (0.0, 4e-6), unit: 1e-7 },
+            _ => Coordinate { parameter, start: 0.0, range: (-1e-6, 1e-6), unit: 1e-7 },
+        };
+        let space = Space {
+            base: [1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 7.5e-6],
+            coordinates: FREE.map(coordinate).into(),
+            most_on_closing: f64::INFINITY,
+            curve: &curve,
+            stop: &|| false,
+        };
+        let mut simulation = Simulation::default();
+        let model = Model::new(&curve, on_rubber(1e-3, 2e6).scene(), &mut simulation);
+        of(&mut Search { space: &space, model, report: &mut |_| (), lines: space.lines() }, &curve);
+    }
+
+    #[test]
+    fn a_population_is_scattered_over_the_ranges() {
+        searched(|search, _| {
+            let scattered = [0, 1].map(|attempt| search.scattered(attempt).unwrap());
+            let expected =
+                [(0.0, 100.0_f64.asinh()), (1e6_f64.ln(), 4e6_f64.ln()), (13.5, 21.5), (-0.05, 0.05)];
+            for members in &scattered {
+                assert_eq!(members.len(), SCAN * FREE.len());
+                for (index, (low, high)) in expected.into_iter().enumerate() {
+                    let (least, most) = ends(members.iter().map(|member| member.at[index]));
+                    let width = high - low;
+                    assert!(low <= least && least < low + 0.03 * width, "{index}: {least}");
+                    assert!(high - 0.03 * width < most && most <= high, "{index}: {most}");
+                    let mean =
+                        members.iter().map(|member| member.at[index]).sum::<f64>() / members.len() as f64;
+                    assert!((mean - 0.5 * (low + high)).abs() < 0.02 * width, "{index}: {mean}");
+                }
+            }
+            let is_in_both = |member: &Member| scattered[1].iter().any(|other| other.at == member.at);
+            assert!(!scattered[0].iter().any(is_in_both));
+        });
+    }
+
+    #[test]
+    fn a_population_ends_at_the_noise_of_the_curve_with_exact_forces() {
+        searched(|search, _| {
+            let population = search.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED)).unwrap();
+            assert_eq!((population.members.len(), population.noise), (MEMBERS + FOR_EACH * FREE.len(), 1.0));
+            assert!(population.has_spread() && search.model.noise == 1.0);
+            let exact = search.member(population.best.at.clone()).unwrap();
+            assert_eq!(exact.rests, population.best.rests);
+            assert_eq!(search.cost(&exact, 1.0), population.cost);
+            assert!(population.costs.iter().all(|cost| *cost >= population.cost));
+        });
+    }
+
+    /// The costs of blocks are parts of the cost of the curve, at the same noise.
+    #[test]
+    fn costs_of_blocks_add_up() {
+        searched(|search, curve| {
+            let mut rests = vec![6.0; curve.force.len()];
+            rests[150] = 300.0;
+            let member = Member { at: search.space.start(), rests };
+            let blocks = search.block_costs(&member, 3.0);
+            let sum = 2.0 * curve.free as f64 + blocks.iter().sum::<f64>();
+            assert!((search.cost(&member, 3.0) / sum - 1.0).abs() < 1e-12, "{sum}");
+            assert!((blocks[0] - 2.0 * ((100 - curve.free) / 4) as f64).abs() < 1e-9, "{blocks:?}");
+            assert!((sum - 2.0 * 199.0 - loss(100.0)).abs() < 1e-9, "{sum}");
+        });
+    }
+}
