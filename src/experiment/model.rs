@@ -225,6 +225,20 @@ mod tests {
     }
 
     #[test]
+    fn a_loading_ends_close_behind_its_displacement() {
+        let scene = random(4, 512).scene;
+        let (contact, _) = Simulation::default().contact(&scene).unwrap();
+        let sampling = Sampling { stiffness: 0.1 * stiffness(&scene), points: FEW, least_jump: 1.0 };
+        let approach = Leg::approach(&contact).unwrap();
+        for to in [2e-7, 1e-6] {
+            let pressed = sampling.press(&approach, None, to).unwrap();
+            let last = *pressed.points().last().unwrap();
+            let over = last.indentation - pressed.at(to).unwrap().indentation;
+            assert!(last.displacement >= to && (0.0..to / 30.0).contains(&over), "{to:e}: {last:?} {over:e}");
+        }
+    }
+
+    #[test]
     fn forces_are_those_of_a_fine_curve_with_all_its_jumps() {
         for (seed, points, most) in [(4, 512, [0.1, 0.5]), (11, 1024, [0.1, 1.0]), (14, 512, [0.1, 0.5])] {
             let found = rests(&random(seed, points)).map(|rests| {
@@ -234,7 +248,7 @@ mod tests {
             let [exact, coarse] = found;
             assert!(exact.0 < most[0] && exact.1 <= 2, "{seed}: {exact:?}");
             assert!(
-                coarse.0 < most[1] && coarse.0 > exact.0 && coarse.1 <= 8,
+                coarse.0 < most[1] && coarse.0 > exact.0 && coarse.1 <= 20,
                 "{seed}: {exact:?} {coarse:?}"
             );
         }

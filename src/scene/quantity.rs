@@ -166,7 +166,7 @@ pub(crate) fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
 
 /// A value with its unit, to two digits of an uncertainty: `50.05 mJ/m²` of ± 0.13 mJ/m².
 pub(crate) fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
-    if !(uncertainty > 0.0 && (value / uncertainty).is_finite()) {
+    if !(uncertainty > 0.0 && uncertainty.is_finite() && value.is_finite()) {
         return format_quantity(value, unit);
     }
     // Digits of the value and of the uncertainty, of which the first decimals are these powers of ten.
@@ -252,7 +252,7 @@ mod tests {
     fn an_uncertainty_determines_the_digits_of_a_value() {
         for (value, uncertainty, text) in [
             (50.0512e-3, 0.13e-3, "50.05 mJ/m²"),
-            (-7.577_123_456e-6, 4.3e-11, "-7.5771235 µm"),
+            (-7.577_123_456e-6, 4.3e-11, "-7.577123 µm"),
             (5.0, 13.0, "5 m"),
             (0.3, 13.0, "0 m"),
             (0.0, 1.0, "0 m"),
