@@ -342,7 +342,7 @@ impl Search<'_> {
 mod tests {
     use super::super::MeasuredCurve;
     use super::super::made::{on_rubber, read, rubber};
-    use super::super::read::Drift;
+    use super::super::options::Drift;
     use super::*;
     use crate::simulation::Simulation;
 
