@@ -222,12 +222,14 @@ pub(super) fn is_afmformats(header: &[String]) -> bool {
     header.iter().any(|line| line.trim_start_matches(COMMENT).trim() == "BEGIN METADATA")
 }
 
-/// Names and units of `count` columns from the last lines of a header that have as many: names with units, such as
-/// `force [nN]`, and a row of units.
+/// Names and units of `count` columns from the last lines of a header that have as many, those after `columns:` and `units:`
+/// before others: names with units, such as `force [nN]`, and a row of units.
 pub(super) fn headings(header: &[String], separator: Separator, count: usize) -> Vec<Heading> {
     let bare = |cell: &str| cell.trim_matches(['[', ']', '(', ')', '"', ' ']).to_owned();
     let mut units: Option<Vec<String>> = None;
-    for line in header.iter().rev() {
+    let is_labelled = |line: &&String| line.contains("columns:") || line.contains("units:");
+    let (labelled, others): (Vec<_>, Vec<_>) = header.iter().rev().partition(is_labelled);
+    for line in labelled.into_iter().chain(others) {
         let line = line.trim_start_matches(COMMENT).trim_start();
         let line = line.split_once("columns:").or(line.split_once("units:")).map_or(line, |(_, cells)| cells);
         // Between a name and its unit there may be a blank.
