@@ -2,7 +2,7 @@
 
 use super::body::*;
 use asperity::analysis::{Figures, Regime};
-use asperity::contact::{Direction, History, LegRecord, Move, Solver};
+use asperity::contact::{Direction, Edges, History, LegRecord, Move, Solver};
 use asperity::scene::open;
 use asperity::simulation::{Outcome, Simulation};
 use proptest::prelude::*;
@@ -50,12 +50,19 @@ fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
     assert_eq!(held(0.999).preload, whole.figures.preload);
 }
 
-/// Figures of a history but its energy, all bits.
-fn figures(legs: &[LegRecord]) -> [Option<u64>; 5] {
+/// Forces and indentations of a history: F_n, F_a, and where they are.
+fn figures(legs: &[LegRecord]) -> [Option<f64>; 4] {
     let found = Figures::of(&History { legs: legs.to_vec(), ..History::default() });
-    let Figures { preload, preload_indentation, adhesion_force, pull_off_indentation, .. } = found;
-    let of = [preload, preload_indentation, adhesion_force, found.adhesion_coefficient, pull_off_indentation];
-    of.map(|one| one.map(f64::to_bits))
+    [found.preload, found.adhesion_force, found.preload_indentation, found.pull_off_indentation]
+}
+
+/// True for figures of the same bits, or but for `slack`, of forces in N and of indentations in m.
+fn agree(one: &[LegRecord], other: &[LegRecord], slack: [f64; 2]) -> bool {
+    let slack = [slack[0], slack[0], slack[1], slack[1]];
+    figures(one).into_iter().zip(figures(other)).zip(slack).all(|pair| match pair {
+        ((Some(one), Some(other)), slack) => one.to_bits() == other.to_bits() || (one - other).abs() <= slack,
+        ((one, other), _) => one == other,
+    })
 }
 
 proptest! {
@@ -91,12 +98,19 @@ proptest! {
             let by = if loads { force - here.force } else { here.force - force };
             let is_on_way = by > 1e-9 * body.force_scale();
             if is_on_way && (here.springs > 0 || force >= 0.0) {
-                force_cuts.push(by_force.advance(Move::ToForce(force)).unwrap());
+                // The smallest force may be out of reach by a rounding.
+                force_cuts.extend(by_force.advance(Move::ToForce(force)));
             }
             force_cuts.push(by_force.advance(target).unwrap());
             legs.push(record);
         }
-        prop_assert_eq!(figures(&legs), figures(&cuts), "{:?}", turns);
-        prop_assert_eq!(figures(&legs), figures(&force_cuts), "{:?}", turns);
+        // Between springs the force is stationary at its extremes: their place is known to the root of a rounding.
+        let rounding = [1e-13 * body.scales()[0], 1e-6 * (body.deepest() + body.largest_stretch())];
+        let exact = if body.edges == Edges::Grid { [0.0; 2] } else { rounding };
+        prop_assert!(agree(&legs, &cuts, exact), "{:?}: {:?} {:?}", turns, figures(&legs), figures(&cuts));
+        prop_assert!(
+            agree(&legs, &force_cuts, rounding),
+            "{:?}: {:?} {:?}", turns, figures(&legs), figures(&force_cuts)
+        );
     }
 }
