@@ -16,7 +16,9 @@ pub(super) fn check_curve(curve: &MeasuredCurve) -> Result<(), ExperimentError> 
     }
     let quantities = [(&curve.force, "force", "N"), (&curve.displacement, "displacement", "m")];
     for ((values, name, unit), most) in quantities.into_iter().zip(MOST) {
-        if let Some((index, value)) = values.iter().enumerate().find(|(_, value)| !(value.abs() <= most)) {
+        if let Some((index, value)) =
+            values.iter().enumerate().find(|(_, value)| value.is_nan() || value.abs() > most)
+        {
             let fault = format!("{name} of point {} = {}", index + 1, format_quantity(*value, unit));
             return refused(fault, format_range((-most, most), 1, unit));
         }
