@@ -31,13 +31,13 @@ const EFFECTIVE: f64 = 0.3;
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
 /// Share of the moves that are random steps, and decades over which their lengths extend down from the whole range.
-const RANDOM: f64 = 0.1;
+const RANDOM: f64 = 0.02;
 const DECADES: f64 = 6.0;
 /// Noise in units of that of the curve down to which the forces are coarse, and factor of the members until then.
 const COARSE: f64 = 10.0;
 const MORE: usize = 2;
 /// Part of the residual of the best member down to which the noise falls, if that residual exceeds the noise of the curve.
-const DEEPER: f64 = 3.0;
+const DEEPER: f64 = 8.0;
 /// Mean square residual in units of the noise beyond which a second population is made.
 const EXPECTED: f64 = 1.2;
 /// Populations at most, and cost by which a start is better than a population that missed it.

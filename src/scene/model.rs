@@ -1,6 +1,6 @@
 //! The types of a scene: the author's choices, in SI units, and quantities that follow from them by one formula.
 //!
-//! These types hold values as written; [`super::check()`] finds the invalid ones.
+//! These types hold values as written; [`Scene::checked`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
 use super::fields::default_of;
