@@ -270,6 +270,9 @@ mod tests {
         let all = points(600);
         let rows = || all.iter().flat_map(|&(d, f)| [d, f]);
         let axes = || all.iter().map(|point| point.0).chain(all.iter().map(|point| point.1));
+        // Any number that changes with the segment.
+        let labelled =
+            || all.iter().zip(&expected.segment).flat_map(|(&(d, f), segment)| [d, f, 7.0 - *segment as f64]);
         let fields = "[('load', '<f8'), ('height', '<f8')]";
         for (content, options) in [
             (text("x/nm;F/nN\n", |d, f| format!("{d};{f}")).into(), columns(&["x", "f"])),
@@ -291,6 +294,7 @@ mod tests {
                 CurveOptions { units: vec!["nm".into(), "4nN".into()], ..columns(&["1", "2"]) },
             ),
             (array("'<f8'", "600, 2", &mut rows()), units(columns(&["1", "2"]))),
+            (array("'<f8'", "600, 3", &mut labelled()), units(columns(&["1", "2", "3"]))),
             (array("'<f8'", "2, 600", &mut axes()), units(columns(&["1", "2"]))),
             (array(fields, "600,", &mut all.iter().flat_map(|&(d, f)| [f, d])), units(plain.clone())),
         ] {
@@ -313,6 +317,11 @@ mod tests {
         assert_eq!((curve.missing, curve.averaged, curve.points), (2, 25, 100_000));
         assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 3, "{:?}", curve.statements);
         assert!((curve.force[2000] / 1e-7 - 1.0).abs() < 0.01, "{:e}", curve.force[2000]);
+        // Points of the file are counted, not means.
+        let text = lines(points(9000).into_iter());
+        let options = CurveOptions { free_points: Some(2700), ..CurveOptions::default() };
+        let curve = read(text.as_bytes(), &options).unwrap();
+        assert_eq!((curve.averaged, curve.free), (3, 900));
     }
 
     #[test]
@@ -397,13 +406,20 @@ mod tests {
 
     #[test]
     fn units_of_the_command_line_overrule_those_of_the_file() {
-        let text = text("Piezo [nm],Deflection [nm]\n", |d, f| format!("{},{}", d / 1e3, f / 4.0));
-        let options =
-            CurveOptions { units: vec!["um".to_owned(), "4nN".to_owned()], ..CurveOptions::default() };
-        let curve = read(text.as_bytes(), &options).unwrap();
-        assert!((curve.turns()[0] / 5e-8 - 1.0).abs() < 0.01 && (curve.force[300] / 1e-7 - 1.0).abs() < 0.01);
-        assert_eq!(curve.statements[0], "Unit of the displacement by --units: um; the file states nm.");
-        assert_eq!(curve.statements[1], "Unit of the force by --units: 4nN; the file states nm.");
+        // A divisor that is a whole number, and a factor.
+        for unit in [4.0, 3.0] {
+            let text = text("Piezo [nm],Deflection [nm]\n", |d, f| format!("{},{}", d / 1e3, f / unit));
+            let units = vec!["um".to_owned(), format!("{unit}nN")];
+            let curve = read(text.as_bytes(), &CurveOptions { units, ..CurveOptions::default() }).unwrap();
+            let (turn, force) = (curve.turns()[0], curve.force[300]);
+            assert!(
+                (turn / 5e-8 - 1.0).abs() < 0.01 && (force / 1e-7 - 1.0).abs() < 0.01,
+                "{turn:e} {force:e}"
+            );
+            let of_force = format!("Unit of the force by --units: {unit}nN; the file states nm.");
+            assert_eq!(curve.statements[0], "Unit of the displacement by --units: um; the file states nm.");
+            assert_eq!(curve.statements[1], of_force);
+        }
     }
 
     /// Drift over time and tilt over the displacement, separated by the parts before and after contact; a force that differs
@@ -427,8 +443,12 @@ mod tests {
         assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
         // Waves of the force are neither; a retraction alone has its own zero.
         let waves = points(600).into_iter().map(|(d, f)| (d, f + 2.0 * (0.1 * d).sin()));
-        let waves = keep(&lines(waves));
-        assert_eq!(waves, [0.0; 3]);
+        let waves = lines(waves);
+        assert_eq!(keep(&waves), [0.0; 3]);
+        let is_curved = |text: &str| {
+            read(text, Drift::Keep, Tilt::Keep).statements.concat().contains("no straight lines")
+        };
+        assert!(is_curved(&waves) && !is_curved(&made(0.0, 0.0, 0.0)));
         let end = CurveOptions { segments: vec![2], ..CurveOptions::default() };
         let end = super::tests::read(made(0.0, 0.0, 2.0).as_bytes(), &end).unwrap();
         assert!(end.force[299].abs() < 3e-10, "{:e}", end.force[299]);

@@ -201,6 +201,14 @@ mod tests {
         }
     }
 
+    /// A force without noise, as of a computed curve: no point before contact is left out.
+    #[test]
+    fn a_contact_without_noise_begins_where_the_force_does() {
+        let parabola: Vec<f64> = (0..100).map(|index| (f64::from(index) - 59.0).max(0.0).powi(2)).collect();
+        let free = free_count(&parabola, 0.0).unwrap();
+        assert!((59..=62).contains(&free), "{free}");
+    }
+
     /// Weak first contact is no noise: a force of a few noises long before the strong one.
     #[test]
     fn weak_contact_is_not_part_of_the_noise() {
