@@ -327,6 +327,44 @@ mod tests {
         }
     }
 
+    #[test]
+    fn values_have_the_digits_that_their_interval_determines() {
+        let modulus = FittedParameter {
+            parameter: Parameter::Modulus,
+            start: 2e6,
+            range: (1e6, 4e6),
+            value: 2.345678e6,
+            interval: (2.285e6, 2.405e6),
+            noise_error: 3e4,
+            profile_error: None,
+        };
+        assert_eq!(modulus.text(modulus.value), "2.346 MPa");
+    }
+
+    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) of a sphere (JKR) and F²/(π E* L³) of a punch as
+    /// long as the profile (Kendall).
+    #[test]
+    fn a_fit_begins_with_the_work_of_a_smooth_body() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let pull_off = curve.noise.max(-ends(curve.force.iter().copied()).0);
+        let (sphere, punch) =
+            (pull_off / (1.5 * PI * 7.5e-6), pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)));
+        for (form, expected) in [("Paraboloid(radius: 7.5e-6)", sphere), ("None", punch)] {
+            let changes = [("form", form), ("adhesion", "None")];
+            let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
+            let document = on_rubber(1e-3, 2e6).set_all(&changes).unwrap();
+            let options = FitOptions { free: vec!["work".parse().unwrap()], lines: 1, jobs: 1 };
+            let mut simulation = Simulation::default();
+            let (_, space) = prepare(&curve, &document, &mut simulation, &options, &|| false).unwrap();
+            let Coordinate { start, range, .. } = space.coordinates[0];
+            assert!((start / expected - 1.0).abs() < 1e-12, "{form}: {start:e} {expected:e}");
+            assert!(
+                (range.1 / (FACTOR * expected) - 1.0).abs() < 1e-12 && range.0 == 0.0,
+                "{form}: {range:?}"
+            );
+        }
+    }
+
     /// The force of a rough sphere jumps at many displacements.
     #[test]
     fn a_rough_sphere_is_found_within_its_errors() {
@@ -405,6 +443,7 @@ mod tests {
         });
         for fit in &fits {
             assert!(!fit.describes() && fit.misfit > 10.0 && fit.beyond_five_sigma > 0.2, "{fit:?}");
+            assert!(fit.reason.is_some(), "{fit:?}");
             assert!((fit.residual_over_noise / fit.misfit - 0.8).abs() < 0.2, "{fit:?}");
         }
         for (one, other) in fits[0].parameters.iter().zip(&fits[1].parameters) {
