@@ -200,7 +200,7 @@ impl Sampling {
 
 #[cfg(test)]
 mod tests {
-    use super::super::made::{Made, force_curve, random, read, stiffness, truth};
+    use super::super::made::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
     use super::super::options::Drift;
     use super::super::scene::radius_of;
     use super::super::statistics::scale;
@@ -235,6 +235,52 @@ mod tests {
             let last = *pressed.points().last().unwrap();
             let over = last.indentation - pressed.at(to).unwrap().indentation;
             assert!(last.displacement >= to && (0.0..to / 30.0).contains(&over), "{to:e}: {last:?} {over:e}");
+        }
+    }
+
+    #[test]
+    fn forces_are_those_of_the_radius_that_is_asked_for() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let document = on_rubber(1e-3, 2e6);
+        let mut simulations = [(); 2].map(|()| Simulation::default());
+        let [mut one, mut fresh] =
+            simulations.each_mut().map(|simulation| Model::new(&curve, document.scene(), simulation));
+        let mut forces = |radius| one.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, radius]).unwrap();
+        let [wide, narrow, again] = [7.5e-6, 3e-6, 7.5e-6].map(&mut forces);
+        assert!(wide == again && wide != narrow);
+        assert_eq!(fresh.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6]).unwrap(), narrow);
+    }
+
+    /// Where a soft instrument cannot hold the body any more, points halve their distances to the last one before it.
+    #[test]
+    fn points_are_dense_on_both_sides_of_a_fold() {
+        let scene = random(4, 512).scene;
+        let (contact, _) = Simulation::default().contact(&scene).unwrap();
+        let from = 1e-6;
+        let leg = Leg::approach(&contact).unwrap().turn(from).unwrap();
+        let share = |index: usize| (index as f64 / (FEW - 1) as f64).powi(2);
+        let even: Vec<f64> = (0..FEW).map(|index| leg.end() + (from - leg.end()) * share(index)).collect();
+        for times in [0.01, 0.1, 1.0] {
+            let stiffness = times * stiffness(&scene);
+            let curve = leg.curve(&even).unwrap();
+            let at: Vec<f64> = curve.iter().map(|point| point.displacement(stiffness)).collect();
+            let is_fold = |&index: &usize| {
+                at[index] < at[index - 1] && at[index + 1..].iter().all(|before| at[index] < *before)
+            };
+            let folds: Vec<usize> = (1..FEW - 1).filter(is_fold).collect();
+            assert!(!folds.is_empty(), "{times}");
+            let mut dense = even.clone();
+            for (fold, end) in folds.into_iter().flat_map(|fold| [(fold, fold - 1), (fold, fold + 1)]) {
+                let way = even[end] - even[fold];
+                dense.extend((1..=8).map(|halvings| even[fold] + way / 2_f64.powi(halvings)));
+            }
+            dense.sort_by(f64::total_cmp);
+            let mut points = vec![CurvePoint { indentation: leg.end(), ..CurvePoint::default() }];
+            points.extend(leg.curve(&dense).unwrap());
+            points.reverse();
+            let expected = DisplacementCurve::new(Direction::Unloading, &points, stiffness);
+            let sampling = Sampling { stiffness, points: FEW, least_jump: f64::INFINITY };
+            assert_eq!(sampling.pull(&leg, from).unwrap(), expected, "{times}");
         }
     }
 
