@@ -246,5 +246,22 @@ mod tests {
             sum.add(-large * f64::from(count));
             prop_assert!((sum.total() / (2.0 * f64::from(count) * small) - 1.0).abs() < 1e-9, "{:?}", sum);
         }
+
+        /// A sum of compressions is rounded once, also where it is far from the sum of the gaps.
+        #[test]
+        fn a_compression_is_rounded_once(
+            count in 1_i64..1000,
+            indentation in 0_u64..1 << 53,
+            quanta in 0_i128..1 << 62,
+            halvings in 0_u32..20,
+        ) {
+            let scale = GapScale::for_gaps_up_to(1.0);
+            let quanta = quanta >> halvings;
+            let exact = i128::from(count) * (i128::from(indentation) << 9) - quanta;
+            let totals = ContactTotals { quanta, ..ContactTotals::default() };
+            let found = totals.compression(count, (indentation << 9) as f64 * scale.quantum(), &scale);
+            let error = (found / scale.quantum()) as i128 - exact;
+            prop_assert!(error.abs() <= (exact.abs() >> 53) + (exact.abs() >> 60) + 1, "{} of {}", error, exact);
+        }
     }
 }
