@@ -154,4 +154,15 @@ mod tests {
         let error = read(&more).unwrap_err().to_string();
         assert!(error.contains("2400000 bytes up to the end; allowed: at least 2404000 bytes"), "{error}");
     }
+
+    #[test]
+    fn heights_below_the_lowest_are_missing_where_the_header_says_so() {
+        let mut bytes = flat(2, 2);
+        bytes[100..104].copy_from_slice(&(MISSING_BELOW as i32).to_le_bytes());
+        for (flag, is_missing) in [(0, false), (1, true)] {
+            bytes[86] = flag;
+            let heights = read(&bytes).unwrap().heights;
+            assert!(heights.iter().all(|height| height.is_finite() != is_missing), "{flag}: {heights:?}");
+        }
+    }
 }
