@@ -318,7 +318,7 @@ mod tests {
         assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 3, "{:?}", curve.statements);
         assert!((curve.force[2000] / 1e-7 - 1.0).abs() < 0.01, "{:e}", curve.force[2000]);
         // Points of the file are counted, not means.
-        let text = lines(points(9000).into_iter());
+        let text = lines(points(9000));
         let options = CurveOptions { free_points: Some(2700), ..CurveOptions::default() };
         let curve = read(text.as_bytes(), &options).unwrap();
         assert_eq!((curve.averaged, curve.free), (3, 900));
