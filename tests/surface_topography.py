@@ -76,8 +76,9 @@ def main(program, folder):
     line = UniformLineScan(profile, LENGTH, unit="m").detrend("height")
     UniformLineScan(profile, LENGTH, unit="m").to_netcdf(f"{folder}/line.nc")
     NonuniformLineScan(1e6 * x, 1e6 * profile, unit="um").to_netcdf(f"{folder}/points.nc")
-    for file in ["line.nc", "points.nc"]:
-        close(file, asperity(program, f"{folder}/{file}")["rms_height"], line.rms_height_from_profile())
+    # Uneven points are written with the unit of positions alone.
+    for file, units in [("line.nc", []), ("points.nc", ["--height-unit", "um"])]:
+        close(file, asperity(program, f"{folder}/{file}", *units)["rms_height"], line.rms_height_from_profile())
     report = asperity(program, f"{folder}/line.txt", "--tip-radius", f"{TIP_RADIUS}m")
     close("rms height", report["rms_height"], line.rms_height_from_profile())
     close("rms slope", report["rms_slope"], line.rms_slope_from_profile())
