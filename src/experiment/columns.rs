@@ -62,7 +62,7 @@ pub(super) struct Choice {
     /// One pair, or that of an approach and that of a retraction beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
-    /// What was chosen by names, and units of the file that were overruled.
+    /// Sentences on the columns chosen by name, and on units of the file that the options overrule.
     pub statements: Vec<String>,
 }
 

@@ -344,7 +344,7 @@ mod tests {
         points.into_iter().fold(HEADER.to_owned(), |all, (d, f)| all + &format!("{d},{f}\n"))
     }
 
-    /// A curve of `count` points, so many of them in the approach.
+    /// A curve of `count` points, of which `approach` belong to the approach.
     fn few(count: usize, approach: usize) -> String {
         let at =
             |index: usize| if index < approach { 10 * index } else { 10 * approach - 7 * (index - approach) };

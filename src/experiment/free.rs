@@ -6,7 +6,7 @@ use super::statistics::correlated;
 /// Fewest points without contact, and fewest points in contact.
 pub(super) const FEWEST: usize = 10;
 const FEWEST_IN_CONTACT: usize = 4;
-/// Gain of the logarithm of the sum of squared residuals, times the number of points, of a contact that is no noise.
+/// Number of points times the decrease of the logarithm of the sum of squared residuals above which a contact is not noise.
 const GAIN: f64 = 40.0;
 /// Deviation of the last points from the line before, in standard errors, that is a contact.
 const DEVIATES: f64 = 4.0;
@@ -209,7 +209,7 @@ mod tests {
         assert!((59..=62).contains(&free), "{free}");
     }
 
-    /// Weak first contact is no noise: a force of a few noises long before the strong one.
+    /// A weak contact, of a few times the noise, long before the strong one is not part of the baseline.
     #[test]
     fn weak_contact_is_not_part_of_the_noise() {
         for seed in 1..=6 {

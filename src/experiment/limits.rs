@@ -1,4 +1,4 @@
-//! What a caller of a fit may ask for: values of the curve and options.
+//! Checks of the curve and of the options that a caller passes to a fit.
 
 use super::parameter::{Free, Parameter};
 use super::{ExperimentError, MeasuredCurve, refused};

@@ -17,7 +17,7 @@ const FEWEST_SPRINGS: u64 = 20;
 const RIGID: f64 = 0.65;
 /// Share of the squared residuals that a pattern explains.
 const EXPLAINS: f64 = 0.4;
-/// Tabor number of an attraction that is no adhesion of Johnson, Kendall and Roberts at all.
+/// Tabor number below which the theory of Johnson, Kendall and Roberts does not apply at all.
 const LONG_RANGE: f64 = 1.0;
 /// Slope of the force over the stiffness of an instrument that does not allow it, and the part of the way from first touch to
 /// the turn, and fewest points there, by which it is found.
