@@ -79,6 +79,7 @@ pub mod explorer;
 pub mod export;
 mod io;
 mod memory;
+mod numerics;
 mod parallel;
 mod profile;
 pub mod reference;

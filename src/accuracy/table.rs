@@ -1,7 +1,7 @@
 //! The table of the cost of accuracy.
 
+use crate::numerics::slope;
 use crate::scene::format_rounded;
-use crate::spectrum::slope;
 use crate::text::grouped;
 use serde::{Serialize, Serializer};
 use strum::IntoStaticStr;

@@ -29,7 +29,6 @@ pub use history::{CurvePoint, Direction, History, LegRecord, Move, Patch, Work};
 pub use leg::{Leg, PatchState};
 pub use springs::{Contact, Foundation, HessRule, Springs};
 pub use stepwise::Stepwise;
-pub(crate) use totals::CompensatedSum;
 pub use totals::{ContactTotals, GapScale};
 
 use crate::memory::OutOfMemory;

@@ -210,43 +210,12 @@ impl SquareScale {
     }
 }
 
-/// Sum that keeps its rounding errors (Neumaier): error below 2u |Σ t| + O(n u²) Σ |t|.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct CompensatedSum {
-    value: f64,
-    error: f64,
-}
-
-impl CompensatedSum {
-    #[inline]
-    pub fn add(&mut self, term: f64) {
-        let sum = self.value + term;
-        let added = sum - self.value;
-        self.error += (self.value - (sum - added)) + (term - added);
-        self.value = sum;
-    }
-
-    pub fn total(self) -> f64 {
-        self.value + self.error
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
 
     proptest! {
-        /// Small numbers added to a large one, which is then subtracted, are kept.
-        #[test]
-        fn a_sum_keeps_its_rounding_errors(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
-            let large = 2.0_f64.powi(power);
-            let mut sum = CompensatedSum::default();
-            (0..count).for_each(|_| [small, large, small].into_iter().for_each(|term| sum.add(term)));
-            sum.add(-large * f64::from(count));
-            prop_assert!((sum.total() / (2.0 * f64::from(count) * small) - 1.0).abs() < 1e-9, "{:?}", sum);
-        }
-
         /// A sum of compressions is rounded once, also where it is far from the sum of the gaps.
         #[test]
         fn a_compression_is_rounded_once(

@@ -7,6 +7,7 @@ use super::summary::tabor_number;
 use crate::accuracy::Choice;
 use crate::analysis::Regime;
 use crate::io::{Kind, Table, object};
+use crate::numerics::root_mean_square;
 use crate::scene::{format_range, format_rounded};
 use crate::study::{Quantity, Results, Statistics};
 use crate::text::grouped;
@@ -49,9 +50,7 @@ impl LinesReport<'_> {
 
     /// Root mean square of a quantity over the profiles.
     fn rms(&self, quantity: Quantity) -> Option<f64> {
-        let values = self.results.values(0, quantity);
-        let squares: f64 = values.iter().map(|value| value.powi(2)).sum();
-        (!values.is_empty()).then(|| (squares / values.len() as f64).sqrt())
+        root_mean_square(self.results.values(0, quantity))
     }
 }
 

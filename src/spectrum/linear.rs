@@ -62,15 +62,6 @@ impl Cholesky {
     }
 }
 
-/// Slope of the straight line of least squares through some points; `None` for fewer than two different points.
-pub(crate) fn slope(points: &[(f64, f64)]) -> Option<f64> {
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
-    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
-    let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
-    let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
-    Some(product / square).filter(|slope| slope.is_finite())
-}
-
 impl Detrend {
     /// Monomials (powers of x and y) removed from a profile or a map.
     fn monomials(self, is_map: bool) -> Vec<[i32; 2]> {

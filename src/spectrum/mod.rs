@@ -27,7 +27,6 @@ pub use analysis::{Analysis, Options, analyse};
 pub use fit::PowerLaw;
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
-pub(crate) use linear::slope;
 pub use periodogram::{Bin, Direction, line_spectrum};
 pub use statistics::Statistics;
 

@@ -9,6 +9,7 @@ use super::error::StudyError;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use crate::analysis::Regime;
+use crate::numerics::root_mean_square;
 use crate::parallel::on_threads;
 use crate::scene::{CheckedScene, Document};
 use crate::simulation::{FEW_SAMPLES, RunError, Simulation};
@@ -144,8 +145,8 @@ impl MeasuredAdhesion {
 
 /// Root mean square of two numbers at least.
 fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
-    let squares: Vec<f64> = numbers.map(|number| number.powi(2)).collect();
-    (squares.len() >= 2).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+    let numbers: Vec<f64> = numbers.collect();
+    (numbers.len() >= 2).then(|| root_mean_square(numbers)).flatten()
 }
 
 #[cfg(test)]

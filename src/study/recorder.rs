@@ -6,9 +6,9 @@ use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
 use crate::analysis::Governing;
 use crate::contact::ContactError;
+use crate::numerics::slope;
 use crate::scene::{CheckedScene, Move, Roughness, Solver};
 use crate::simulation::{FEW_SAMPLES, Outcome, RunError, Simulation};
-use crate::spectrum::slope;
 use crate::surface::SurfaceError;
 use crate::text::printable;
 

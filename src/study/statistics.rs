@@ -1,6 +1,7 @@
 //! Numbers of random profiles: their mean, spread and quartiles, and how many are in each regime.
 
 use crate::analysis::Regime;
+use crate::numerics::{mean, quantile, standard_deviation};
 use crate::scene::{format_range, format_rounded};
 use serde::Serialize;
 use std::cell::Cell;
@@ -58,21 +59,17 @@ impl Statistics {
         // Divided by the largest value, so that no square overflows or underflows.
         let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
         let unit = if largest > 0.0 { largest } else { 1.0 };
-        let mean = values.iter().map(|value| value / unit).sum::<f64>() / count;
-        let squares = values.iter().map(|value| (value / unit - mean).powi(2)).sum::<f64>();
-        let (mean, standard_deviation) = (mean * unit, (squares / (count - 1.0)).sqrt() * unit);
+        values.iter_mut().for_each(|value| *value /= unit);
+        let mean = mean(&values);
+        let standard_deviation = standard_deviation(&values, mean) * unit;
+        let mean = mean * unit;
         let spread = (values.len() > 1).then(|| {
             let standard_error = standard_deviation / count.sqrt();
-            let half = quantile(values.len() as u32 - 1) * standard_error;
+            let half = student_quantile(values.len() as u32 - 1) * standard_error;
             let confidence_interval = interval(mean, half, bounds);
             Spread { standard_deviation, standard_error, confidence_interval }
         });
-        let quartiles = [0.25, 0.5, 0.75].map(|share| {
-            let place = share * (sorted.len() - 1) as f64;
-            let low = place as usize;
-            let (below, above) = (sorted[low], sorted[(low + 1).min(sorted.len() - 1)]);
-            below + (place - low as f64) * (above - below)
-        });
+        let quartiles = [0.25, 0.5, 0.75].map(|share| quantile(&sorted, share));
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
     }
 
@@ -215,7 +212,7 @@ thread_local! {
     static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-fn quantile(freedom: u32) -> f64 {
+fn student_quantile(freedom: u32) -> f64 {
     if KNOWN.get().0 != freedom {
         KNOWN.set((freedom, student_t(freedom)));
     }

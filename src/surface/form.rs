@@ -1,8 +1,8 @@
 //! Macroscopic forms, and their MDR transforms g(x) of profiles f(r): that of waves is a Struve function.
 
 use super::SurfaceError;
-use super::quadrature::quadrature;
 use super::table::{FormTable, Rows};
+use crate::numerics::gauss_nodes_on_quarter_circle;
 use crate::topography::UnitError;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
@@ -214,7 +214,7 @@ const LARGE: f64 = 40.0;
 const NODES: usize = 56;
 
 /// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature.
-static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(quadrature);
+static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// Struve function H₀(z), z ≥ 0.
 pub fn struve_0(z: f64) -> f64 {

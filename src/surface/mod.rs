@@ -4,7 +4,6 @@ mod form;
 mod line;
 mod measured;
 mod modes;
-mod quadrature;
 mod roughness;
 mod spectrum;
 mod table;

@@ -1,6 +1,6 @@
 //! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), its mean squares, and amplitudes of profiles.
 
-use crate::contact::CompensatedSum;
+use crate::numerics::CompensatedSum;
 use std::f64::consts::TAU;
 
 /// Terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the others.

@@ -3,8 +3,8 @@
 //! Between two rows the depth is a cubic, with limited slopes at the rows, so that f′ is a + b s + c s² at the distance s
 //! from a row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr a sum over the gaps between rows.
 
-use super::quadrature::quadrature;
 use crate::memory::{OutOfMemory, emptied};
+use crate::numerics::gauss_nodes_on_quarter_circle;
 use crate::topography::{Place, ReadOptions, TopographyError, Unit, content, parse, refused};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
@@ -31,7 +31,7 @@ const SQUARED_SINE: [f64; 4] = [1.0 / 3.0, -1.0 / 15.0, 2.0 / 315.0, -1.0 / 2835
 /// ∫ (1 − cos)² over δ⁵.
 const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0 / 1330560.0];
 /// Quadrature over the angle of a wider gap: f′ is a polynomial of its sine.
-static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(quadrature);
+static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// A form f(r) of rows (r, f), r ascending from 0.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 
 use super::{Place, TopographyError, refused};
 use crate::memory::{OutOfMemory, gathered};
+use crate::numerics::median;
 use std::ops::Range;
 
 /// Smallest share of measured points for interpolation.
@@ -125,7 +126,7 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
     let slope = |step: usize| {
         let pairs = heights.iter().zip(heights.iter().skip(step));
         let known = pairs.map(|(one, other)| other - one).filter(|difference| difference.is_finite());
-        gathered(heights.len(), known).map(|mut differences| median(&mut differences))
+        gathered(heights.len(), known).map(|mut differences| median(&mut differences).unwrap_or(0.0))
     };
     let tilt = [slope(1)?, if rows > 1 { slope(columns)? } else { 0.0 }];
     let level = |index: usize| {
@@ -143,12 +144,12 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
             around.extend(others.map(level).filter(|height| height.is_finite()));
         }
         // A corner has no points around it.
-        if around.is_empty() { 0.0 } else { level(index) - median(&mut around) }
+        median(&mut around).map_or(0.0, |median| level(index) - median)
     });
     let distances = gathered(heights.len(), distances)?;
     let known = || distances.iter().filter(|distance| distance.is_finite());
     let mut sizes = gathered(known().count(), known().map(|distance| distance.abs()))?;
-    let most = FAR * OF_DEVIATION * median(&mut sizes);
+    let most = FAR * OF_DEVIATION * median(&mut sizes).unwrap_or(0.0);
     let mut count = 0;
     // Where most distances are zero, as between few digits, nothing is known of their spread.
     for (height, _) in heights.iter_mut().zip(&distances).filter(|(_, one)| most > 0.0 && one.abs() > most) {
@@ -164,21 +165,10 @@ pub(super) fn level_rows(heights: &mut [f64], columns: usize) -> Result<(), OutO
     for row in heights.chunks_exact_mut(columns) {
         known.clear();
         known.extend(row.iter().filter(|height| height.is_finite()));
-        let level = median(&mut known);
+        let level = median(&mut known).unwrap_or(0.0);
         row.iter_mut().for_each(|height| *height -= level);
     }
     Ok(())
-}
-
-/// The median of values in any order; 0 of none.
-fn median(values: &mut [f64]) -> f64 {
-    let count = values.len();
-    if count == 0 {
-        return 0.0;
-    }
-    let (below, &mut upper, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
-    let lower = below.iter().copied().reduce(f64::max).filter(|_| count.is_multiple_of(2));
-    lower.map_or(upper, |lower| f64::midpoint(lower, upper))
 }
 
 #[cfg(test)]

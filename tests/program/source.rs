@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms of the source from the ground up: each imports only earlier rooms.
-const ROOMS: &str = "text memory parallel io topography contact spectrum surface scene draw analysis reference simulation \
+const ROOMS: &str = "text memory numerics parallel io topography contact spectrum surface scene draw analysis reference simulation \
     profile contact_cycle study experiment accuracy check export explorer cli main";
 
 /// Path of a module in the crate, as `["contact", "adhesive"]`.

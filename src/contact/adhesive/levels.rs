@@ -1,6 +1,6 @@
 //! Spans, neighbouring springs that one fragment holds, and their levels: length, edges and edge cells as the edges slide.
 
-use crate::contact::totals::CompensatedSum;
+use crate::numerics::CompensatedSum;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 

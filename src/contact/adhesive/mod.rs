@@ -19,7 +19,8 @@ pub(in crate::contact) use tree::largest;
 use crate::contact::ContactError;
 use crate::contact::contact_state::{ContactState, Grid, Tally};
 use crate::contact::interval::{Intervals, Piece};
-use crate::contact::totals::{CompensatedSum, SquareScale};
+use crate::contact::totals::SquareScale;
+use crate::numerics::CompensatedSum;
 use levels::EdgeCell;
 
 pub struct Runs<'a, const SLIDES: bool> {

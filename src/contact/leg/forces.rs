@@ -10,8 +10,8 @@ use crate::contact::contact_state::{ContactState, Extreme, Grid, intervals, lowe
 use crate::contact::history::Goal;
 use crate::contact::interval::{Interval, Intervals};
 use crate::contact::thresholds::Thresholds;
-use crate::contact::totals::CompensatedSum;
 use crate::contact::{ContactError, CurvePoint, Direction, Edges, Work};
+use crate::numerics::CompensatedSum;
 
 /// Intervals in which extremes are searched: each patch is evaluated at each of their ends.
 pub(in crate::contact) const SEARCH_INTERVALS: usize = 256;

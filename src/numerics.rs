@@ -1,0 +1,157 @@
+//! Numerics shared by the rooms: sums, means, quantiles, straight lines, interpolation and quadrature.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Sum that keeps its rounding errors (Neumaier): error below 2u |Σ t| + O(n u²) Σ |t|.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CompensatedSum {
+    value: f64,
+    error: f64,
+}
+
+impl CompensatedSum {
+    /// Adds a term.
+    #[inline]
+    pub fn add(&mut self, term: f64) {
+        let sum = self.value + term;
+        let added = sum - self.value;
+        self.error += (self.value - (sum - added)) + (term - added);
+        self.value = sum;
+    }
+
+    /// The sum of all terms.
+    pub fn total(self) -> f64 {
+        self.value + self.error
+    }
+}
+
+/// Mean of values; NaN of none.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Root mean square of values; `None` of none.
+pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+    let (count, squares) =
+        values.into_iter().fold((0_u64, 0.0), |(n, sum), value| (n + 1, sum + value.powi(2)));
+    (count > 0).then(|| (squares / count as f64).sqrt())
+}
+
+/// Standard deviation of several values, with n − 1, about their mean.
+pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
+    let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+    (squares / (values.len() as f64 - 1.0)).sqrt()
+}
+
+/// Median of values in any order, which it reorders; between two middle values their mean. `None` of none.
+pub fn median(values: &mut [f64]) -> Option<f64> {
+    let count = values.len();
+    if count == 0 {
+        return None;
+    }
+    let (below, &mut upper, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
+    let lower = below.iter().copied().reduce(f64::max).filter(|_| count.is_multiple_of(2));
+    Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
+}
+
+/// Quantile of ascending values, at least one of them, at this share of the way from the first to the last one:
+/// interpolated between neighbours.
+pub fn quantile(ascending: &[f64], share: f64) -> f64 {
+    let last = ascending.len() - 1;
+    let place = share * last as f64;
+    let low = place as usize;
+    between(ascending[low], ascending[(low + 1).min(last)], place - low as f64)
+}
+
+/// The value at this share of the way from one to another.
+#[inline]
+pub fn between(from: f64, to: f64, share: f64) -> f64 {
+    from + share * (to - from)
+}
+
+/// Slope of the straight line of least squares through points; `None` for fewer than two different points.
+pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+    let product: f64 = points.iter().map(|point| (point.0 - x) * (point.1 - y)).sum();
+    let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
+    Some(product / square).filter(|slope| slope.is_finite())
+}
+
+/// Nodes in (−1, 1) and weights of Gauss-Legendre quadrature with this number of nodes.
+pub fn gauss_nodes<const COUNT: usize>() -> [(f64, f64); COUNT] {
+    std::array::from_fn(|index| gauss_node(COUNT, index))
+}
+
+/// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature with this number of nodes.
+pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT] {
+    gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))
+}
+
+/// A zero of the Legendre polynomial of this degree, and its weight.
+fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
+    let count = degree as f64;
+    let mut x = (PI * (index as f64 + 0.75) / (count + 0.5)).cos();
+    let mut slope = 1.0;
+    for _ in 0..20 {
+        let (mut before, mut value) = (1.0, x);
+        for k in 2..=degree {
+            let k = k as f64;
+            (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+        }
+        slope = count * (x * value - before) / (x * x - 1.0);
+        x -= value / slope;
+    }
+    (x, 2.0 / ((1.0 - x * x) * slope * slope))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Small numbers added to a large one, which is then subtracted, are kept.
+        #[test]
+        fn a_sum_keeps_its_rounding_errors(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
+            let large = 2.0_f64.powi(power);
+            let mut sum = CompensatedSum::default();
+            (0..count).for_each(|_| [small, large, small].into_iter().for_each(|term| sum.add(term)));
+            sum.add(-large * f64::from(count));
+            prop_assert!((sum.total() / (2.0 * f64::from(count) * small) - 1.0).abs() < 1e-9, "{:?}", sum);
+        }
+    }
+
+    #[test]
+    fn samples_have_moments_and_quantiles() {
+        let values = [4.0, 1.0, 2.0, 3.0, 10.0];
+        assert_eq!((mean(&values), standard_deviation(&values, 4.0)), (4.0, 12.5_f64.sqrt()));
+        assert_eq!((root_mean_square([3.0, 4.0, 0.0, 0.0]), root_mean_square([])), (Some(2.5), None));
+        for (mut values, expected) in [
+            (vec![], None),
+            (vec![3.0], Some(3.0)),
+            (vec![9.0, 1.0, 2.0], Some(2.0)),
+            (vec![4.0, 1.0, 2.0, 9.0], Some(3.0)),
+        ] {
+            assert_eq!(median(&mut values), expected);
+        }
+        assert_eq!(
+            [0.0, 0.25, 0.5, 1.0].map(|share| quantile(&[1.0, 2.0, 4.0], share)),
+            [1.0, 1.5, 2.0, 4.0]
+        );
+        assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
+        assert_eq!(slope(&[(1.0, 1.0), (1.0, 3.0)]), None);
+    }
+
+    #[test]
+    fn nodes_integrate_polynomials() {
+        for power in 0..18_i32 {
+            let found: f64 = gauss_nodes::<9>().iter().map(|(x, weight)| weight * x.powi(power)).sum();
+            let expected = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
+            assert!((found - expected).abs() < 1e-14, "{power}: {found}");
+        }
+        let sine: f64 =
+            gauss_nodes_on_quarter_circle::<9>().iter().map(|(angle, weight)| weight * angle.sin()).sum();
+        assert!((sine - 1.0).abs() < 1e-14);
+    }
+}
