@@ -62,7 +62,7 @@
 //! # Features
 //!
 //! `tui` (default) adds the program: explorer, command line and figures of studies. Without default features the crate
-//! has no terminal packages. `parquet` adds tables of studies in that format.
+//! has no terminal packages.
 
 pub mod accuracy;
 pub mod analysis;

@@ -19,6 +19,7 @@ mod plan;
 mod preloads;
 mod presets;
 mod progress;
+mod removed;
 mod reversals;
 mod run;
 mod scene;
@@ -95,6 +96,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 /// the words that follow for another command, or for options of none.
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
+    let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
+    let first = typed.get(1).map(|word| word.to_string_lossy());
+    let removed = unknown.as_deref().into_iter().chain(first.as_deref()).find_map(removed::refusal);
+    if let Some(refusal) = removed {
+        return command.error(ErrorKind::UnknownArgument, refusal);
+    }
     let names = names(&command);
     let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
     let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);

@@ -41,8 +41,6 @@ mod live_plan;
 mod measured;
 mod measured_adhesion;
 mod memory;
-#[cfg(feature = "parquet")]
-mod parquet;
 mod place;
 mod plan;
 mod plan_text;
@@ -68,8 +66,6 @@ pub use live_map::{Level, LiveMap};
 pub use live_plan::{MAP_LINES, MAP_RECORD, live_plan};
 pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 pub use memory::Memory;
-#[cfg(feature = "parquet")]
-pub use parquet::write_parquet;
 pub use place::moved;
 pub use plan::{MOST_CELLS, MOST_LINES, MOST_RECORDS, Plan, StiffnessRange};
 pub use plan_text::{Changes, PLAN_VERSION, PLANS, PlanErrors};
@@ -84,4 +80,4 @@ pub use statistics::{Column, RegimeCounts, Spread, Statistics};
 pub use status::{Attempt, ShardStatus, Status};
 pub use store::{Folder, Header, STORE_VERSION, ShardFile};
 pub use study_map::StudyMap;
-pub use tables::{PARQUET, RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};
+pub use tables::{RESULTS, RESULTS_VERSION, SIDECAR, SUMMARY, merge};

@@ -23,8 +23,6 @@ pub const RESULTS_VERSION: u32 = 1;
 pub const RESULTS: &str = "results.csv";
 /// One row for each cell.
 pub const SUMMARY: &str = "summary.csv";
-/// The results with types, if requested.
-pub const PARQUET: &str = "results.parquet";
 /// Column of the reasons of records without values.
 const REASON: &str = "reason";
 /// Longest sidecar that is read.
@@ -33,7 +31,6 @@ const LONGEST_SIDECAR: usize = 1 << 26;
 pub const SIDECAR: &str = "results.json";
 
 /// Merges the shard files of a study and writes its tables, each whole. With `partial`, tables of the existing records.
-/// Removes [`PARQUET`] of an earlier merge.
 ///
 /// # Errors
 /// Missing records if `partial` is not set, or two records of one cell and profile that differ.
@@ -53,10 +50,6 @@ pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
         )));
     }
     let path = |name| folder.path().join(name);
-    let parquet = path(PARQUET);
-    if parquet.exists() {
-        std::fs::remove_file(&parquet).map_err(StudyError::unwritable(&parquet))?;
-    }
     write_new_file(&path(RESULTS), true, |out| results.table().write_csv(out, ""))?;
     write_new_file(&path(SUMMARY), true, |out| results.summary().write_csv(out, ""))?;
     let hash = sha256_of(&path(RESULTS)).map_err(|error| StudyError::folder(&path(RESULTS), error))?;

@@ -13,8 +13,6 @@ mod documentation;
 mod estimates;
 mod generated;
 mod notices;
-#[cfg(feature = "parquet")]
-mod parquet;
 mod processes;
 mod program;
 mod python;

@@ -1,7 +1,7 @@
 //! `asperity sweep merge`: the tables of a study.
 
 use crate::cli::error::CliError;
-use crate::study::{Folder, Merged, PARQUET, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
+use crate::study::{Folder, Merged, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
 use crate::text::path_name;
 use clap::Args;
 use std::io::Write;
@@ -25,29 +25,12 @@ pub struct MergeArguments {
     /// Publish the finished cells, even if others are missing
     #[arg(long)]
     pub partial: bool,
-    /// Write results.parquet as well, with typed columns
-    #[arg(long, hide = cfg!(not(feature = "parquet")))]
-    pub parquet: bool,
 }
 
 pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    if arguments.parquet && cfg!(not(feature = "parquet")) {
-        return Err(CliError::named(
-            "--parquet",
-            "this program was built without it; cargo install --path . --features parquet builds it in",
-        ));
-    }
     let folder = Folder::open(&arguments.folder)?;
     let merged = merge_records(&folder, arguments.partial)?;
-    #[cfg(feature = "parquet")]
-    if arguments.parquet {
-        crate::study::write_parquet(&folder)?;
-    }
-    write_merged(&folder, &merged, stdout)?;
-    if arguments.parquet {
-        writeln!(stdout, "{PARQUET} has the rows of {RESULTS}")?;
-    }
-    Ok(())
+    write_merged(&folder, &merged, stdout)
 }
 
 pub(super) fn write_merged(folder: &Folder, merged: &Merged, stdout: &mut dyn Write) -> Result<(), CliError> {
