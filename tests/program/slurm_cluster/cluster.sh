@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # A Slurm of its own on the loopback: a controller and two nodes of one processor each, without systemd, and
-# with a munge of its own. Runs until its standard input ends, and takes everything it started along.
+# with a munge of its own. Runs a command of the shell in FOLDER once both nodes are idle, and takes everything that it
+# started along. Needs slurmctld, slurmd, slurm-client and munge (Debian). The exit code is that of the command.
 #
-#   cluster.sh FOLDER CONTROLLER_PORT NODE_PORT NODE_PORT MUNGED SLURMCTLD SLURMD
-#
-# FOLDER must be new to it. Says `ready` when both nodes are idle; the configuration is FOLDER/slurm.conf.
+#   cluster.sh FOLDER CONTROLLER_PORT NODE_PORT NODE_PORT COMMAND
 set -uo pipefail
-folder="$1" controller="$2" first="$3" second="$4" munged="$5" slurmctld="$6" slurmd="$7"
-cd "$folder" || exit 1
+PATH="$PATH:/usr/sbin:/sbin"
+place="$1" folder="$1/cluster" controller="$2" first="$3" second="$4" command="$5"
+chmod 0755 "$place" && mkdir -m 0755 "$folder" && cd "$folder" || exit 1
 export SLURM_CONF="$folder/slurm.conf"
 mkdir -m 0755 spool spool/n1 spool/n2 state munge || exit 1
 user="$(id -un)"
 host="$(hostname -s)"
 
 stop() {
+    code=$?
     trap '' EXIT INT TERM HUP
     scancel --user="$user" >>stop.log 2>&1
     # What still runs is ended with its node; give the nodes a moment to do that themselves.
@@ -33,7 +34,7 @@ stop() {
         "$folder" | "$folder"/*) [ "${process#/proc/}" != "$$" ] && [ "${process#/proc/}" != "$BASHPID" ] && kill -9 "${process#/proc/}" ;;
         esac
     done 2>>stop.log
-    exit 0
+    exit "$code"
 }
 trap stop EXIT
 trap 'exit 1' INT TERM HUP
@@ -74,18 +75,18 @@ PartitionName=all Nodes=n1,n2 Default=YES MaxTime=60
 END
 
 head -c 1024 /dev/urandom >munge/key && chmod 0400 munge/key || exit 1
-"$munged" --socket="$folder/munge/socket" --key-file="$folder/munge/key" --log-file="$folder/munge/log" \
+munged --socket="$folder/munge/socket" --key-file="$folder/munge/key" --log-file="$folder/munge/log" \
     --pid-file="$folder/munge/munged.pid" --seed-file="$folder/munge/seed" --num-threads=2 --force \
     >>start.log 2>&1 || { cat start.log; exit 1; }
-"$slurmctld" -c -f slurm.conf >>start.log 2>&1 || { cat start.log; exit 1; }
+slurmctld -c -f slurm.conf >>start.log 2>&1 || { cat start.log; exit 1; }
 for node in n1 n2; do
-    "$slurmd" -f slurm.conf -N "$node" >>start.log 2>&1 || { cat start.log; exit 1; }
+    slurmd -f slurm.conf -N "$node" >>start.log 2>&1 || { cat start.log; exit 1; }
 done
 for _ in $(seq 100); do
     if [ "$(sinfo --noheader --format=%T,%D 2>>start.log)" = idle,2 ]; then
-        echo ready
-        read -r _
-        exit 0
+        (cd "$place" && bash -c "$command") && exit 0
+        cat slurmctld.log n1.log n2.log
+        exit 1
     fi
     sleep 0.1
 done
