@@ -1,8 +1,10 @@
 //! Commands and options that the program no longer has, and what serves instead.
 
 /// A removed command, or option with its dashes, and what serves instead of it.
-const REMOVED: &[(&str, &str)] =
-    &[("--parquet", "results.csv has the same rows, and pandas or polars write them as Parquet")];
+const REMOVED: &[(&str, &str)] = &[
+    ("--parquet", "results.csv has the same rows, and pandas or polars write them as Parquet"),
+    ("--memory", "fewer threads take less memory: --jobs; --check states the memory of a plan"),
+];
 
 /// The refusal of a removed command or option; `None` for any other word.
 pub(super) fn refusal(word: &str) -> Option<String> {

@@ -5,7 +5,7 @@ use super::plan_text::PlanErrors;
 use crate::io::WriteError;
 use crate::simulation::RunError;
 use crate::surface::SurfaceError;
-use crate::text::path_name;
+use crate::text::{memory_size, path_name};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -41,6 +41,17 @@ pub enum StudyError {
     /// Records are missing, or two records of one cell and profile differ.
     #[error("{0}")]
     Records(String),
+    /// The system has too little memory for so many threads.
+    #[error(
+        "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
+        memory_size(*bytes)
+    )]
+    Memory {
+        /// Number of threads.
+        jobs: u64,
+        /// Memory of the study, bytes.
+        bytes: u64,
+    },
     /// The system starts no thread.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),

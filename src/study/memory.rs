@@ -1,7 +1,9 @@
-//! Memory of a study, for as many threads as it may take.
+//! Memory that a study takes.
 
+use super::StudyError;
 use super::axis::Axis;
 use super::plan::{MOST_CHECKED, Plan};
+use crate::memory::check_room;
 use crate::simulation;
 
 /// Code, stacks, files and the reserve of the allocator, bytes.
@@ -12,38 +14,29 @@ const LONGEST_KEPT: u64 = 1 << 22;
 /// Bytes per spring of the unloadings from several preloads, where nearly every spring is an event.
 const REVERSED: u64 = 192;
 
-/// Memory of a study, bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Memory {
-    /// Memory of one thread.
-    pub job: u64,
-    /// Memory shared by all threads.
-    pub shared: u64,
-}
-
-impl Memory {
-    /// Memory of a study of this plan: that of its largest scene.
-    pub fn of(plan: &Plan) -> Memory {
+impl Plan {
+    /// Most memory, bytes, of the study with this number of threads, each with the largest scene of the plan.
+    ///
+    /// # Errors
+    /// More than the system provides now.
+    pub fn memory(&self, jobs: u64) -> Result<u64, StudyError> {
         let of_cell = |cell| {
-            let scene = plan.scene_of(cell).ok()?;
+            let scene = self.scene_of(cell).ok()?;
             let spare = 16 * scene.numerics.samples * scene.loading.len() as u64;
             let peak = simulation::Plan::of(&scene).peak_bytes;
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
             // The contact without adhesion or at zero force may add to the memory of the scene itself.
-            let turns = plan.preloads().is_some() && scene.adhesion.is_some();
+            let turns = self.preloads().is_some() && scene.adhesion.is_some();
             let reversed = if turns { REVERSED * points } else { 0 };
             Some((peak + kept + reversed, spare))
         };
-        let cells = plan.extremes(MOST_CHECKED).into_iter().filter_map(of_cell);
+        let cells = self.extremes(MOST_CHECKED).into_iter().filter_map(of_cell);
         let (job, spare) = cells.fold((0, 0), |(job, spare), one| (job.max(one.0), spare.max(one.1)));
         // The axes, and one byte for each record.
-        let values: u64 = plan.axes.iter().map(Axis::count).sum();
-        Memory { job: job + spare, shared: PROGRAM + 8 * values + plan.records_in_all() }
-    }
-
-    /// Memory with this number of threads, bytes.
-    pub fn of_jobs(&self, jobs: u64) -> u64 {
-        self.shared + jobs * self.job
+        let values: u64 = self.axes.iter().map(Axis::count).sum();
+        let bytes = PROGRAM + 8 * values + self.records_in_all() + jobs.saturating_mul(job + spare);
+        check_room(bytes).map_err(|_| StudyError::Memory { jobs, bytes })?;
+        Ok(bytes)
     }
 }

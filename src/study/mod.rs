@@ -65,7 +65,6 @@ pub use grid::{Cell, Grid, Layer, Place};
 pub use live_map::{Level, LiveMap};
 pub use live_plan::{MAP_LINES, MAP_RECORD, live_plan};
 pub use measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
-pub use memory::Memory;
 pub use place::moved;
 pub use plan::{MOST_CELLS, MOST_LINES, MOST_RECORDS, Plan, StiffnessRange};
 pub use plan_text::{Changes, PLAN_VERSION, PLANS, PlanErrors};

@@ -4,7 +4,7 @@ use super::merge::write_merged;
 use crate::cli::error::CliError;
 use crate::cli::progress::ProgressLine;
 use crate::cli::scene::{Overrides, threads};
-use crate::study::{Changes, Folder, Memory, Options, Plan, Progress, Shard, Status, merge, run as compute};
+use crate::study::{Changes, Folder, Options, Plan, Progress, Shard, Status, merge, run as compute};
 use crate::text::memory_size;
 use clap::Args;
 use std::io::{self, Write};
@@ -32,9 +32,6 @@ pub struct SweepRunArguments {
     /// All parts write to the same folder, or their folders are copied into one before merging.
     #[arg(long, value_name = "K/N")]
     pub shard: Option<Shard>,
-    /// Most memory for all threads: 500M, 2G; fewer threads run if need be
-    #[arg(long, value_name = "SIZE", value_parser = size)]
-    pub memory: Option<u64>,
     /// Random profiles of each cell, in place of the number in the plan
     #[arg(long, value_name = "COUNT")]
     pub lines: Option<u64>,
@@ -45,52 +42,21 @@ pub struct SweepRunArguments {
     pub overrides: Overrides,
 }
 
-/// Parses a number of bytes with its unit.
-pub(super) fn size(text: &str) -> Result<u64, String> {
-    let allowed = || "allowed: a size such as 500M, 2G or 1.5GiB".to_owned();
-    let text = text.trim();
-    let digits = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
-    let (number, unit) = text.split_at(digits);
-    let unit = unit.trim().to_ascii_lowercase();
-    let unit = unit.strip_suffix("ib").or(unit.strip_suffix('b')).unwrap_or(&unit);
-    let power = match unit {
-        "" => 0,
-        "k" => 1,
-        "m" => 2,
-        "g" => 3,
-        "t" => 4,
-        _ => return Err(allowed()),
-    };
-    let bytes = number.parse::<f64>().map_err(|_| allowed())? * 1024_f64.powi(power);
-    if (1.0..=1e18).contains(&bytes) { Ok(bytes as u64) } else { Err(allowed()) }
-}
-
 pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     // The parser requires a plan if there is no command.
     let plan = Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes)?;
-    let memory = Memory::of(&plan);
-    let wanted = threads(arguments.jobs) as u64;
-    let mut jobs = wanted;
-    if let Some(most) = arguments.memory {
-        if memory.of_jobs(1) > most {
-            let [most, least] = [most, memory.of_jobs(1)].map(memory_size);
-            let reason = format!("this plan takes {least} with one thread; allowed: at least that");
-            return Err(CliError::named(format!("--memory {most}"), reason));
-        }
-        jobs = jobs.min((most - memory.shared) / memory.job.max(1)).max(1);
-    }
+    let jobs = threads(arguments.jobs) as u64;
+    let memory = plan.memory(jobs)?;
     let mut stderr = io::stderr();
-    let threads = if jobs == 1 { "1 thread".into() } else { format!("{jobs} threads") };
-    let fewer =
-        if jobs < wanted { format!(", fewer than {wanted} to fit the memory") } else { String::new() };
     let text = format!(
-        "{} cells on {} {}: {} records; {threads}{fewer}, at most {} of memory",
+        "{} cells on {} {}: {} records; {jobs} {}, at most {} of memory",
         plan.cells(),
         plan.lines,
         if plan.lines == 1 { "profile" } else { "profiles" },
         plan.records_in_all(),
-        memory_size(memory.of_jobs(jobs))
+        if jobs == 1 { "thread" } else { "threads" },
+        memory_size(memory)
     );
     if arguments.check {
         writeln!(stdout, "{text}")?;
@@ -176,18 +142,6 @@ fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn sizes_are_bytes() {
-        for (text, expected) in
-            [("500M", 500 << 20), ("2G", 2 << 30), ("1.5 GiB", 3 << 29), ("4096", 4096), ("1kb", 1024)]
-        {
-            assert_eq!(size(text), Ok(expected), "{text}");
-        }
-        for wrong in ["", "G", "-1G", "1X", "1GG", "nan", "0", "1e3M"] {
-            assert!(size(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn progress_is_one_line() {

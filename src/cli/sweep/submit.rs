@@ -5,7 +5,6 @@
 //! is slow at restarts, so the script restarts a killed program at once, which continues where its results end. The task
 //! that completes the study merges it.
 
-use super::run::size;
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
 use crate::scene::quoted;
@@ -47,9 +46,6 @@ pub struct SubmitArguments {
     /// Parts the plan is cut into, one task each
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub shards: u64,
-    /// Most memory for a task: 500M, 2G
-    #[arg(long, value_name = "SIZE", value_parser = size)]
-    pub memory: Option<u64>,
     /// Random profiles of each cell, in place of the number in the plan
     #[arg(long, value_name = "COUNT")]
     pub lines: Option<u64>,
@@ -90,7 +86,6 @@ fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<
         })
     };
     let (program, folder) = (text_of(program)?, text_of(folder)?);
-    let memory = arguments.memory.map_or_else(String::new, |bytes| format!(" --memory {bytes}"));
     Ok(format!(
         r#"#!/bin/sh
 #SBATCH --job-name=asperity
@@ -103,7 +98,7 @@ folder={folder}
 retry=0
 while :; do
     "$program" sweep "$folder/plan.ron" -o "$folder" --shard "$SLURM_ARRAY_TASK_ID/{shards}" \
-        --jobs "${{SLURM_CPUS_PER_TASK:-${{SLURM_CPUS_ON_NODE:-1}}}}"{memory}
+        --jobs "${{SLURM_CPUS_PER_TASK:-${{SLURM_CPUS_ON_NODE:-1}}}}"
     status=$?
     # Statuses above 128 are signals; after hangup, interrupt and termination the task ends.
     case $status in 129 | 130 | 143) exit $status ;; esac

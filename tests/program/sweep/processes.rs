@@ -161,19 +161,16 @@ fn a_full_disk_is_stated_and_loses_nothing() {
 }
 
 #[test]
-fn too_little_memory_is_refused_and_some_keeps_threads_down() {
+fn too_little_memory_is_refused() {
     let place = place();
-    let with = |size: &str| {
-        let mut command = command(place.path());
-        command.args(["--memory", size, "--jobs", "64", "--check"]);
-        finish(command)
-    };
-    let refused = with("1M");
-    assert_eq!(refused.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("with one thread"));
-    let fewer = with("17M");
-    let message = String::from_utf8_lossy(&fewer.stdout);
-    assert!(message.contains("fewer than 64 to fit the memory"), "{message}");
+    let words =
+        ["sweep", "plan-of-test.ron", "-o", "study", "--jobs", "1024", "--set", "numerics.points=1048576"];
+    let mut limited = Command::new("sh");
+    limited.args(["-c", "ulimit -v 4000000; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_asperity")]).args(words);
+    let output = limited.current_dir(place.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(message.contains("not enough memory: with --jobs 1024 the study takes up to"), "{message}");
     assert!(!place.path().join("study").exists());
 }
 
