@@ -69,15 +69,6 @@ pub struct Boundaries {
     pub found: Vec<Boundary>,
 }
 
-/// Factors of κ under other definitions of its constituents: name and factor.
-pub const DEFINITIONS: [(&str, f64); 3] = [
-    ("kappa", 1.0),
-    // Wave numbers in 1/m: ⟨∇z⟩ is 2π times smaller, κ by its root, 1/√(2π).
-    ("kappa_cycles", 0.398_942_280_401_432_7),
-    // Amplitudes in place of root mean squares: h and ⟨∇z⟩ are √2 times larger.
-    ("kappa_amplitude", std::f64::consts::SQRT_2),
-];
-
 /// F_a(0)/F_a,max over κ or e_el/γ in ascending order: each value with the shares of the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 

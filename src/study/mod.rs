@@ -59,7 +59,7 @@ mod study_map;
 mod tables;
 
 pub use axis::{Axis, DERIVED, MOST_VALUES, Spacing};
-pub use boundary::{Boundaries, Boundary, Crossing, DEFINITIONS, USUAL_LEVELS, boundaries, protocol_name};
+pub use boundary::{Boundaries, Boundary, Crossing, USUAL_LEVELS, boundaries, protocol_name};
 pub use error::StudyError;
 pub use grid::{Cell, Grid, Layer, Place};
 pub use live_map::{Level, LiveMap};

@@ -18,8 +18,6 @@ Examples:
 F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
 profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
 the profiles.
-With wave numbers in 1/m instead of rad/m the same κ* is √(2π) times smaller (kappa_cycles), with
-amplitudes instead of root mean squares √2 times larger (kappa_amplitude).
 A boundary in κ is one in e_el/γ as well, elastic energy of conformity over work of adhesion.";
 
 #[derive(Args, Debug)]
