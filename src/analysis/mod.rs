@@ -12,4 +12,4 @@ pub use governing::{
     DEFAULT_RANGE, Governing, LEAST_TABOR_NUMBER, SteepWaves, ideal_adhesion_force, scene_tabor_number,
 };
 pub use instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
-pub use reversal_map::{CONGRUENT_SHARE, MinorLoops, ReversalMap};
+pub use reversal_map::ReversalMap;

@@ -3,6 +3,8 @@
 /// A removed command, or option with its dashes, and what serves instead of it.
 const REMOVED: &[(&str, &str)] = &[
     ("--parquet", "results.csv has the same rows, and pandas or polars write them as Parquet"),
+    ("--smoothing", "the density is gone, and --map writes forces and Everett function"),
+    ("--loops", "asperity run computes minor loops as stages of the loading"),
     ("--memory", "fewer threads take less memory: --jobs; --check states the memory of a plan"),
 ];
 

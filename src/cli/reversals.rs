@@ -5,7 +5,7 @@ use super::output::{Origin, OutputArguments, TABLES};
 use super::preloads::{check_reach, parse_range};
 use super::scene::{SceneArguments, simulation_of};
 use crate::draw::AxisScale;
-use crate::export::{Format, ReversalReport, SMOOTHING};
+use crate::export::{Format, ReversalReport};
 use crate::simulation::{RunError, TURNING_POINTS};
 use crate::study::{Axis, PRELOADS, Results, Staircase};
 use clap::Args;
@@ -18,15 +18,7 @@ Examples:
   asperity reversals rough-sphere --map -o map.csv
 
 Turning points have equal distances of indentation. The Everett function is half the decrease of the
-force since the turning point; the density is -1/2 of the mixed second derivative of the force.";
-
-/// Most steps on either side of the fit of the density.
-const MOST_SMOOTHING: i64 = 16;
-/// Most upper, and most lower, indentations of the minor loops.
-const MOST_LEVELS: i64 = 64;
-
-/// Default number of ends of minor loops.
-const LOOPS: u8 = 12;
+force since the turning point.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -50,12 +42,6 @@ pub struct ReversalOptions {
     /// Default: between first touch and the preload of the scene.
     #[arg(long, value_name = "FROM..TO", value_parser = forces)]
     pub preloads: Option<(f64, f64)>,
-    /// Steps on either side of the quadratic fit of the density
-    #[arg(long, value_name = "STEPS", default_value_t = SMOOTHING as u8, value_parser = clap::value_parser!(u8).range(1..=MOST_SMOOTHING))]
-    pub smoothing: u8,
-    /// Upper, and lower, ends of minor loops; 0: none
-    #[arg(long, value_name = "LEVELS", default_value_t = LOOPS, value_parser = clap::value_parser!(u8).range(0..=MOST_LEVELS))]
-    pub loops: u8,
     /// Write a table of the points of the map instead of turning points
     #[arg(long)]
     pub map: bool,
@@ -82,12 +68,9 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     }
     let (count, never) = (usize::from(options.count), || false);
     let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
-    let (mut loops, mut preloads, mut staircase) = (None, None, None);
+    let (mut preloads, mut staircase) = (None, None);
     // Tables hold the map alone.
     if !format.is_table() {
-        if let levels @ 1.. = usize::from(options.loops) {
-            loops = Some(simulation.minor_loops(scene, &map, levels, &never).map_err(failed)?);
-        }
         let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
         let (from, to) = options.preloads.unwrap_or((0.0, largest));
         if let Ok(asked) = Axis::of_preloads((from, to), count, AxisScale::Linear) {
@@ -107,8 +90,6 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
         map: &map,
         preloads: preloads.as_ref(),
         staircase: staircase.as_ref(),
-        loops,
-        smoothing: usize::from(options.smoothing),
         map_table: options.map,
     };
     output.write(stdout, &report, format, Origin::Scene(&document, scene))

@@ -45,7 +45,7 @@ pub(crate) use parameters::parameter_lines;
 pub(crate) use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 pub(crate) use provenance::{check_measured_files, files_provenance, named_from};
 pub(crate) use report::check_extension;
-pub(crate) use reversals::{ReversalReport, SMOOTHING, density_chart, everett_chart};
+pub(crate) use reversals::{ReversalReport, everett_chart};
 pub(crate) use scene_figure::ContactSets;
 pub(crate) use sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
 pub(crate) use spectrum_figure::Spectra;

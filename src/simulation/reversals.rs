@@ -1,10 +1,10 @@
-//! Reversals of a scene: the unloadings from many turning points of one loading, and the minor loops.
+//! Reversals of a scene: the unloadings from many turning points of one loading.
 
 use super::reach::{self, Reach};
 use super::stages::Prepared;
 use super::{Plan, RunError, Simulation};
-use crate::analysis::{MinorLoops, ReversalMap};
-use crate::contact::{Body, ContactError, LegRecord, Reversal};
+use crate::analysis::ReversalMap;
+use crate::contact::{Body, ContactError, Reversal};
 use crate::scene::{CheckedScene, Move, Scene, Solver as SolverChoice};
 use std::ops::RangeInclusive;
 
@@ -96,43 +96,6 @@ impl Simulation {
             Ok(())
         })?;
         Ok(ReversalMap { points, below, reversals })
-    }
-
-    /// Compares minor loops between the same two indentations, one on the way back from the first loading there and one
-    /// on the way back from the deepest turning point of a map, for `levels` upper and as many lower indentations.
-    pub fn minor_loops(
-        &mut self,
-        scene: &CheckedScene,
-        map: &ReversalMap,
-        levels: usize,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<MinorLoops, RunError> {
-        let Some(deepest) = map.reversals.last() else { return Ok(MinorLoops::default()) };
-        let top = deepest.turn.indentation;
-        let mut loops = Vec::new();
-        for (upper, lower) in (0..levels).flat_map(|upper| (0..levels).map(move |lower| (upper, lower))) {
-            let high = top * upper as f64 / levels as f64;
-            let share = (lower as f64 + 0.5) / levels as f64;
-            let low = deepest.separation + share * (high - deepest.separation);
-            for loading in [&[high, low, high][..], &[top, low, high, low]] {
-                loops.extend(loading.iter().map(|&to| Move::ToIndentation(to)));
-                loops.push(Move::ToSeparation);
-            }
-        }
-        if loops.is_empty() {
-            return Ok(MinorLoops::default());
-        }
-        let scene = scene.with(|scene| {
-            scene.numerics.samples = FEW_SAMPLES;
-            scene.loading = loops;
-        })?;
-        let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
-        let loss = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
-        let loops = outcome.history.legs.chunks_exact(9);
-        // A loop with separation is no minor loop.
-        let minor = loops.filter(|legs| legs[1].end_in_contact().is_some());
-        let pairs: Vec<_> = minor.map(|legs| [loss(&legs[1..3]), loss(&legs[6..8])]).collect();
-        Ok(MinorLoops::new(&pairs, deepest.dissipated_energy))
     }
 }
 

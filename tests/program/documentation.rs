@@ -27,10 +27,7 @@ const PAGES: [(&str, &str); 12] = [
         "measured force curves: reading, fit of the work of adhesion and other parameters, errors",
     ),
     ("model.md", "equations, exact solution, regimes, validity, claims of the paper"),
-    (
-        "reversals.md",
-        "steps of the adhesion force over the preload; minor loops and their Everett map, density, congruency",
-    ),
+    ("reversals.md", "steps of the adhesion force over the preload; the Everett function of reversal curves"),
     ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),
     ("glossary.md", "terms and symbols, words to avoid"),
     ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of random profiles"),

@@ -210,7 +210,7 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
 #[test]
 fn reversals_end_at_their_turning_points() {
     let run = |more: &[&str]| text(&[&["reversals"], &FEW[..], &["--count", "12"], more].concat());
-    let object: Value = serde_json::from_str(&run(&["--format", "json", "--smoothing", "1"])).unwrap();
+    let object: Value = serde_json::from_str(&run(&["--format", "json"])).unwrap();
     let (reversals, forces, indentations) =
         (array(&object["reversals"]), array(&object["forces"]), array(&object["indentations"]));
     assert_eq!((reversals.len(), forces.len()), (12, 12));

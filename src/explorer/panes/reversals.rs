@@ -9,7 +9,7 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{filled, wrapped};
-use crate::export::{ReversalReport, SMOOTHING, density_chart, everett_chart};
+use crate::export::{ReversalReport, everett_chart};
 use crate::scene::format_rounded;
 use ratatui::layout::Size;
 use ratatui::text::Line;
@@ -29,14 +29,6 @@ pub static EVERETT: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-pub static DENSITY: PaneRow = PaneRow {
-    panel: |app, size| panel(app, size, "FORC density ρ", |map| density_chart(map, SMOOTHING)),
-    report,
-    studies,
-    help: &[("Density", "O again: the density ρ = −½ ∂²F/∂d_r∂d of the same curves")],
-    ..PaneRow::EMPTY
-};
-
 fn studies(_: &App, computed: &Arc<SolvedScene>) -> Vec<Study> {
     let scene = Arc::clone(&computed.scene);
     vec![Study::new(computed.generation, false, move |simulation, stop, _: &mut dyn FnMut(ReversalMap)| {
@@ -52,8 +44,6 @@ fn report(app: &App) -> Exported<'_> {
         map,
         preloads: None,
         staircase: None,
-        loops: None,
-        smoothing: SMOOTHING,
         map_table: true,
     };
     Some(("asperity reversals --map".into(), Box::new(report)))
