@@ -244,6 +244,11 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
+    /// Number of the band of equal shade for a value, see [`Shades::of_band`].
+    pub fn shade(&self, value: f64) -> usize {
+        ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
+    }
+
     /// Borders of cells with these values on an axis, in coordinates: halfway between the values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();

@@ -107,6 +107,14 @@ const BLUE_TO_RED: [Rgb; 9] =
     rgb([0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b]);
 
 impl Shades {
+    /// Number of bands of equal shade in a document.
+    pub const BANDS: usize = 64;
+
+    /// Colour of a band, from the lowest one.
+    pub fn of_band(self, band: usize) -> Rgb {
+        self.at((band as f64 + 0.5) / Shades::BANDS as f64)
+    }
+
     /// Colours at equal distances.
     pub fn colours(self) -> [Rgb; 9] {
         match self {

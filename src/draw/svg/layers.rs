@@ -6,6 +6,7 @@ use crate::draw::axis::{Axis, Share};
 use crate::draw::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
 use crate::draw::colour::{Ink, Rgb, ink_on};
 use crate::draw::contour::contour;
+use std::collections::BTreeMap;
 
 pub(super) const AREA_OPACITY: f64 = 0.25;
 /// Least distance of two signs on a map, px.
@@ -144,16 +145,20 @@ pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, (x, y): Place, r: f64, colour
 fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     let columns = HeatMap::borders(frame.axes.x.scale, &map.columns);
     let rows = HeatMap::borders(frame.axes.y.scale, &map.rows);
-    let colours: Vec<Option<Rgb>> =
-        map.values.iter().map(|value| value.map(|value| map.colour(value))).collect();
-    for (cells, up) in colours.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
+    // One path for each shade: a figure has few lines, and changes of a few cells change few of them.
+    let mut boxes: BTreeMap<Option<usize>, Vec<(Place, Place)>> = BTreeMap::new();
+    let shades: Vec<Option<usize>> = map.values.iter().map(|value| value.map(|value| map.shade(value))).collect();
+    for (cells, up) in shades.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
         let mut column = 0;
-        for run in cells.chunk_by(|one, next| one == next) {
+        for alike in cells.chunk_by(|one, next| one == next) {
             let from = frame.place_of_coordinates((columns[column], up[1]));
-            column += run.len();
+            column += alike.len();
             let to = frame.place_of_coordinates((columns[column], up[0]));
-            svg.boxes(std::iter::once((from, to)), run[0].unwrap_or(EMPTY));
+            boxes.entry(alike[0]).or_default().push((from, to));
         }
+    }
+    for (shade, boxes) in boxes {
+        svg.boxes(boxes.into_iter(), shade.map_or(EMPTY, |shade| map.shades.of_band(shade)));
     }
     let coordinates = |axis: &Axis, values: &[f64]| -> Vec<f64> {
         values.iter().map(|value| axis.scale.coordinate(*value)).collect()

@@ -11,6 +11,7 @@ pub(crate) use tests::{attribute, elements, parsed};
 
 use super::axis::Axes;
 use super::chart::{Chart, Figure, HeatMap};
+use super::colour::Shades;
 use super::label::Label;
 use elements::{Anchor, PAPER, Pen, Place, TEXT};
 use frame::{Frame, LABEL, Side};
@@ -20,10 +21,9 @@ const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu San
 /// Room below a chart for its axis, and least room on its right, px.
 const BELOW: f64 = 50.0;
 const BESIDE: f64 = 22.0;
-/// Distance of the colour scale from its map, its width, px, and its number of colours.
+/// Distance of the colour scale from its map, and its width, px.
 const FROM_MAP: f64 = 14.0;
 const BAR: f64 = 13.0;
-const BANDS: usize = 128;
 /// Least distance of text from the border, px.
 const MARGIN: f64 = 6.0;
 /// Sizes of the title and of text below it and below the legend, px.
@@ -151,10 +151,10 @@ fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
     frame.axis(svg, Side::Left);
     if let Some(map) = chart.map() {
         let scale = frame_of_colours(map, frame);
-        for band in 0..BANDS {
-            let [low, high] = [band, band + 1].map(|band| band as f64 / BANDS as f64);
+        for band in 0..Shades::BANDS {
+            let [low, high] = [band, band + 1].map(|band| band as f64 / Shades::BANDS as f64);
             let corners = (scale.at((0.0, high)), scale.at((1.0, low)));
-            svg.boxes(std::iter::once(corners), map.shades.at(f64::midpoint(low, high)));
+            svg.boxes(std::iter::once(corners), map.shades.of_band(band));
         }
         svg.frame(scale.from, scale.to, Pen::solid(TEXT, 1.0));
         scale.axis(svg, Side::Right);
