@@ -1,7 +1,7 @@
 //! `asperity sensitivity`: changes of the results of a scene with its numbers.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments};
+use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::scene::{SceneArguments, simulation_of};
 use crate::export::{Format, SensitivityReport};
 use crate::study::Sensitivity;
@@ -11,13 +11,13 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity sensitivity pressure-sensitive
-  asperity sensitivity my-scene.ron --set numerics.points=16384 -o sensitivity.svg
+  asperity sensitivity my-scene.ron --set numerics.points=16384 -o sensitivity.csv
 
 Each number of the scene is made 10 % smaller and larger while all others stay; the last row is the
 range over other random profiles.";
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, mut_args(without_look))]
 pub struct SensitivityArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
@@ -26,7 +26,7 @@ pub struct SensitivityArguments {
 }
 
 pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let format = arguments.output.format(&Format::ALL, Format::Text)?;
+    let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let found = Sensitivity::of(scene, &mut simulation_of(&document), &|| false, &mut |_| ());

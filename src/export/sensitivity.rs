@@ -1,8 +1,8 @@
-//! Sensitivity of a scene as text, JSON, a table and a figure.
+//! Sensitivity of a scene as text, JSON and a table, and the chart of the explorer.
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span};
+use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer, Shape, Sign, Span};
 use crate::io::{Table, object};
 use crate::scene::{Adhesion, Scene, format_quantity, format_rounded};
 use crate::study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
@@ -12,8 +12,6 @@ use crate::text::grouped;
 const LARGE: f64 = 2.0;
 /// Smallest end of the axis of a chart, percent.
 const LEAST: f64 = 1.0;
-/// Least distance of bars in a picture, px.
-const ROW: f64 = 14.0;
 /// Half the height of a bar, in distances of bars.
 const HALF: f64 = 0.35;
 
@@ -212,16 +210,6 @@ impl Report for SensitivityReport<'_> {
         }
         Some(table.done())
     }
-
-    fn figure(&self) -> Option<Figure> {
-        let results = if self.sensitivity.missing().is_some() { 0 } else { 3 };
-        let chart = |result| sensitivity_chart(self.sensitivity, result, usize::MAX);
-        let charts: Vec<Chart> = (0..results).map(chart).collect();
-        let (title, notes) = (self.title.to_owned(), vec![Label::plain(&self.note())]);
-        let rows = charts.first().map_or(0, |chart| chart.y.names.len());
-        let size = (Figure::SMALL.0, Figure::SMALL.1.max(ROW * rows as f64));
-        Some(Figure { title, notes, charts, size, ..Figure::default() })
-    }
 }
 
 #[cfg(test)]
@@ -281,6 +269,6 @@ mod tests {
         assert_eq!((arrows(Sign::Right), arrows(Sign::Left)), (Some(1), Some(0)));
         let none = Sensitivity { present: [Some(0.0), None, None], ..sensitivity };
         let report = SensitivityReport { title: "None", scene: &scene, sensitivity: &none };
-        assert!(report.text().unwrap().contains("no pull-off") && report.figure().unwrap().charts.is_empty());
+        assert!(report.text().unwrap().contains("no pull-off"));
     }
 }
