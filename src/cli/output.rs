@@ -4,6 +4,7 @@ use super::error::CliError;
 use crate::draw::{Colours, Figure, figure_text};
 use crate::export::{
     self, Format, Report, check_extension, files_provenance, parameter_lines, scene_provenance,
+    scenes_provenance,
 };
 use crate::io::{check_writable, write_new};
 use crate::scene::{Document, Scene, parse_quantity, quoted};
@@ -56,7 +57,7 @@ fn width(text: &str) -> Result<f64, String> {
     if WIDTHS.contains(&width) { Ok(width) } else { Err("allowed: from 50mm to 500mm".to_owned()) }
 }
 
-/// Input of a table of results.
+/// Input of results.
 #[derive(Clone, Copy)]
 pub(super) enum Origin<'a> {
     /// A scene, with its document for the places of its files.
@@ -104,7 +105,7 @@ impl OutputArguments {
         Ok(format)
     }
 
-    /// Writes a report to its destination: a table with its provenance, a figure as asked.
+    /// Writes a report to its destination with its provenance, a figure as asked.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -112,28 +113,28 @@ impl OutputArguments {
         format: Format,
         origin: Origin<'_>,
     ) -> Result<(), CliError> {
-        if let Some(figure) = report.figure().filter(|_| format.is_picture()) {
-            let parameters = match origin {
-                _ if !self.parameters => Vec::new(),
-                Origin::Scene(_, scene) => parameter_lines(&[(String::new(), scene.clone())]),
-                Origin::Scenes(scenes) => parameter_lines(scenes),
-                Origin::Files(_) => {
-                    return Err(CliError::named("--parameters", "this figure has no scene"));
-                }
-            };
-            let figure = Figure { parameters, width: self.width.map(|width| PX * width), ..figure };
-            return self.fill(stdout, |out| export::write(out, &figure, format, ""));
-        }
         let provenance = match origin {
-            Origin::Scenes(_) => Ok(String::new()),
-            _ if !format.is_table() => Ok(String::new()),
+            _ if matches!(format, Format::Text | Format::Npy | Format::Png | Format::Pdf) => {
+                Ok(String::new())
+            }
+            Origin::Scenes(scenes) => Ok(scenes_provenance(&command(), scenes)),
             Origin::Scene(document, scene) => {
                 scene_provenance(&command(), scene, &document.resolve(""), self.folder())
             }
             Origin::Files(files) => files_provenance(&command(), files, self.folder()),
         };
         let provenance = provenance.map_err(CliError::message)?;
-        self.fill(stdout, |out| export::write(out, report, format, &provenance))
+        let Some(figure) = report.figure().filter(|_| format.is_picture()) else {
+            return self.fill(stdout, |out| export::write(out, report, format, &provenance));
+        };
+        let parameters = match origin {
+            _ if !self.parameters => Vec::new(),
+            Origin::Scene(_, scene) => parameter_lines(&[(String::new(), scene.clone())]),
+            Origin::Scenes(scenes) => parameter_lines(scenes),
+            Origin::Files(_) => return Err(CliError::named("--parameters", "this figure has no scene")),
+        };
+        let figure = Figure { parameters, width: self.width.map(|width| PX * width), ..figure };
+        self.fill(stdout, |out| export::write(out, &figure, format, &provenance))
     }
 
     /// Writes a figure, as a picture or as text, to its destination.
@@ -186,7 +187,7 @@ impl AnswerFormat {
     ) -> Result<(), CliError> {
         let format = Format::of_file(None, Some(self.format), TEXT_OR_JSON, Format::Text);
         match format.map_err(CliError::message)? {
-            Format::Json => crate::io::write_json_value(stdout, answer)?,
+            Format::Json => crate::io::write_json(stdout, answer, &[])?,
             _ => stdout.write_all(text().as_bytes())?,
         }
         Ok(())

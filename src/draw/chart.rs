@@ -15,6 +15,8 @@ pub struct Figure {
     pub charts: Vec<Chart>,
     /// Frame of each chart, px; only its proportion counts in a figure of a given width.
     pub size: (f64, f64),
+    /// Version, command and scene, in the metadata of a document.
+    pub origin: String,
     /// Lines in a box below the legend.
     pub parameters: Vec<Label>,
     /// Width of a picture, px of 1/96 inch, in which letters and lines keep their size; else that of its frames.

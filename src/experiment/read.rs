@@ -5,7 +5,6 @@ use super::baseline::ends;
 use super::columns::{Choice, Pair, headings, is_afmformats};
 use super::options::CurveOptions;
 use crate::io::{PROVENANCE, npy};
-use crate::scene::LONGEST_TEXT;
 use crate::topography::text::{Cell, Decimal, Separator, each_line};
 use crate::topography::{Place, TopographyError, content, npy_columns, refused, shown, unpacked};
 use std::cell::RefCell;
@@ -129,8 +128,8 @@ fn parts_of(choice: &mut Choice) -> Vec<Columns> {
 
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, TopographyError> {
     let (names, values) = npy_columns(bytes)?;
-    let tail = &bytes[bytes.len().saturating_sub(npy::most_appended(LONGEST_TEXT))..];
-    let is_own = npy::appended_text(tail).is_some_and(|text| text.starts_with(&PROVENANCE[2..]));
+    // A force curve or a fit of this program, in SI units.
+    let is_own = names.iter().any(|name| ["contact_length", "residual"].contains(&name.as_str()));
     let names: Vec<_> = names.into_iter().map(|name| (name, None)).collect();
     let mut choice = Choice::new(&names, values.len(), is_own, options)?;
     let mut parts = parts_of(&mut choice);

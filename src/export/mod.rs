@@ -43,7 +43,7 @@ pub(crate) use loop_chart::{
 pub(crate) use measured_face::{MeasuredFace, SurfaceFile};
 pub(crate) use parameters::parameter_lines;
 pub(crate) use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
-pub(crate) use provenance::{check_measured_files, files_provenance, named_from};
+pub(crate) use provenance::{check_measured_files, files_provenance, named_from, scenes_provenance};
 pub(crate) use report::check_extension;
 pub(crate) use reversals::{ReversalReport, everett_chart};
 pub(crate) use scene_figure::ContactSets;

@@ -1,6 +1,6 @@
-//! Provenance of a table of results: version, command, measured files and scene, written into its file.
+//! Provenance of results: version, command, measured files and scene, written into their file.
 //!
-//! In CSV the text fills the first lines, each after `# `; in `.npy` it is an array after that of the results.
+//! In CSV the text fills the first lines, each after `# `; SVG has it as metadata, JSON its version and command in front.
 
 use crate::io::sha256_of;
 use crate::scene::{Document, Scene, to_ron};
@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 
 /// Prefix of the line of a measured file.
 const HASH: &str = "sha256: ";
+/// Prefix of the line of the command.
+const COMMAND: &str = "command: ";
 
 /// Provenance of a table of a scene. Files of the scene are relative to `folder`, and the table is written into
 /// `destination`.
@@ -27,6 +29,20 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
+/// Provenance of a figure of several scenes with their names; a scene without a name is left out.
+pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
+    let named = scenes.iter().filter(|(name, _)| !name.is_empty());
+    let texts = named.map(|(name, scene)| format!("scene {}:\n{}", printable(name), to_ron(scene)));
+    version_and_command(command, "") + &texts.collect::<String>()
+}
+
+/// Version and command of a provenance, as entries of a JSON object.
+pub(super) fn entries(provenance: &str) -> Vec<(&str, &str)> {
+    let command = provenance.lines().find_map(|line| line.strip_prefix(COMMAND));
+    let program = provenance.lines().next().map(|program| ("program", program));
+    program.into_iter().chain(command.map(|command| ("command", command))).collect()
+}
+
 /// Provenance of a table of measured files without a scene, written into `destination`.
 pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
@@ -37,12 +53,17 @@ pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) ->
 /// Version, measured files with the SHA-256 of their contents, and command, one line each. The name of a file is a RON
 /// string, always on one line.
 fn head(command: &str, files: &[&str], folder: &Path, destination: &Path) -> Result<String, String> {
-    let mut text = format!("asperity {}\n", env!("CARGO_PKG_VERSION"));
+    let mut hashes = String::new();
     for file in files {
         let sha256 = hash_of(&folder.join(file))?;
-        text += &format!("{HASH}{sha256} {:?}\n", named_from(file, folder, destination));
+        hashes += &format!("{HASH}{sha256} {:?}\n", named_from(file, folder, destination));
     }
-    Ok(text + &format!("command: {}\n", printable(&command.replace(['\n', '\r'], " "))))
+    Ok(version_and_command(command, &hashes))
+}
+
+fn version_and_command(command: &str, hashes: &str) -> String {
+    let (version, command) = (env!("CARGO_PKG_VERSION"), command.replace(['\n', '\r'], " "));
+    format!("asperity {version}\n{hashes}{COMMAND}{}\n", printable(&command))
 }
 
 /// Checks that the measured files of a scene are those behind the table of results that it was read from.

@@ -1,7 +1,8 @@
 //! A result in up to four shapes, and the formats in which these are written.
 
+use super::provenance::entries;
 use crate::draw::{Axis, Chart, Figure, Layer};
-use crate::io::{Kind, Table, write_json_value};
+use crate::io::{Kind, Table, write_json};
 use crate::text::{path_name, printable};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -33,12 +34,13 @@ pub trait Report {
 
 /// A value that is written as JSON without an intermediate copy.
 pub trait Json {
-    fn write_json(&self, out: &mut dyn Write) -> io::Result<()>;
+    /// Writes it; an object begins with these entries.
+    fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 
 impl<T: Serialize> Json for T {
-    fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
-        write_json_value(out, self)
+    fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()> {
+        write_json(out, self, head)
     }
 }
 
@@ -68,7 +70,7 @@ impl Report for Figure {
     }
 }
 
-/// Writes a report; a table begins with its provenance.
+/// Writes a report with its provenance, which text, arrays and pixels do without.
 pub fn write(
     out: &mut dyn Write,
     report: &(impl Report + ?Sized),
@@ -78,10 +80,13 @@ pub fn write(
     let missing = || io::Error::other(format!("this result has no {} form", format.name()));
     match format {
         Format::Text => out.write_all(report.text().ok_or_else(missing)?.as_bytes()),
-        Format::Json => report.json().ok_or_else(missing)?.write_json(out),
+        Format::Json => report.json().ok_or_else(missing)?.write_json(out, &entries(provenance)),
         Format::Csv => report.table().ok_or_else(missing)?.write_csv(out, provenance),
-        Format::Npy => report.table().ok_or_else(missing)?.write_npy(out, provenance),
-        Format::Svg => out.write_all(report.figure().ok_or_else(missing)?.svg().as_bytes()),
+        Format::Npy => report.table().ok_or_else(missing)?.write_npy(out),
+        Format::Svg => {
+            let figure = report.figure().ok_or_else(missing)?;
+            out.write_all(Figure { origin: provenance.to_owned(), ..figure }.svg().as_bytes())
+        }
         Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
         Format::Pdf => out.write_all(&report.figure().ok_or_else(missing)?.pdf()?),
     }

@@ -12,7 +12,7 @@ mod write;
 pub(crate) const PROVENANCE: &str = "# asperity ";
 
 pub(crate) use hash::{hexadecimal, sha256_of};
-pub use json::write_json_value;
+pub use json::write_json;
 pub(crate) use object::{Entry, Object, Optional, Pairs, object};
 pub(crate) use read::*;
 pub use table::{Kind, Table, TableOf};

@@ -17,6 +17,9 @@ pub(crate) enum ReadError {
     /// The path is a pipe, a socket, a terminal or another device.
     #[error("this is not a regular file")]
     NotRegular,
+    /// An array where a scene is asked for.
+    #[error("an array of NumPy holds no scene; allowed: a scene, or a table of results in CSV")]
+    Array,
     #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
     TooLong { limit: usize },
     /// The bytes are not text.

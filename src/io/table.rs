@@ -1,7 +1,6 @@
 //! Tables of results: as CSV, as an array of NumPy, and as JSON objects.
 //!
-//! CSV begins with its provenance in comments. An array has a field for each column, and the provenance is a second
-//! array in the same file, since the header of an array holds only its type and shape.
+//! CSV begins with its provenance in comments. An array has a field for each column.
 
 use super::npy;
 use serde::ser::{Serialize, Serializer};
@@ -117,8 +116,8 @@ impl Table<'_> {
         Ok(())
     }
 
-    /// Writes an array of NumPy, and the provenance as a second one.
-    pub fn write_npy(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
+    /// Writes an array of NumPy.
+    pub fn write_npy(&self, out: &mut dyn Write) -> io::Result<()> {
         let descr = |kind: Kind| match kind {
             Kind::Real => "<f8".to_owned(),
             Kind::Whole => "<u8".to_owned(),
@@ -146,7 +145,7 @@ impl Table<'_> {
                 }?;
             }
         }
-        npy::write_text(out, provenance)
+        Ok(())
     }
 }
 
@@ -189,7 +188,7 @@ mod tests {
         table.write_csv(&mut csv, "one\ntwo\n").unwrap();
         assert_eq!(String::from_utf8(csv).unwrap(), "# one\n# two\na,b,c\n0.1,7,é\n,8,\"y,\"\n");
         let mut array = Vec::new();
-        table.write_npy(&mut array, "one").unwrap();
+        table.write_npy(&mut array).unwrap();
         let header = 128;
         let descr =
             "{'descr': [('a', '<f8'), ('b', '<u8'), ('c', '<U2')], 'fortran_order': False, 'shape': (2,), }";
@@ -200,10 +199,9 @@ mod tests {
             expected.extend(whole.to_le_bytes());
             word.into_iter().for_each(|code| expected.extend(u32::from(code).to_le_bytes()));
         }
-        assert_eq!(array[header..header + expected.len()], expected);
-        assert_eq!(npy::appended_text(&array), Some("one"));
+        assert_eq!(array[header..], expected);
         let long = Table::of(|| ["xyz"].into_iter()).with("c", Kind::Text(2), |word| *word);
-        assert!(long.done().write_npy(&mut Vec::new(), "").is_err());
+        assert!(long.done().write_npy(&mut Vec::new()).is_err());
         assert_eq!(quoted("a\"b"), "\"a\"\"b\"");
     }
 }

@@ -1,7 +1,7 @@
 //! Opening a scene by file, by name or from a stream; a table of results opens as its scene.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 
 use super::document::{Document, LONGEST_TEXT};
@@ -13,8 +13,8 @@ use crate::text::printable;
 
 /// Opens a scene: a file if one of that name exists or the name looks like a path (ends in `.ron` or has a path
 /// separator), else a built-in scene, else one of the user's own scenes, see [`own_folder`]. Only regular
-/// files are read, since a pipe, a terminal or a device would block. A table of results, CSV or `.npy`, opens as
-/// its scene.
+/// files are read, since a pipe, a terminal or a device would block. A table of results in CSV opens as its
+/// scene.
 ///
 /// # Errors
 /// No such scene, an unreadable file, or the errors of its scene.
@@ -110,14 +110,11 @@ fn text_of_file(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let mut start = Vec::new();
     file.by_ref().take(npy::SIGNATURE.len() as u64).read_to_end(&mut start)?;
-    if start != npy::SIGNATURE {
-        return text_of_stream(Cursor::new(start).chain(file));
+    if start == npy::SIGNATURE {
+        Err(ReadError::Array)
+    } else {
+        text_of_stream(Cursor::new(start).chain(file))
     }
-    let most = npy::most_appended(LONGEST_TEXT) as u64;
-    let length = file.metadata()?.len();
-    file.seek(SeekFrom::Start(length.saturating_sub(most)))?;
-    let tail = read_limited(file, most as usize)?;
-    Ok(npy::appended_text(&tail).filter(|text| text.starts_with(TABLE.0)).unwrap_or(TABLE.0).to_owned())
 }
 
 fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
@@ -173,18 +170,11 @@ mod tests {
         let scene = presets()[0].text;
         let text = format!("asperity 0.1.0\nsha256: 00 \"a.txt\"\ncommand: asperity run x\nscene:\n{scene}");
         let csv: String = text.lines().map(|line| format!("# {line}\n")).collect::<String>() + "x,z\n1,2\n";
-        let mut array = Vec::new();
-        npy::write_header(&mut array, "'<f8'", "1,").unwrap();
-        array.extend(1.0_f64.to_le_bytes());
-        npy::write_text(&mut array, &text).unwrap();
-        for file in [csv.clone().into_bytes(), csv.replace('\n', "\r\n").into_bytes(), array.clone()] {
-            assert_eq!(read(&file).unwrap().scene(), open(presets()[0].name).unwrap().scene());
+        for file in [csv.clone(), csv.replace('\n', "\r\n")] {
+            assert_eq!(read(file.as_bytes()).unwrap().scene(), open(presets()[0].name).unwrap().scene());
         }
-        array.clear();
-        npy::write_header(&mut array, "'<f8'", "0,").unwrap();
-        for file in [&b"# asperity 0.1.0\nx,z\n"[..], &array] {
-            let refused = read(file).unwrap_err().to_string();
-            assert!(refused.contains("a table without a scene; allowed: "), "{refused}");
-        }
+        assert!(read(npy::SIGNATURE).unwrap_err().to_string().contains("an array of NumPy holds no scene"));
+        let refused = read(b"# asperity 0.1.0\nx,z\n").unwrap_err().to_string();
+        assert!(refused.contains("a table without a scene; allowed: "), "{refused}");
     }
 }

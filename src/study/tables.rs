@@ -10,7 +10,7 @@ use super::statistics::{CONFIDENCE, Statistics};
 use super::store::{Folder, lines};
 use crate::analysis::Regime;
 use crate::io::{
-    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, sha256_of, write_json_value,
+    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, sha256_of, write_json,
     write_new_file,
 };
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     write_new_file(&path(RESULTS), true, |out| results.table().write_csv(out, ""))?;
     write_new_file(&path(SUMMARY), true, |out| results.summary().write_csv(out, ""))?;
     let hash = sha256_of(&path(RESULTS)).map_err(|error| StudyError::folder(&path(RESULTS), error))?;
-    write_new_file(&path(SIDECAR), true, |out| write_json_value(out, &sidecar(plan, &merged, &hash)))?;
+    write_new_file(&path(SIDECAR), true, |out| write_json(out, &sidecar(plan, &merged, &hash), &[]))?;
     Ok(merged)
 }
 

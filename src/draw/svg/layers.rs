@@ -147,7 +147,8 @@ fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     let rows = HeatMap::borders(frame.axes.y.scale, &map.rows);
     // One path for each shade: a figure has few lines, and changes of a few cells change few of them.
     let mut boxes: BTreeMap<Option<usize>, Vec<(Place, Place)>> = BTreeMap::new();
-    let shades: Vec<Option<usize>> = map.values.iter().map(|value| value.map(|value| map.shade(value))).collect();
+    let shades: Vec<Option<usize>> =
+        map.values.iter().map(|value| value.map(|value| map.shade(value))).collect();
     for (cells, up) in shades.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
         let mut column = 0;
         for alike in cells.chunk_by(|one, next| one == next) {

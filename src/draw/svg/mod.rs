@@ -61,6 +61,9 @@ impl Figure {
             y = end + MARGIN;
         }
         let mut document = Svg::new(width, y, &Label::plain(&self.title).to_string());
+        if !self.origin.is_empty() {
+            document.push(format_args!("<metadata>{}</metadata>", escaped(self.origin.trim_end())));
+        }
         document.rectangle((0.0, 0.0), (width, y), PAPER);
         document.group(FONTS, |document| document.append(svg));
         document.finish()
