@@ -114,7 +114,7 @@ fn figure(size: &Size) -> Plan {
     let text = format!(
         "(version: 1, base: \"ideal-adhesion\", set: {{\"numerics.points\": \"{}\", \"roughness.modes\": \"(1, {})\"}},
          axes: [Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: {}),
-                Linear(path: \"kappa\", from: 1.25, to: 41.25, count: {})],
+                Linear(path: \"adhesion.kappa\", from: 1.25, to: 41.25, count: {})],
          preloads: [0.01, 0.1, 1.0], lines: {},
          record: [adhesion_coefficient, adhesion_force, zero_load_adhesion_share, regime])",
         size.points,
@@ -131,7 +131,7 @@ fn small(cells: u64) -> Plan {
     let text = format!(
         "(version: 1, base: \"ideal-adhesion\", set: {{\"numerics.points\": \"1024\", \"roughness.modes\": \"(1, 128)\"}},
          axes: [List(path: \"roughness.hurst\", values: [0.3, 0.7]),
-                Linear(path: \"kappa\", from: 0.2, to: 6.6, count: {})],
+                Linear(path: \"adhesion.kappa\", from: 0.2, to: 6.6, count: {})],
          preloads: [0.1], record: [adhesion_coefficient, adhesion_force])",
         cells / 2
     );

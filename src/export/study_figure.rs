@@ -267,7 +267,7 @@ mod tests {
 
     fn kappas() -> StudyAxis {
         let values = (0..17).map(|index| 0.25 * 10_f64.powf(f64::from(index) / 10.0)).collect();
-        axis("kappa", Spacing::Logarithmic, values)
+        axis("adhesion.kappa", Spacing::Logarithmic, values)
     }
 
     fn share(kappa: f64, hurst: f64) -> f64 {

@@ -198,7 +198,7 @@ impl Axis {
 }
 
 /// Quantities that are not fields of a scene.
-pub const DERIVED: &[&str] = &["kappa", "elastic_energy_ratio", "preload", "springs_per_wave"];
+pub const DERIVED: &[&str] = &["preload", "springs_per_wave"];
 
 /// Numbers that cannot be varied: the version is no parameter, and seeds are counted from the plan's.
 const FIXED: &[&str] = &["version", "roughness.seed"];
@@ -213,8 +213,6 @@ pub(super) enum Target {
     Number(&'static Field),
     /// The force, N, or indentation, m, of a loading stage.
     Stage(usize),
-    /// κ or e_el/γ, by the work of adhesion; replaces the work of the scene.
-    RoughnessParameter(RoughnessParameter),
     /// Preload F_n in units of E* h L.
     Preload,
     /// Springs per period of the shortest wave: the last mode is points over this number.
@@ -256,14 +254,14 @@ impl Target {
             "springs_per_wave" => return Ok(Target::SpringsPerWave),
             _ => {}
         }
-        if let Some(parameter) = RoughnessParameter::named(path).filter(|one| one.name() == path) {
-            return Ok(Target::RoughnessParameter(parameter));
-        }
         let stage = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Stage);
         number(path).map(Target::Number).or_else(stage).ok_or_else(|| {
             let all = FIELDS.iter().flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
             let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
-            let near = did_you_mean(path, numbers.iter().map(String::as_str).chain(DERIVED.iter().copied()));
+            let near =
+                || did_you_mean(path, numbers.iter().map(String::as_str).chain(DERIVED.iter().copied()));
+            let parameter = RoughnessParameter::named(path);
+            let near = parameter.map_or_else(near, |one| format!("; did you mean {}?", one.path()));
             let derived = DERIVED.join(", ");
             format!("no such number{near} (allowed: numbers of a scene by their paths, and {derived})")
         })
@@ -274,10 +272,9 @@ impl Target {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// κ or e_el/γ, also where an axis sets the field of the scene.
+    /// κ or e_el/γ, which replaces a work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
-            Target::RoughnessParameter(parameter) => Some(parameter),
             Target::Number(field) => RoughnessParameter::named(field.path),
             _ => None,
         }
@@ -287,7 +284,7 @@ impl Target {
     pub fn shapes(self) -> Shapes {
         let field = match self {
             Target::SpringsPerWave => return Shapes::Roughness,
-            Target::Stage(_) | Target::RoughnessParameter(_) | Target::Preload => return Shapes::Passes,
+            Target::Stage(_) | Target::Preload => return Shapes::Passes,
             Target::Number(field) => field,
         };
         match (field.parent(), field.path) {
@@ -302,11 +299,7 @@ impl Target {
 
     /// Name, symbol, which may be empty, and SI unit of the quantity at this path of a scene.
     pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
-        if self.parameter() == Some(RoughnessParameter::Kappa) {
-            return ("roughness-adhesion parameter".into(), RoughnessParameter::Kappa.symbol(), "1");
-        }
         match self {
-            Target::RoughnessParameter(parameter) => ("elastic energy ratio".into(), parameter.symbol(), "1"),
             Target::Preload => ("preload".into(), "F_n/(E* h L)", "1"),
             Target::SpringsPerWave => ("springs per wave".into(), "", "1"),
             Target::Stage(stage) => match scene.loading.get(stage) {
@@ -373,15 +366,21 @@ mod tests {
                 "Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)",
                 "did you mean roughness.hurst?",
             ),
-            ("Linear(path: \"kapa\", from: 0.1, to: 0.9, count: 3)", "did you mean kappa?"),
-            ("Linear(path: \"kappa\", from: 2.0, to: 1.0, count: 3)", "`from` must be less than `to`"),
-            ("Linear(path: \"kappa\", from: NaN, to: 1.0, count: 3)", "both ends must be finite"),
-            ("Linear(path: \"kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
-            ("Linear(path: \"kappa\", from: 1.0, to: 2.0, count: 18446744073709551615)", "from 2 to 1000000"),
-            ("Logarithmic(path: \"kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),
-            ("List(path: \"kappa\", values: [])", "no values"),
-            ("List(path: \"kappa\", values: [1.0, inf])", "values must be finite"),
-            ("List(path: \"kappa\", values: [1.0, 2.0, 1.0])", "the value 1.0 appears twice"),
+            ("Linear(path: \"kappa\", from: 0.1, to: 0.9, count: 3)", "did you mean adhesion.kappa?"),
+            (
+                "Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)",
+                "`from` must be less than `to`",
+            ),
+            ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "both ends must be finite"),
+            ("Linear(path: \"adhesion.kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
+            (
+                "Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 18446744073709551615)",
+                "from 2 to 1000000",
+            ),
+            ("Logarithmic(path: \"adhesion.kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),
+            ("List(path: \"adhesion.kappa\", values: [])", "no values"),
+            ("List(path: \"adhesion.kappa\", values: [1.0, inf])", "values must be finite"),
+            ("List(path: \"adhesion.kappa\", values: [1.0, 2.0, 1.0])", "the value 1.0 appears twice"),
             ("Linear(path: \"numerics.points\", from: 2.0, to: 4.0, count: 9)", "appears twice"),
             (
                 "Linear(path: \"numerics.points\", from: 2.5, to: 4.0, count: 2)",

@@ -7,7 +7,7 @@
 //! e_el/γ: on profiles of one spectrum either determines the other.
 
 use super::StudyError;
-use super::axis::{Axis, Target};
+use super::axis::Axis;
 use super::place::governing;
 use super::plan::Plan;
 use super::quantity::Quantity;
@@ -72,7 +72,7 @@ pub struct Boundaries {
 /// F_a(0)/F_a,max over κ or e_el/γ in ascending order: each value with the shares of the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Finds the boundaries of a merged study along its axis `kappa` or `elastic_energy_ratio`, in terms of either.
+/// Finds the boundaries of a merged study along its axis of κ or e_el/γ, in terms of either.
 ///
 /// # Errors
 /// A study without such an axis or without a recorded share of F_a(0), or as [`Results::open`]; for a study of a measured
@@ -82,12 +82,9 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
     let plan = study.plan();
     let refuse = |reason: &str| StudyError::folder(path, reason);
     let mut axes = plan.axes.iter().map(|axis| axis.target).enumerate();
-    let along = axes.find_map(|(place, target)| match target {
-        Target::RoughnessParameter(parameter) => Some((place, parameter)),
-        _ => None,
-    });
+    let along = axes.find_map(|(place, target)| Some((place, target.parameter()?)));
     let (along, given) = along.ok_or_else(|| {
-        refuse("this study has no axis `kappa` or `elastic_energy_ratio`, along which a boundary lies")
+        refuse("this study has no axis adhesion.kappa or adhesion.elastic_energy_ratio, along which a boundary lies")
     })?;
     let shares = Quantity::ADHESION_SHARES;
     let protocols: Vec<Quantity> = shares.into_iter().filter(|share| plan.record.contains(share)).collect();
@@ -106,9 +103,9 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
                 continue;
             }
             let to = conversion(plan, cell, given, over).ok_or_else(|| {
-                let name = over.name();
+                let path = over.path();
                 refuse(&format!(
-                    "this study has no axis `{name}`, which does not follow from its measured surface"
+                    "this study has no axis {path}, which does not follow from its measured surface"
                 ))
             })?;
             for &level in levels {

@@ -271,7 +271,7 @@ mod tests {
                  List(path: \"roughness.hurst\", values: [{}])])",
                 to_ron(&live.plan().scene),
                 live.plan().lines,
-                parameter.name(),
+                parameter.path(),
                 list(0, &up),
                 list(1, &across),
             );

@@ -73,7 +73,7 @@ pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &
     scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };
     let hursts = || (1..=HURSTS).map(|index| f64::from(index) * 5.0 / 100.0).collect();
     let hursts = has_hurst.then(|| ("roughness.hurst", Spacing::Linear, hursts()));
-    let parameters = (parameter.name(), Spacing::Logarithmic, parameters(parameter));
+    let parameters = (parameter.path(), Spacing::Logarithmic, parameters(parameter));
     let axes = [parameters].into_iter().chain(hursts);
     // Both are quantities of a scene.
     let axes = axes.filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());

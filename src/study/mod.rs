@@ -14,7 +14,7 @@
 //!     version: 1,
 //!     base: "rough-sphere",
 //!     set: {"numerics.points": "256", "roughness.modes": "(1, 64)"},
-//!     axes: [Linear(path: "kappa", from: 1.0, to: 3.0, count: 3)],
+//!     axes: [Linear(path: "adhesion.kappa", from: 1.0, to: 3.0, count: 3)],
 //!     preloads: [0.01, 0.1],
 //!     lines: 2,
 //!     record: [adhesion_force, regime],

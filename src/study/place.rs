@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Spacing, Target};
 use crate::analysis::Governing;
-use crate::scene::{Document, FIELDS, Field, Move, Range, Scene, SceneError, SceneErrors, Tree};
+use crate::scene::{Adhesion, Document, FIELDS, Field, Move, Range, Scene, SceneError, SceneErrors, Tree};
 
 impl Axis {
     /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
@@ -23,26 +23,27 @@ impl Axis {
     }
 }
 
-/// The scene with other values of the quantities of axes: first the numbers of the scene, then κ or e_el/γ, then
-/// what follows from others. The preload, which is no part of a scene, is left to the run.
+/// The scene with other values of the quantities of axes: first the numbers of the scene, then what follows from others,
+/// then κ or e_el/γ, in place of a work of adhesion. The preload, which is no part of a scene, is left to the run.
 ///
 /// # Errors
 /// The path of a number that the scene does not have, and the reason.
 pub(super) fn scene_with<'a>(
     base: &Scene,
     values: impl Iterator<Item = (&'a Axis, f64)>,
-) -> Result<Scene, String> {
-    let (mut tree, mut parameter) = (Tree::of(base), None);
+) -> Result<Scene, SceneErrors> {
+    let refused = |message| SceneError { message, ..SceneError::default() };
+    let (mut tree, mut by_parameter) = (Tree::of(base), None);
     let mut values: Vec<_> = values.collect();
     // The last mode follows from the number of springs.
     values.sort_by_key(|(axis, _)| axis.target == Target::SpringsPerWave);
     for (axis, value) in values {
+        if let Some(parameter) = axis.target.parameter() {
+            by_parameter = Some((parameter, value));
+            continue;
+        }
         let (path, value) = match axis.target {
             Target::Preload => continue,
-            Target::RoughnessParameter(of) => {
-                parameter = Some((of, value));
-                continue;
-            }
             Target::SpringsPerWave => shortest_wave(&tree, value),
             Target::Number(_) | Target::Stage(_) => (axis.path.as_str(), value),
         };
@@ -50,12 +51,13 @@ pub(super) fn scene_with<'a>(
             let stages = base.loading.len();
             let counted = format!("; its {stages} loading stages are counted from 0");
             let counted = if axis.path.starts_with("loading.") { counted } else { String::new() };
-            return Err(format!("axis {}: the scene has no {path}{counted}", axis.path));
+            return Err(refused(format!("axis {}: the scene has no {path}{counted}", axis.path)).into());
         }
     }
-    let mut scene = tree.scene()?;
-    if let Some((parameter, value)) = parameter {
-        scene.adhesion = Some(scene.adhesion.unwrap_or_default().with_parameter(parameter, value));
+    let mut scene = tree.scene().map_err(refused)?;
+    if let Some((parameter, value)) = by_parameter {
+        let alone = Adhesion::by_parameter(parameter, value);
+        scene.adhesion = Some(scene.adhesion.map_or(alone, |one| one.with_parameter(parameter, value)));
     }
     Ok(scene)
 }
@@ -104,25 +106,18 @@ pub(super) fn press(scene: &mut Scene, preload: f64) {
     }
 }
 
-/// Document with other values of the quantities of axes. κ or e_el/γ changes the work of adhesion of a scene that
-/// specifies it, and a preload replaces the loading; both are set last, since they depend on the others.
+/// Document with other values of the quantities of axes. A scene by its work of adhesion stays one at another κ or
+/// e_el/γ, and a preload replaces the loading; both are set last, since they depend on the others.
 ///
 /// # Errors
 /// A value that is not allowed.
 pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
-    let is_parameter = |axis: &Axis| axis.target.parameter().is_some();
-    let numbers = values.iter().copied().filter(|(axis, _)| !is_parameter(axis));
-    let unknown = |message| SceneError { message, ..SceneError::default() };
-    let mut scene = scene_with(document.scene(), numbers).map_err(unknown)?;
-    for (axis, value) in values {
-        let Some(parameter) = axis.target.parameter() else { continue };
-        let adhesion = scene.adhesion.unwrap_or_default();
-        let by_work = adhesion.work.is_some() && !adhesion.sets_amplitude();
-        let work = governing(&scene).and_then(|governing| governing.work_for(parameter, *value));
-        scene.adhesion = Some(match work.filter(|_| by_work) {
-            Some(work) => adhesion.with_work(work),
-            None => adhesion.with_parameter(parameter, *value),
-        });
+    let mut scene = scene_with(document.scene(), values.iter().copied())?;
+    let moves_parameter = values.iter().any(|(axis, _)| axis.target.parameter().is_some());
+    let by_work = document.scene().adhesion.filter(|one| moves_parameter && one.parameter().is_none());
+    if let Some(adhesion) = by_work {
+        let work = governing(&scene).and_then(|known| known.work_of_adhesion);
+        scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);
     }
     if let Some((_, preload)) = values.iter().find(|(axis, _)| axis.target == Target::Preload) {
         press(&mut scene, *preload);
@@ -139,8 +134,9 @@ mod tests {
     use crate::study::axis::Spacing;
     use crate::study::live_plan;
 
-    fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, String> {
-        scene_with(base, [(&Axis::new(path, Spacing::List, vec![value], base)?, value)].into_iter())
+    fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, SceneErrors> {
+        let axis = Axis::new(path, Spacing::List, vec![value], base).unwrap();
+        scene_with(base, std::iter::once((&axis, value)))
     }
 
     #[test]
@@ -150,8 +146,13 @@ mod tests {
             ("rough-sphere", "roughness.modes.1", 64.0, ("roughness.modes.1", "64")),
             ("rough-sphere", "numerics.points", 8192.0, ("numerics.points", "8192")),
             ("rough-sphere", "loading.0.0", 2.5e-5, ("loading.0.0", "2.5e-5")),
-            ("rough-sphere", "kappa", 1.5, ("adhesion", "(kappa: 1.5)")),
-            ("rough-sphere", "elastic_energy_ratio", 0.5, ("adhesion", "(elastic_energy_ratio: 0.5)")),
+            ("rough-sphere", "adhesion.kappa", 1.5, ("adhesion", "(kappa: 1.5)")),
+            (
+                "rough-sphere",
+                "adhesion.elastic_energy_ratio",
+                0.5,
+                ("adhesion", "(elastic_energy_ratio: 0.5)"),
+            ),
             ("rough-sphere", "adhesion.work", 0.015, ("adhesion.work", "0.015")),
             ("rough-sphere", "springs_per_wave", 8.0, ("roughness.modes.1", "2048")),
             ("kendall-punch", "form.radius", 2.5e-5, ("form.radius", "2.5e-5")),
@@ -200,7 +201,7 @@ mod tests {
         for path in
             ["roughness.hurst", "form.angle", "loading.7.0", "numerics.solver.step", "springs_per_wave"]
         {
-            assert!(with(&scene, path, 1.0).unwrap_err().contains("the scene has no "), "{path}");
+            assert!(with(&scene, path, 1.0).unwrap_err().to_string().contains("the scene has no "), "{path}");
         }
         for path in
             ["version", "roughness.seed", "roughness.wavelengths", "roughness.modes", "numerics", "title"]

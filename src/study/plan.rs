@@ -26,7 +26,7 @@ const MOST_FORCES: u64 = 1000;
 /// Axes that set the same quantity, of which a plan may have one.
 const SAME: [&[&str]; 2] = [
     &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
-    &["kappa", "elastic_energy_ratio", "adhesion.kappa", "adhesion.work", "adhesion.elastic_energy_ratio"],
+    &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
 
 /// Reason why a scene has a single profile.
@@ -153,8 +153,7 @@ impl Plan {
     /// # Errors
     /// The path of an axis over a number that the scene does not have, or values out of their ranges.
     pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
-        let unknown = |message| SceneError { message, ..SceneError::default() };
-        scene_with(&self.scene, self.axes.iter().zip(self.values(cell))).map_err(unknown)?.checked()
+        scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()
     }
 
     /// Seed of a profile.
@@ -307,7 +306,7 @@ mod tests {
         for preset in presets() {
             let document = open(preset.name).unwrap();
             let scene = document.scene();
-            let paths = ["numerics.points", "springs_per_wave", "kappa", "roughness.modes.1"];
+            let paths = ["numerics.points", "springs_per_wave", "adhesion.kappa", "roughness.modes.1"];
             let more = paths.iter().filter_map(|path| {
                 let axis = Axis::new(path, Spacing::List, Vec::new(), scene).ok()?;
                 Some((axis.clone(), axis.value_in(scene, None)?))

@@ -7,7 +7,7 @@ use super::live_plan::live_plan;
 use super::place::{governing, moved, press, scene_with};
 use super::plan::{PRELOAD, Plan};
 use super::results::Results;
-use crate::scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneError, SceneErrors};
+use crate::scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use crate::simulation::FEW_SAMPLES;
 use std::path::{Path, PathBuf};
 
@@ -108,8 +108,7 @@ impl StudyMap {
         scene.set_seed(plan.seed);
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
-        let unknown = |message| SceneError { message, ..SceneError::default() };
-        scene = scene_with(&scene, values.iter().copied()).map_err(unknown)?;
+        scene = scene_with(&scene, values.iter().copied())?;
         let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
         if let Some(preload) = preload.or_else(|| Some(plan.preloads()?.values[0])) {
             press(&mut scene, preload);
@@ -184,7 +183,7 @@ mod tests {
             numerics: (points: 128),
         ),
         axes: [
-            List(path: "kappa", values: [4.0, 1.0, 2.0]),
+            List(path: "adhesion.kappa", values: [4.0, 1.0, 2.0]),
             List(path: "roughness.modes.1", values: [16, 32]),
             Linear(path: "roughness.hurst", from: 0.25, to: 0.75, count: 2),
         ],

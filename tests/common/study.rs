@@ -16,7 +16,7 @@ pub const PLAN: &str = r#"(
     ),
     axes: [
         Linear(path: "roughness.hurst", from: 0.1, to: 0.9, count: 9),
-        Logarithmic(path: "kappa", from: 0.25, to: 16, count: 13),
+        Logarithmic(path: "adhesion.kappa", from: 0.25, to: 16, count: 13),
     ],
     preloads: [0.01, 0.1, 1.0],
     lines: 12,

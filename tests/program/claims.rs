@@ -79,7 +79,7 @@ fn check_boundaries(folder: &Path) {
     plans.iter().for_each(|plan| drop(summary(folder, plan)));
     let found: Vec<Vec<f64>> = table(&boundaries(folder, plans[0], "kappa")).collect();
     let lines = found.chunks(4).map(|four| {
-        let cell = |one: usize| format!("{:.2} ({:.2}–{:.2})", four[one][4], four[one][7], four[one][8]);
+        let cell = |one: usize| format!("{:.2} ({:.2}–{:.2})", four[one][4], four[one][5], four[one][6]);
         [four[0][0].to_string(), four[0][1].to_string(), cell(0), cell(1), cell(2), cell(3)]
     });
     let header = ["H", "k_max", FOUR[0], FOUR[1], FOUR[2], FOUR[3]];
@@ -164,7 +164,7 @@ fn check_claims(folder: &Path) {
     };
     let bare = summary(folder, "figure-5a");
     let share = "zero_load_adhesion_share_mean";
-    let (least, most) = range(&bare.of_rows(share, &[("kappa", 0.5)]));
+    let (least, most) = range(&bare.of_rows(share, &[("adhesion.kappa", 0.5)]));
     let half = Table::of(&boundaries(folder, "figure-5a", "kappa"));
     let (low, high) = range(&half.of_rows("kappa", &[("level", 0.5)]));
     says("figure-5a", &format!("half is left at κ = {low:.1} to {high:.1}"));
@@ -179,10 +179,12 @@ fn check_claims(folder: &Path) {
     std::fs::write(folder.join("section.ron"), plan).unwrap();
     let section = summary(folder, "section.ron");
     assert_eq!(section.rows.len(), 22 * 3);
-    let bare = |kappa: f64| 100.0 * section.value(share, &[("kappa", kappa), ("preload", 1.0)]);
+    let bare = |kappa: f64| 100.0 * section.value(share, &[("adhesion.kappa", kappa), ("preload", 1.0)]);
     let bare = [4.0, 6.0, 8.0].map(|kappa| two_digits(bare(kappa)));
     let coefficient = "adhesion_coefficient_mean";
-    let of = |kappa: f64, preload: f64| section.value(coefficient, &[("kappa", kappa), ("preload", preload)]);
+    let of = |kappa: f64, preload: f64| {
+        section.value(coefficient, &[("adhesion.kappa", kappa), ("preload", preload)])
+    };
     let at_two = [1.0, 0.1, 0.01].map(|preload| two_digits(of(2.0, preload))).join(", ");
     let far = [16.0, 32.0, 44.0].map(|kappa| two_digits(of(kappa, 1.0))).join(", ");
     let falls = [0.01, 0.1, 1.0].map(|preload| section.of_rows(coefficient, &[("preload", preload)]));
@@ -201,7 +203,7 @@ fn check_claims(folder: &Path) {
     let corner = summary(folder, "corner.ron");
     assert_eq!(corner.rows.len(), 5 * 2 * 3);
     let corner = |kappa: f64, preload: f64| {
-        let at = |hurst: f64| [("roughness.hurst", hurst), ("kappa", kappa), ("preload", preload)];
+        let at = |hurst: f64| [("roughness.hurst", hurst), ("adhesion.kappa", kappa), ("preload", preload)];
         HURST.map(|hurst| two_digits(corner.value(coefficient, &at(hurst)))).join(", ")
     };
     let skewness = [10, 20].map(|exponent| format!("{:.2}", skewness(exponent)));

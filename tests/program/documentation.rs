@@ -177,7 +177,10 @@ fn the_figure_of_the_regimes_shows_them() {
     let column = |name: &str| columns.iter().position(|one| *one == name).unwrap();
     let rows: Vec<Vec<f64>> = table(&summary).collect();
     let of = |kappa: f64, name: &str| -> Vec<f64> {
-        rows.iter().filter(|row| row[column("kappa")] == kappa).map(|row| row[column(name)]).collect()
+        rows.iter()
+            .filter(|row| row[column("adhesion.kappa")] == kappa)
+            .map(|row| row[column(name)])
+            .collect()
     };
     let shares = |kappa| of(kappa, "adhesion_share_mean");
     assert!(shares(1.0).iter().all(|share| (share - 0.94).abs() < 0.005), "{:?}", shares(1.0));

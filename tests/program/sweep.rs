@@ -35,7 +35,7 @@ const SMALL: &str = r#"(
         numerics: (points: 256, edges: Grid),
     ),
     axes: [
-        Linear(path: "kappa", from: 0.5, to: 5.0, count: 4),
+        Linear(path: "adhesion.kappa", from: 0.5, to: 5.0, count: 4),
         List(path: "roughness.hurst", values: [0.8, 0.3]),
         List(path: "material.effective_modulus", values: [1.0e6, 2.0e6]),
     ],
@@ -306,7 +306,10 @@ fn another_plan_is_refused() {
     let other = self::plan(&SMALL.replace("to: 5.0", "to: 6.0"));
     let error = Folder::create(folder.path(), &other).unwrap_err().to_string();
     assert!(error.contains("holds a study of another plan"), "{error}");
-    assert!(error.contains("there: Linear(path: \"kappa\", from: 0.5, to: 5.0, count: 4)"), "{error}");
+    assert!(
+        error.contains("there: Linear(path: \"adhesion.kappa\", from: 0.5, to: 5.0, count: 4)"),
+        "{error}"
+    );
     // A shard file of another plan does not belong to this one.
     let (_other_place, other) = study(&other);
     compute(&other, 1, Shard { number: 1, count: 8 });

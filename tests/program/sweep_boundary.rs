@@ -22,7 +22,7 @@ fn study(folder: &Path, axis: &str) -> String {
 #[test]
 fn a_boundary_is_found_for_each_place_protocol_and_level() {
     let place = tempfile::tempdir().unwrap();
-    let study = study(place.path(), "Linear(path: \"kappa\", from: 0.5, to: 6.0, count: 12)");
+    let study = study(place.path(), "Linear(path: \"adhesion.kappa\", from: 0.5, to: 6.0, count: 12)");
     let object = json(&["sweep", "boundary", &study, "--level", "0.5", "--level", "0.1", "--format", "json"]);
     assert_eq!(object["lines"], 8);
     let boundaries = object["boundaries"].as_array().unwrap();
@@ -53,7 +53,7 @@ fn moment(hurst: f64, j: i32) -> f64 {
 #[test]
 fn a_boundary_in_kappa_is_one_in_elastic_energy() {
     let place = tempfile::tempdir().unwrap();
-    let study = study(place.path(), "Linear(path: \"kappa\", from: 0.5, to: 6.0, count: 12)");
+    let study = study(place.path(), "Linear(path: \"adhesion.kappa\", from: 0.5, to: 6.0, count: 12)");
     let json =
         |arguments: &[&str]| json(&[&["sweep", "boundary", &study, "--format", "json"], arguments].concat());
     let of = |object: &Value, name: &str| -> Vec<(f64, f64)> {
@@ -80,7 +80,7 @@ fn a_study_without_kappa_has_none_and_says_so() {
     let place = tempfile::tempdir().unwrap();
     let study = study(place.path(), "List(path: \"roughness.rms_height\", values: [1.0e-7])");
     let refused = failed(1, &["sweep", "boundary", &study]);
-    assert!(refused.contains("no axis `kappa` or `elastic_energy_ratio`"), "{refused}");
+    assert!(refused.contains("no axis adhesion.kappa or adhesion.elastic_energy_ratio"), "{refused}");
     let wrong = failed(2, &["sweep", "boundary", &study, "--level", "1.5"]);
     assert!(wrong.contains("above 0 and below 1"), "{wrong}");
 }

@@ -18,7 +18,7 @@ const PLAN: &str = r#"(
     ),
     axes: [
         Linear(path: "roughness.hurst", from: 0.1, to: 0.9, count: 9),
-        Logarithmic(path: "kappa", from: 0.25, to: 16, count: 7),
+        Logarithmic(path: "adhesion.kappa", from: 0.25, to: 16, count: 7),
     ],
     preloads: [0.01, 0.1, 1.0],
     lines: 4,
@@ -56,7 +56,10 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
         ),
         (vec!["--at", "preload=0.2"], "--at preload=0.2: the study has no such value; allowed: 0.01, 0.1, 1"),
         (vec!["--at", "preload=0.1", "--at", "preload=1"], "preload: named by --at and by --at"),
-        (vec!["--at", "kappa=1", "--x", "kappa"], "kappa: named by --x and by --at"),
+        (
+            vec!["--at", "adhesion.kappa=1", "--x", "adhesion.kappa"],
+            "adhesion.kappa: named by --x and by --at",
+        ),
         (vec!["--at", "preload"], "allowed: AXIS=VALUE"),
     ] {
         let error = plot(&arguments).unwrap_err();
@@ -78,7 +81,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
         text.contains("Hurst exponent H") && text.contains("F_a/F_n") && !text.contains('\x1b'),
         "{text}"
     );
-    let turned = plot(&["--at", "preload=0.1", "--x", "kappa"]).unwrap();
+    let turned = plot(&["--at", "preload=0.1", "--x", "adhesion.kappa"]).unwrap();
     assert!(turned.contains("↑ Hurst exponent H"), "{turned}");
 
     // One free axis, and three preloads as curves.

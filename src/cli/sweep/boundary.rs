@@ -23,7 +23,7 @@ A boundary in κ is one in e_el/γ as well, elastic energy of conformity over wo
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]
 pub struct BoundaryArguments {
-    /// Folder of a merged study with an axis `kappa` or `elastic_energy_ratio`
+    /// Folder of a merged study with an axis adhesion.kappa or adhesion.elastic_energy_ratio
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Threshold, as a share of F_a,max (repeatable)

@@ -17,7 +17,7 @@ fn set(map: &mut LiveMap, cell: u64) {
         [parameter, hurst] => (parameter, hurst),
         _ => panic!("the map has no H"),
     };
-    let kappa = if map.plan().axes[0].path == "kappa" { parameter } else { parameter.sqrt() };
+    let kappa = if map.plan().axes[0].path == "adhesion.kappa" { parameter } else { parameter.sqrt() };
     let regime = match kappa * (0.5 + hurst) {
         ..2.0 => 0,
         2.0..12.0 => 1,

@@ -166,7 +166,7 @@ fn the_computed_map_can_be_had_instead() {
 
 #[test]
 fn studies_of_other_quantities_open_as_maps_and_curves() {
-    let kappa = "Logarithmic(path: \"kappa\", from: 0.25, to: 16, count: 13)";
+    let kappa = "Logarithmic(path: \"adhesion.kappa\", from: 0.25, to: 16, count: 13)";
     let length = "List(path: \"length\", values: [5.0e-5, 1.0e-4, 2.0e-4])";
     // The length in place of κ: the mark moves along the length, in its unit.
     let (_folder, mut driver) = opened_with(&PLAN.replace(kappa, length));

@@ -182,7 +182,7 @@ fn nothing_that_is_named_acts_on_a_terminal() {
     let plan_file = at(&format!("{EVIL}.ron"));
     fs::write(&plan_file, SMALL).unwrap();
     let wrong = at(&format!("{EVIL}wrong.ron"));
-    fs::write(&wrong, SMALL.replace("\"kappa\"", "\"ka\\u{1b}[2Jppa\\u{202e}\"")).unwrap();
+    fs::write(&wrong, SMALL.replace("\"adhesion.kappa\"", "\"ka\\u{1b}[2Jppa\\u{202e}\"")).unwrap();
     let other = at("other.ron");
     fs::write(&other, SMALL.replace("Small", "Sm\u{1b}all")).unwrap();
     let mut outputs = Vec::new();
