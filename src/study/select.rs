@@ -70,15 +70,7 @@ impl Selection {
         let quantities = self.quantities(plan)?;
         let (named, at) = self.axes(&plan.axes)?;
         let (across, second) = self.free(&plan.axes, named, &at)?;
-        let few = |index: usize| plan.axes[index].values.len() <= MOST_CURVES;
-        // Curves lie along the longer axis, unless the axis across was given.
-        let turned =
-            |second: &usize| self.across.is_none() && self.up.is_none() && few(across) && !few(*second);
-        let (across, second) = match second.filter(turned) {
-            Some(second) => (second, Some(across)),
-            None => (across, second),
-        };
-        let curves = second.is_some_and(|second| self.up.is_none() && few(second) && !few(across));
+        let curves = self.up.is_none() && second.is_some_and(|second| is_few(&plan.axes, second, across));
         let places = at.iter().map(|place| place.unwrap_or(0)).collect();
         let mut grid = study.grid((across, second), places, study.layers());
         let is_map = second.is_some() && !curves;
@@ -148,46 +140,51 @@ impl Selection {
         Ok(([across, up], fixed))
     }
 
-    /// The axis across, and the second one if there is one.
+    /// The axis across, and the second one if there is one: as named; else H across and κ or e_el/γ up, or curves along the
+    /// longer of two axes.
     fn free(
         &self,
         axes: &[Axis],
-        [across, up]: [Option<usize>; 2],
+        named: [Option<usize>; 2],
         fixed: &[Option<usize>],
     ) -> Result<(usize, Option<usize>), String> {
-        let is_named = |index: &usize| Some(*index) == across || Some(*index) == up;
-        let free: Vec<usize> =
-            (0..axes.len()).filter(|index| fixed[*index].is_none() || is_named(index)).collect();
-        let rest: Vec<usize> = free.iter().copied().filter(|index| !is_named(index)).collect();
-        Ok(match (across, up, rest.as_slice()) {
-            (Some(across), up, []) => (across, up),
-            (Some(across), None, [second]) => (across, Some(*second)),
-            (None, Some(up), [across]) => (*across, Some(up)),
-            // Only one axis, and named to go up.
-            (None, Some(only), []) => (only, None),
-            (None, None, free @ ([] | [_] | [_, _])) => {
-                let fixed = if self.at.is_empty() { "" } else { " left by --at" };
-                across_and_up(axes, free).ok_or_else(|| {
-                    format!(
-                        "no axis is free: the study has one cell{fixed}; a curve needs an axis with two values at least"
-                    )
-                })?
+        let is_named = |index: &usize| named.contains(&Some(*index));
+        let rest: Vec<usize> =
+            (0..axes.len()).filter(|index| fixed[*index].is_none() && !is_named(index)).collect();
+        match (named, &rest[..]) {
+            ([Some(across), up], []) => Ok((across, up)),
+            ([Some(across), None], [second]) => Ok((across, Some(*second))),
+            ([None, Some(up)], [across]) => Ok((*across, Some(up))),
+            ([None, None], [_] | [_, _]) => {
+                let (across, up) = across_and_up(axes, &rest).ok_or("no axis is free")?;
+                let longer = up.filter(|up| is_few(axes, across, *up));
+                Ok(longer.map_or((across, up), |longer| (longer, Some(across))))
+            }
+            (_, []) => {
+                Err("no axis is left to go across; a curve needs an axis with two values at least".into())
             }
             _ => {
-                let shortest = rest.iter().map(|index| &axes[*index]).min_by_key(|axis| axis.values.len());
-                let example = |axis: &Axis| format!("--at {}={}", axis.path, axis.values[0]);
-                let example = shortest.map_or_else(String::new, example);
-                let said = |index: &usize| format!("{} ({})", axes[*index].path, values_of(&axes[*index]));
-                let all: Vec<String> = free.iter().map(said).collect();
-                return Err(format!(
-                    "{} axes are free: {}; a figure has two. Fix {}, such as {example}",
-                    free.len(),
+                let all: Vec<String> = rest
+                    .iter()
+                    .map(|index| format!("{} ({})", axes[*index].path, values_of(&axes[*index])))
+                    .collect();
+                let example = &axes[rest[0]];
+                Err(format!(
+                    "too many axes are free for a figure: {}; allowed: two, named by --x and --y, and the others fixed, such as \
+                     --at {}={}",
                     all.join(", "),
-                    if free.len() == 3 { "one of them" } else { "the others" }
-                ));
+                    example.path,
+                    example.values[0]
+                ))
             }
-        })
+        }
     }
+}
+
+/// Returns true if an axis has so few values, and the other so many, that these are curves over the other.
+fn is_few(axes: &[Axis], one: usize, other: usize) -> bool {
+    let few = |index: usize| axes[index].values.len() <= MOST_CURVES;
+    few(one) && !few(other)
 }
 
 /// A quantity of curves: a single one is linear, and logarithmic too for small values; of several the highest would hide

@@ -42,8 +42,8 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     asperity(at, &["sweep", "plan.ron", "-o", "study"]).unwrap();
 
     let error = plot(&[]).unwrap_err();
-    assert!(error.starts_with("3 axes are free: roughness.hurst (0.1, "), "{error}");
-    assert!(error.trim_end().ends_with("Fix one of them, such as --at preload=0.01"), "{error}");
+    assert!(error.starts_with("too many axes are free for a figure: roughness.hurst (0.1, "), "{error}");
+    assert!(error.trim_end().ends_with("such as --at roughness.hurst=0.1"), "{error}");
     for (arguments, expected) in [
         (
             vec!["--quantity", "force"],
@@ -52,7 +52,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
         (vec!["--quantity", "regime"], "this study has no such quantity"),
         (
             vec!["--x", "hurst"],
-            "--x hurst: this study has no such axis; allowed: roughness.hurst, kappa, preload",
+            "--x hurst: this study has no such axis; allowed: roughness.hurst, adhesion.kappa, preload",
         ),
         (vec!["--at", "preload=0.2"], "--at preload=0.2: the study has no such value; allowed: 0.01, 0.1, 1"),
         (vec!["--at", "preload=0.1", "--at", "preload=1"], "preload: named by --at and by --at"),
@@ -69,8 +69,8 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     let map = plot(&["--at", "preload=0.1", "-o", "-"]).unwrap();
     assert_eq!(map, plot(&["--at", "preload=0.1", "-o", "-"]).unwrap());
     assert!(map.starts_with("<svg ") && map.contains("Small"), "{map}");
-    // Two panels with a scale of 128 colours each.
-    assert!(map.matches("crispEdges").count() > 256 && map.contains("(b) "), "{map}");
+    // Two panels with a scale of 64 colours each.
+    assert!(map.matches("crispEdges").count() > 128 && map.contains("(b) "), "{map}");
     plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap();
     assert_eq!(fs::read_to_string(at.join("map.svg")).unwrap(), map);
     assert!(plot(&["--at", "preload=0.1", "-o", "map.svg"]).unwrap_err().contains("--force overwrites it"));
