@@ -15,6 +15,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
+pub(super) const TEXT_OR_PICTURE: &[Format] = &[Format::Text, Format::Svg, Format::Png, Format::Pdf];
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
 pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy];
 /// Formats of results without a table and without a picture.

@@ -1,7 +1,7 @@
 //! `asperity run`: computation of a scene without a terminal.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, PICTURES, WITHOUT_PICTURE};
+use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE, WITHOUT_PICTURE};
 use super::preloads::{check_reach, parse_preloads};
 use super::progress::ProgressLine;
 use super::scene::{MOST_LINES, SceneArguments, compute, simulation_of, threads};
@@ -9,8 +9,7 @@ use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
 use crate::contact::{Leg, LegRecord};
 use crate::draw::Figure;
 use crate::export::{
-    ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, check_measured_files, force_figure,
-    force_panels,
+    ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, ScenesReport, check_measured_files,
 };
 use crate::scene::{CheckedScene, Document, Scene, open_argument};
 use crate::study::{Axis, Quantity, Results, Staircase};
@@ -29,6 +28,7 @@ Examples:
   asperity run pressure-sensitive --preloads 0..20uN --lines 16
   asperity run pressure-sensitive -o loop.svg
   asperity run pressure-sensitive --profile -o profile.svg
+  asperity run before.ron after.ron                  Differences, results, curves
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
   asperity run ideal-adhesion pressure-sensitive non-adhesive --panels --width 170mm -o panels.pdf
 
@@ -41,7 +41,7 @@ contain version, command and scene, and open as that scene.";
 pub struct RunArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// More scenes in one picture: force curves in one chart, all else in a chart each
+    /// More scenes beside it: a table of results and differences, force curves in one chart
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
     /// Draw the force curve of each scene over axes of its own
@@ -87,29 +87,56 @@ pub struct RunArguments {
 /// Columns of messages.
 const WIDTH: usize = 80;
 
-impl RunArguments {
-    fn is_drawn(&self) -> bool {
-        !self.more.is_empty() || self.profile || self.fragments
-    }
+/// A scene to compute, with springs and edges for the tolerance if one is given.
+struct Chosen<'a> {
+    document: &'a Document,
+    scene: CheckedScene,
+    choice: Option<Choice>,
+}
 
+impl RunArguments {
     fn format(&self) -> Result<Format, CliError> {
-        if !self.more.is_empty() && self.lines.is_some() && self.preloads.is_none() {
+        let several = !self.more.is_empty();
+        if several && self.lines.is_some() && self.preloads.is_none() {
             return Err(CliError::named("--lines", "several scenes; allowed: one scene, or --preloads"));
         }
-        let (formats, usual) = match self.is_drawn() {
-            true => (PICTURES, Format::Svg),
-            false if self.lines.is_some() && self.preloads.is_none() => (WITHOUT_PICTURE, Format::Text),
-            false => (&Format::ALL[..], Format::Text),
+        let (formats, usual) = match self.preloads {
+            _ if self.profile || self.fragments => (PICTURES, Format::Svg),
+            Some(_) if several => (PICTURES, Format::Svg),
+            None if several => (TEXT_OR_PICTURE, Format::Text),
+            None if self.lines.is_some() => (WITHOUT_PICTURE, Format::Text),
+            _ => (&Format::ALL[..], Format::Text),
         };
         self.output.format(formats, usual)
     }
 
-    fn solved(
-        &self,
-        document: &Document,
-        scene: &CheckedScene,
-        record: &[Quantity],
-    ) -> Result<Results, CliError> {
+    fn documents(&self) -> Result<Vec<Document>, CliError> {
+        let more = self.more.iter().map(|scene| self.scene.overrides.apply(open_argument(scene)?));
+        let documents =
+            std::iter::once(self.scene.open()).chain(more).collect::<Result<Vec<_>, CliError>>()?;
+        documents.iter().try_for_each(check_measured_files).map_err(CliError::message)?;
+        Ok(documents)
+    }
+
+    /// The scene of a document, with springs and edges for the tolerance if one is given. Text of one scene states the
+    /// choice; else it is on standard error.
+    fn chosen<'a>(&self, document: &'a Document, format: Format) -> Result<Chosen<'a>, CliError> {
+        let Some(tolerance) = self.tolerance else {
+            return Ok(Chosen { document, scene: document.scene().clone(), choice: None });
+        };
+        let mut progress = ProgressLine::default();
+        let mut trying = |points| progress.show(&format!("trying {} springs", grouped(points)), None);
+        let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut trying);
+        progress.clear();
+        let choice = choice.map_err(|error| CliError::named(document.name(), error))?;
+        if format != Format::Text || !self.more.is_empty() {
+            let _ = writeln!(io::stderr(), "{}", wrap(&choice.sentence(), WIDTH).join("\n"));
+        }
+        Ok(Chosen { document, scene: choice.apply(document.scene())?, choice: Some(choice) })
+    }
+
+    fn solved(&self, chosen: &Chosen<'_>, record: &[Quantity]) -> Result<Results, CliError> {
+        let Chosen { document, scene, .. } = chosen;
         let (lines, jobs) = (self.lines.map_or(1, u64::from), threads(self.jobs));
         Results::of_scene(scene, &document.resolve(""), record, lines, self.preloads.as_ref(), jobs)
             .map_err(|error| CliError::named(document.name(), error))
@@ -118,122 +145,122 @@ impl RunArguments {
     /// Adhesion of a scene against preload, and the staircase where this is shown or judges preloads below zero.
     fn adhesion(
         &self,
-        document: &Document,
-        scene: &CheckedScene,
+        chosen: &Chosen<'_>,
         preloads: &Axis,
         is_drawn: bool,
     ) -> Result<(Results, Option<Staircase>), CliError> {
+        let Chosen { document, scene, .. } = chosen;
         let mut simulation = simulation_of(document);
         check_reach(document, scene, preloads.values[preloads.values.len() - 1], &mut simulation)?;
         let staircase = (is_drawn || self.curves || preloads.values[0] < 0.0)
             .then(|| Staircase::find(scene, preloads, &mut simulation, &|| false, &mut |_| ()))
             .transpose()
             .map_err(|error| CliError::named(document.name(), error))?;
-        Ok((self.solved(document, scene, &Results::OF_PRELOADS)?, staircase))
-    }
-
-    /// The scene of a document, with springs and edges for the tolerance if one is given. Text states the choice; with
-    /// other formats it is on standard error.
-    fn scene_of(
-        &self,
-        document: &Document,
-        format: Format,
-    ) -> Result<(CheckedScene, Option<Choice>), CliError> {
-        let Some(tolerance) = self.tolerance else { return Ok((document.scene().clone(), None)) };
-        let mut progress = ProgressLine::default();
-        let mut trying = |points| progress.show(&format!("trying {} springs", grouped(points)), None);
-        let choice = choose(document.scene(), &document.resolve(""), tolerance, &|| false, &mut trying);
-        progress.clear();
-        let choice = choice.map_err(|error| CliError::named(document.name(), error))?;
-        if format != Format::Text {
-            let _ = writeln!(io::stderr(), "{}", wrap(&choice.sentence(), WIDTH).join("\n"));
-        }
-        Ok((choice.apply(document.scene())?, Some(choice)))
+        Ok((self.solved(chosen, &Results::OF_PRELOADS)?, staircase))
     }
 }
 
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.format()?;
-    let document = arguments.scene.open()?;
-    check_measured_files(&document).map_err(CliError::message)?;
-    if arguments.is_drawn() {
-        let (figure, scenes) = figure(arguments, document, format)?;
-        return arguments.output.write_figure(stdout, &figure, format, &scenes);
-    }
-    let (scene, choice) = arguments.scene_of(&document, format)?;
-    let (title, choice, folder) = (document.title(), choice.as_ref(), document.resolve(""));
+    let documents = arguments.documents()?;
+    let chosen = documents.iter().map(|document| arguments.chosen(document, format));
+    let chosen = chosen.collect::<Result<Vec<_>, CliError>>()?;
     let mut write = |report: &dyn Report| {
-        arguments.output.write(stdout, report, format, Origin::Scene(&document, &scene))
+        let of = |one: &Chosen<'_>| (one.document.title().to_owned(), Scene::clone(&one.scene));
+        match &chosen[..] {
+            [Chosen { document, scene, .. }] => {
+                arguments.output.write(stdout, report, format, Origin::Scene(document, scene))
+            }
+            several => {
+                let scenes: Vec<_> = several.iter().map(of).collect();
+                arguments.output.write(stdout, report, format, Origin::Scenes(&scenes))
+            }
+        }
     };
-    if let Some(preloads) = &arguments.preloads {
-        let (results, staircase) = arguments.adhesion(&document, &scene, preloads, format.is_picture())?;
-        let (results, staircase, curves) = (&results, staircase.as_ref(), arguments.curves);
-        return write(&PreloadReport { title, choice, results, staircase, curves });
+    match &arguments.preloads {
+        _ if arguments.profile || arguments.fragments => write(&sections(arguments, &chosen)?),
+        Some(preloads) => run_preloads(arguments, preloads, &chosen, format, &mut write),
+        None => run_loadings(arguments, &chosen, format, &mut write),
     }
+}
+
+/// Writes a report of all scenes.
+type WriteReport<'a> = dyn FnMut(&dyn Report) -> Result<(), CliError> + 'a;
+
+/// Computes the loading of each scene.
+fn run_loadings(
+    arguments: &RunArguments,
+    chosen: &[Chosen<'_>],
+    format: Format,
+    write: &mut WriteReport<'_>,
+) -> Result<(), CliError> {
+    let [one] = chosen else {
+        let outcome = |one: &Chosen<'_>| compute(one.document, &one.scene);
+        let outcomes = chosen.iter().map(|one| Ok((one.document, outcome(one)?)));
+        let scenes = outcomes.collect::<Result<Vec<_>, CliError>>()?;
+        return write(&ScenesReport { scenes: &scenes, panels: arguments.panels });
+    };
+    let Chosen { document, scene, choice } = one;
+    let choice = choice.as_ref();
     if arguments.lines.is_some() {
-        let results = &arguments.solved(&document, &scene, LinesReport::RECORD)?;
+        let results = &arguments.solved(one, LinesReport::RECORD)?;
         return write(&LinesReport { choice, results });
     }
-    let outcome = compute(&document, &scene)?;
+    let outcome = compute(document, scene)?;
     let estimate = match choice {
         Some(choice) => Some(choice.estimate()),
         None if matches!(format, Format::Text | Format::Json) => {
-            estimate(&scene, &folder, &outcome, &|| false)
+            estimate(scene, &document.resolve(""), &outcome, &|| false)
         }
         None => None,
     };
-    write(&RunReport { title, scene: &scene, outcome: &outcome, choice, estimate: estimate.as_ref() })
+    let (title, estimate) = (document.title(), estimate.as_ref());
+    write(&RunReport { title, scene, outcome: &outcome, choice, estimate })
 }
 
-fn figure(
+/// Computes the adhesion force of each scene over the preload.
+fn run_preloads(
     arguments: &RunArguments,
-    document: Document,
+    preloads: &Axis,
+    chosen: &[Chosen<'_>],
     format: Format,
-) -> Result<(Figure, Vec<(String, Scene)>), CliError> {
-    let more = arguments.more.iter().map(|scene| arguments.scene.overrides.apply(open_argument(scene)?));
-    let documents = std::iter::once(Ok(document)).chain(more).collect::<Result<Vec<_>, CliError>>()?;
-    let (mut scenes, mut figures, mut outcomes) = (Vec::new(), Vec::new(), Vec::new());
-    for document in &documents {
-        let (scene, _) = arguments.scene_of(document, format)?;
-        let title = document.title();
-        if let Some(preloads) = &arguments.preloads {
-            let (results, staircase) = arguments.adhesion(document, &scene, preloads, true)?;
-            let (results, staircase) = (&results, staircase.as_ref());
-            let report = PreloadReport { title, choice: None, results, staircase, curves: false };
-            figures.extend(report.drawn(false));
-        } else if arguments.profile || arguments.fragments {
-            figures.push(contact_figure(arguments, document, &scene)?);
-        } else {
-            outcomes.push((title, compute(document, &scene)?));
-        }
-        scenes.push((title.to_owned(), Scene::clone(&scene)));
+    write: &mut WriteReport<'_>,
+) -> Result<(), CliError> {
+    let report = |one: &Chosen<'_>, is_drawn| arguments.adhesion(one, preloads, is_drawn);
+    if let [one] = chosen {
+        let (results, staircase) = report(one, format.is_picture())?;
+        let (title, choice) = (one.document.title(), one.choice.as_ref());
+        let (results, staircase, curves) = (&results, staircase.as_ref(), arguments.curves);
+        return write(&PreloadReport { title, choice, results, staircase, curves });
     }
-    let outcomes: Vec<_> = outcomes.iter().map(|(title, outcome)| (*title, outcome)).collect();
-    let figure = match figures.len() {
-        0 if arguments.panels => force_panels(&outcomes),
-        0 => force_figure(&outcomes),
-        1 => figures.remove(0),
-        _ => Figure::of_panels(figures),
-    };
-    Ok((figure, scenes))
+    let mut figures = Vec::new();
+    for one in chosen {
+        let (results, staircase) = report(one, true)?;
+        let (title, results, staircase) = (one.document.title(), &results, staircase.as_ref());
+        figures.extend(PreloadReport { title, choice: None, results, staircase, curves: false }.drawn(false));
+    }
+    write(&Figure::of_panels(figures))
 }
 
-fn contact_figure(
-    arguments: &RunArguments,
-    document: &Document,
-    scene: &CheckedScene,
-) -> Result<Figure, CliError> {
-    let failed = |error| CliError::named(document.name(), error);
-    let mut simulation = simulation_of(document);
-    let mut sets = ContactSets::new(arguments.fragments);
-    let mut observe = |_, record: &LegRecord, leg: &Leg| {
-        sets.observe(record, leg);
-        Ok(())
-    };
-    let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
-    if arguments.fragments {
-        return Ok(sets.patches_figure(document.title(), &outcome));
+/// The profiles of the scenes with their contact, or their contact patches.
+fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, CliError> {
+    let mut figures = Vec::new();
+    for Chosen { document, scene, .. } in chosen {
+        let failed = |error| CliError::named(document.name(), error);
+        let mut simulation = simulation_of(document);
+        let mut sets = ContactSets::new(arguments.fragments);
+        let mut observe = |_, record: &LegRecord, leg: &Leg| {
+            sets.observe(record, leg);
+            Ok(())
+        };
+        let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
+        figures.push(match arguments.fragments {
+            true => sets.patches_figure(document.title(), &outcome),
+            false => {
+                let (line, ..) = simulation.make_line(scene).map_err(failed)?;
+                sets.profile_figure(document.title(), &outcome, line)
+            }
+        });
     }
-    let (line, ..) = simulation.make_line(scene).map_err(failed)?;
-    Ok(sets.profile_figure(document.title(), &outcome, line))
+    Ok(if figures.len() == 1 { figures.remove(0) } else { Figure::of_panels(figures) })
 }

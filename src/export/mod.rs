@@ -19,6 +19,7 @@ mod reversals;
 mod run;
 mod scene_figure;
 mod scene_spectra;
+mod scenes;
 pub(crate) mod section;
 mod sensitivity;
 pub(crate) mod sheet;
@@ -37,9 +38,7 @@ pub(crate) use comparison::{Comparison, adhesion_forces};
 pub(crate) use cost::CostReport;
 pub(crate) use ensemble::LinesReport;
 pub(crate) use fit::FitReport;
-pub(crate) use loop_chart::{
-    ForceLoop, LoopQuantities, LoopUnits, force_figure, force_panels, loop_chart, sign,
-};
+pub(crate) use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
 pub(crate) use measured_face::{MeasuredFace, SurfaceFile};
 pub(crate) use parameters::parameter_lines;
 pub(crate) use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
@@ -47,6 +46,7 @@ pub(crate) use provenance::{check_measured_files, files_provenance, named_from, 
 pub(crate) use report::check_extension;
 pub(crate) use reversals::{ReversalReport, everett_chart};
 pub(crate) use scene_figure::ContactSets;
+pub(crate) use scenes::ScenesReport;
 pub(crate) use sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
 pub(crate) use spectrum_figure::Spectra;
 pub(crate) use study_figure::{study_curves, study_figure, study_map};
