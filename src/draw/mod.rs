@@ -29,4 +29,4 @@ pub use scale::{AxisScale, Span};
 pub(crate) use svg::{Svg, escaped};
 
 #[cfg(test)]
-pub(crate) use svg::{attribute, elements, parsed};
+pub(crate) use svg::{check_picture, parsed};

@@ -216,4 +216,62 @@ mod tests {
         let expected = "--format csv: this result has no such format; use text, json or svg";
         assert_eq!(of("a", Some(Format::Csv)), Err(expected.to_owned()));
     }
+
+    /// Figures of every kind, of usual scenes and of scenes without adhesion, roughness or contact.
+    #[test]
+    fn every_figure_lies_within_its_picture() {
+        use crate::draw::check_picture;
+        use crate::export::{
+            ContactSets, PreloadReport, ReversalReport, RunReport, SceneSpectra, ScenesReport,
+        };
+        use crate::scene::open;
+        use crate::simulation::Simulation;
+        use crate::study::{Axis, Results, Staircase};
+        let few = ("numerics.points", "512");
+        let rough = [few, ("roughness.modes", "(1, 64)")];
+        for (name, overrides) in [
+            ("jkr-sphere", &[few][..]),
+            ("jkr-sphere", &[few, ("adhesion", "None"), ("loading", "[ToTouch]")]),
+            ("pressure-sensitive", &rough),
+            ("pressure-sensitive", &[few, ("roughness", "None"), ("title", "\"a <&> b\"")]),
+        ] {
+            let overrides: Vec<_> =
+                overrides.iter().map(|(path, value)| (path.to_string(), value.to_string()));
+            let document = open(name).unwrap().set_all(&overrides.collect::<Vec<_>>()).unwrap();
+            let (scene, title) = (document.scene(), document.title());
+            let mut simulation = Simulation::default();
+            let mut sets = ContactSets::new(true);
+            let mut observe = |_, record: &_, leg: &_| {
+                sets.observe(record, leg);
+                Ok(())
+            };
+            let outcome = simulation.run(scene, &|| false, &mut observe).unwrap();
+            let spectra = SceneSpectra::new(scene, &outcome, &mut simulation).unwrap();
+            let line = simulation.make_line(scene).unwrap().0.clone();
+            let scenes = [(&document, outcome.clone()), (&document, outcome.clone())];
+            let mut figures = vec![
+                RunReport { title, scene, outcome: &outcome, choice: None, estimate: None }.figure().unwrap(),
+                ScenesReport { scenes: &scenes, panels: false }.figure().unwrap(),
+                ScenesReport { scenes: &scenes, panels: true }.figure().unwrap(),
+                sets.profile_figure(title, &outcome, &line),
+                sets.patches_figure(title, &outcome),
+                Figure::of_chart(title, spectra.spectra.chart()),
+            ];
+            if let Ok(map) = simulation.reversal_map(scene, None, 16, &|| false) {
+                let preloads = Axis::of_preloads((0.0, 1e-5), 8, crate::draw::AxisScale::Linear).unwrap();
+                let record = &Results::OF_PRELOADS;
+                let results = Results::of_scene(scene, Path::new(""), record, 1, Some(&preloads), 1).unwrap();
+                let staircase = Staircase::find(scene, &preloads, &mut simulation, &|| false, &mut |_| ());
+                let staircase = staircase.ok();
+                let (preloads, staircase) = (Some(&results), staircase.as_ref());
+                let report =
+                    ReversalReport { title, scene, map: &map, preloads, staircase, map_table: false };
+                figures.extend(report.figure());
+                let report =
+                    PreloadReport { title, choice: None, results: &results, staircase, curves: false };
+                figures.extend(report.figure());
+            }
+            figures.iter().for_each(|figure| check_picture(&figure.svg()));
+        }
+    }
 }

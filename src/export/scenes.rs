@@ -52,7 +52,7 @@ impl ScenesReport<'_> {
 }
 
 impl Report for ScenesReport<'_> {
-    /// Titles, the changes from the first scene to each other one, and the results with their ratios to those of the first.
+    /// Titles, the changes from the first scene to each other one, and the results with their ratios to those of the first scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let (first, _) = self.scenes.first()?;
@@ -65,23 +65,24 @@ impl Report for ScenesReport<'_> {
             sheet.heading(&format!("Different from A to {}: {changes}", letter(number)));
         }
         let letters = (0..self.scenes.len()).map(letter);
-        let ratios = (1..self.scenes.len()).map(|number| format!("{}/A", letter(number)));
-        let mut table: Vec<Vec<String>> =
-            vec![std::iter::once(String::new()).chain(letters).chain(ratios).collect()];
+        let mut table: Vec<Vec<String>> = vec![std::iter::once(String::new()).chain(letters).collect()];
+        for (name, unit, of) in ROWS {
+            let values: Vec<Option<f64>> = self.scenes.iter().map(|(_, outcome)| of(outcome)).collect();
+            let first = values[0].filter(|first| *first != 0.0);
+            let cell = |(number, value): (usize, &Option<f64>)| {
+                let Some(value) = value else { return "-".to_owned() };
+                let ratio = first.filter(|_| number > 0).map(|first| format_quantity(value / first, "1"));
+                format_quantity(*value, unit)
+                    + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
+            };
+            if values.iter().any(Option::is_some) {
+                let cells = values.iter().enumerate().map(cell);
+                table.push(std::iter::once(name.to_owned()).chain(cells).collect());
+            }
+        }
         let regime =
             |(_, outcome): &(&Document, Outcome)| outcome.regime.map_or("-", Regime::name).to_owned();
         table.push(std::iter::once("regime".to_owned()).chain(self.scenes.iter().map(regime)).collect());
-        for (name, unit, of) in ROWS {
-            let values: Vec<Option<f64>> = self.scenes.iter().map(|(_, outcome)| of(outcome)).collect();
-            let shown =
-                |value: Option<f64>, unit| value.map_or("-".to_owned(), |value| format_quantity(value, unit));
-            let ratio = |value: &Option<f64>| Some((*value)? / values[0].filter(|first| *first != 0.0)?);
-            if values.iter().any(Option::is_some) {
-                let cells = values.iter().map(|value| shown(*value, unit));
-                let ratios = values[1..].iter().map(|value| shown(ratio(value), "1"));
-                table.push(std::iter::once(name.to_owned()).chain(cells).chain(ratios).collect());
-            }
-        }
         sheet.heading("Results");
         sheet.table(&table);
         Some(format!("{}\n{}", sheet.into_text(), figure_text(&self.drawn(true), WIDTH, Colours::None)))
@@ -110,7 +111,13 @@ mod tests {
         assert!(text.contains("Different from A to C: nothing\n"), "{text}");
         let row = text.lines().find(|line| line.starts_with("adhesion force F_a")).unwrap();
         // The pull-off force of a sphere is proportional to the work of adhesion.
-        assert!(row.contains("23.56 µN  47.12 µN  23.56 µN  2"), "{text}");
+        assert!(
+            row.split_whitespace()
+                .collect::<Vec<_>>()
+                .join(" ")
+                .contains("23.56 µN 47.12 µN (×2) 23.56 µN (×1)"),
+            "{text}"
+        );
         let named: Vec<String> =
             report.drawn(true).legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(named, ["A: ", "B: ", "C: "].map(|letter| format!("{letter}{}", first.title())));

@@ -127,7 +127,7 @@ impl Spectra {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::Figure;
+    use crate::draw::{Figure, check_picture};
     use crate::spectrum::{Estimate, Options, PowerLaw, analyse};
     use crate::topography::{ReadOptions, parse};
 
@@ -158,10 +158,8 @@ mod tests {
             assert!(legend.iter().any(|entry| entry == name), "{name}: {legend:?}");
         }
         assert_eq!(legend.contains(&"reliability cut-off".to_owned()), analysis.reliability_cutoff.is_some());
-        let svg = figure.svg();
-        assert!(svg.contains("a &amp; b") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        let empty = Figure::of_chart("", Spectra::default().chart()).svg();
-        assert!(!empty.contains("NaN") && !empty.contains("inf"), "{empty}");
+        check_picture(&figure.svg());
+        check_picture(&Figure::of_chart("", Spectra::default().chart()).svg());
     }
 
     #[test]

@@ -194,38 +194,32 @@ fn nothing_that_is_named_acts_on_a_terminal() {
         assert!(!shown.is_empty(), "{arguments:?}");
         outputs.push(shown);
     };
-    run(&["sweep", "merge", &evil]);
-    run(&["sweep", &plan_file, "-o", &evil, "--shard", "1/2"]);
-    run(&["sweep", "plot", &evil]);
-    run(&["sweep", &plan_file, "-o", &evil]);
-    run(&["sweep", "merge", &evil]);
-    run(&["sweep", "plot", &evil]);
-    run(&["sweep", "plot", &evil, "--at", EVIL]);
-    run(&["sweep", "plot", &evil, "--x", EVIL]);
-    run(&[
-        "sweep",
-        "plot",
-        &evil,
-        "--at",
-        "preload=0.01",
-        "--quantity",
-        "regime",
-        "-o",
-        &at(&format!("{EVIL}/map.svg")),
-    ]);
-    run(&["sweep", &wrong, "-o", &at("new")]);
-    run(&["sweep", &other, "-o", &at("new")]);
-    run(&["sweep", "submit", &plan_file, "-o", &evil, "--shards", "2", "--dry-run"]);
-    run(&["sweep", "submit", &plan_file, "-o", &at("new"), "--shards", "2", "--dry-run", "--", EVIL]);
-    run(&["run", &evil]);
-    run(&["run", &at(&format!("{EVIL}.none"))]);
-    run(&["run", "jkr-sphere", "--set", &format!("title=\"{EVIL}\"")]);
-    run(&["run", "jkr-sphere", "-o", &format!("{evil}/none/x")]);
-    run(&["presets", "check", &wrong, &evil]);
-    run(&["presets", "show", EVIL]);
-    run(&["check", EVIL]);
-    run(&[EVIL]);
-    run(&["sweep", "plans", EVIL, EVIL]);
+    let (new, none, map) = (at("new"), at(&format!("{EVIL}.none")), at(&format!("{EVIL}/map.svg")));
+    let (title, nowhere) = (format!("title=\"{EVIL}\""), format!("{evil}/none/x"));
+    for arguments in [
+        &["sweep", "merge", &evil][..],
+        &["sweep", &plan_file, "-o", &evil, "--shard", "1/2"],
+        &["sweep", "plot", &evil],
+        &["sweep", &plan_file, "-o", &evil],
+        &["sweep", "plot", &evil],
+        &["sweep", "plot", &evil, "--at", EVIL],
+        &["sweep", "plot", &evil, "--x", EVIL],
+        &["sweep", "plot", &evil, "--at", "preload=0.01", "--quantity", "regime", "-o", &map],
+        &["sweep", &wrong, "-o", &new],
+        &["sweep", &other, "-o", &new],
+        &["sweep", "submit", &plan_file, "-o", &new, "--shards", "2", "--dry-run", "--", EVIL],
+        &["run", &evil],
+        &["run", &none],
+        &["run", "jkr-sphere", "--set", &title],
+        &["run", "jkr-sphere", "-o", &nowhere],
+        &["presets", "check", &wrong, &evil],
+        &["presets", "show", EVIL],
+        &["check", EVIL],
+        &[EVIL],
+        &["sweep", "plans", EVIL, EVIL],
+    ] {
+        run(arguments);
+    }
     // A header that claims another origin, and a different plan.
     let folder = Folder::open(Path::new(&evil)).unwrap();
     let payload = header_of(&folder);
