@@ -1,7 +1,7 @@
 //! The order and the parts of the computation of a plan.
 //!
-//! A *run* is one loading: all cells that differ in the preload alone. A *unit* is the work of one thread from end
-//! to end: runs on one random profile with the same roughness, so that the profile and its tree are made once.
+//! A *streak* is one loading: all cells that differ in the preload alone. A *unit* is the work of one thread from end
+//! to end: streaks on one random profile with the same roughness, so that the profile and its tree are made once.
 //! Within a unit the numbers that shape the profile vary slowest.
 
 use super::axis::{Axis, Shapes};
@@ -11,25 +11,25 @@ use std::ops::Range;
 /// Number of units up to which profiles are divided into several, so that many processes can share a plan of few
 /// profiles.
 const ENOUGH_UNITS: u64 = 256;
-/// Fewest runs of a divided profile: with fewer, making the profile would cost more than the runs.
-const LEAST_RUNS: u64 = 16;
+/// Fewest streaks of a divided profile: with fewer, making the profile would cost more than the streaks.
+const LEAST_STREAKS: u64 = 16;
 
-/// Numbering of the runs and units of a plan.
+/// Numbering of the streaks and units of a plan.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
     /// Axes without that of preloads: those that shape the roughness, then those that shape the profile, then all others.
     order: Vec<usize>,
-    /// Runs on one profile of the same roughness.
+    /// Streaks on one profile of the same roughness.
     steps: u64,
     preloads: u64,
-    /// Runs of one unit, and units of one profile.
+    /// Streaks of one unit, and units of one profile.
     chunk: u64,
     chunks: u64,
 }
 
 /// One loading on one profile.
-pub(super) struct Run {
-    /// Cells of the run, one for each preload.
+pub(super) struct Streak {
+    /// Cells of the streak, one for each preload.
     pub cells: Range<u64>,
     /// Index of the profile, from 0.
     pub line: u64,
@@ -44,7 +44,7 @@ impl<'p> Cells<'p> {
         let steps: u64 = inner.map(Axis::count).product();
         let preloads = plan.preloads().map_or(1, Axis::count);
         let profiles = plan.records_in_all() / preloads / steps;
-        let wanted = ENOUGH_UNITS.div_ceil(profiles).min(steps / LEAST_RUNS).max(1);
+        let wanted = ENOUGH_UNITS.div_ceil(profiles).min(steps / LEAST_STREAKS).max(1);
         let chunk = steps.div_ceil(wanted);
         Cells { plan, order, steps, preloads, chunk, chunks: steps.div_ceil(chunk) }
     }
@@ -54,14 +54,14 @@ impl<'p> Cells<'p> {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// The runs of a unit in the most efficient order; units of one spectrum are consecutive.
-    pub fn runs(&self, unit: u64) -> impl Iterator<Item = Run> + use<'_> {
+    /// The streaks of a unit in the most efficient order; units of one spectrum are consecutive.
+    pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let (rest, start) = (unit / self.chunks, unit % self.chunks * self.chunk);
         let (group, line) = (rest / self.plan.lines, rest % self.plan.lines);
         (start..(start + self.chunk).min(self.steps)).map(move |step| {
             let places = self.plan.places_on(self.order.iter().copied(), group * self.steps + step);
             let first = self.plan.cell_at(&places);
-            Run { cells: first..first + self.preloads, line }
+            Streak { cells: first..first + self.preloads, line }
         })
     }
 }

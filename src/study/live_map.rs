@@ -2,7 +2,7 @@
 
 use super::StudyError;
 use super::axis::Axis;
-use super::cells::Run;
+use super::cells::Streak;
 use super::grid::Grid;
 use super::plan::Plan;
 use super::recorder::Recorder;
@@ -125,7 +125,7 @@ impl LiveMap {
                 if stop() {
                     return;
                 }
-                match recorder.record(&Run { cells: cell..cell + 1, line }) {
+                match recorder.record(&Streak { cells: cell..cell + 1, line }) {
                     Ok(records) => self.set(cell, line, &records.concat()),
                     Err(error) if error.is_interruption() => return,
                     Err(error) => drop(self.failed.insert(cell, error.to_string())),

@@ -1,7 +1,7 @@
-//! Recorder of a run: solves its loadings on one profile and reads the recorded quantities.
+//! Recorder of a streak: solves its loadings on one profile and reads the recorded quantities.
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
-use super::cells::Run;
+use super::cells::Streak;
 use super::plan::{Plan, StiffnessRange};
 use super::quantity::{Needs, Quantity};
 use crate::analysis::Governing;
@@ -34,33 +34,34 @@ impl<'p> Recorder<'p> {
         Recorder { plan, simulation, profile: None, stop }
     }
 
-    /// Solves a run. A cell that cannot be computed has the reason in place of its values.
+    /// Solves a streak. A cell that cannot be computed has the reason in place of its values.
     ///
     /// # Errors
     /// Too little memory, or a stop: neither is a property of a cell.
-    pub fn record_each(&mut self, run: &Run) -> Result<Vec<Recorded>, RunError> {
-        match self.record(run) {
+    pub fn record_each(&mut self, streak: &Streak) -> Result<Vec<Recorded>, RunError> {
+        match self.record(streak) {
             Ok(records) => Ok(records.into_iter().map(Ok).collect()),
             Err(error) if is_of_machine(&error) => Err(error),
-            Err(error) if run.cells.end - run.cells.start == 1 => {
+            Err(error) if streak.cells.end - streak.cells.start == 1 => {
                 let reason = error.to_string();
                 Ok(vec![Err(printable(reason.lines().next().unwrap_or_default()).into_owned())])
             }
             // Of several preloads some may be within reach.
             Err(_) => {
-                let one = |cell| self.record_each(&Run { cells: cell..cell + 1, line: run.line });
-                Ok(run.cells.clone().map(one).collect::<Result<Vec<_>, _>>()?.concat())
+                let one = |cell| self.record_each(&Streak { cells: cell..cell + 1, line: streak.line });
+                Ok(streak.cells.clone().map(one).collect::<Result<Vec<_>, _>>()?.concat())
             }
         }
     }
 
-    /// Solves a run.
+    /// Solves a streak.
     ///
     /// # Errors
     /// A failure of the profile or the contact, or a stop.
-    pub fn record(&mut self, run: &Run) -> Result<Records, RunError> {
+    pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
         let plan = self.plan;
-        let scene = plan.scene_of(run.cells.start)?.with_seed(plan.seed_of(run.line)).stripped(FEW_SAMPLES);
+        let scene =
+            plan.scene_of(streak.cells.start)?.with_seed(plan.seed_of(streak.line)).stripped(FEW_SAMPLES);
         let profile = self.profile_record(&scene)?;
         let (_, _, governing) = self.simulation.make_line(&scene)?;
         let mut loops = Vec::new();
@@ -71,8 +72,8 @@ impl<'p> Recorder<'p> {
                     let unit = || governing.force_unit(scene.length).unwrap_or(f64::NAN);
                     let unit = if preloads.unit == "N" { 1.0 } else { unit() };
                     let press = |preload: &f64| vec![Move::ToForce(preload * unit), Move::ToSeparation];
-                    let first = run.cells.start as usize % preloads.values.len();
-                    let count = (run.cells.end - run.cells.start) as usize;
+                    let first = streak.cells.start as usize % preloads.values.len();
+                    let count = (streak.cells.end - streak.cells.start) as usize;
                     loops.extend(preloads.values[first..first + count].iter().map(press));
                 }
                 None => loops.push(scene.loading.clone()),
@@ -91,7 +92,7 @@ impl<'p> Recorder<'p> {
         let zero_force = each.get(count).filter(|_| needs_zero_force);
         let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
         each.truncate(count);
-        each.resize((run.cells.end - run.cells.start) as usize, LoadingOutcome::default());
+        each.resize((streak.cells.end - streak.cells.start) as usize, LoadingOutcome::default());
         let values = |loading: LoadingOutcome| {
             let smooth = match touch_regime || regime {
                 true => self.simulation.smooth_adhesion_force(&scene, &governing, &loading.figures)?,

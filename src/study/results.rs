@@ -2,7 +2,7 @@
 
 use super::StudyError;
 use super::axis::Axis;
-use super::cells::Run;
+use super::cells::Streak;
 use super::grid::{Cell, Grid, Layer};
 use super::plan::{ONE_PROFILE, Plan};
 use super::quantity::{Quantity, regime_of};
@@ -142,7 +142,7 @@ impl Results {
             let simulation = if lines == 1 { simulation.for_one_scene() } else { simulation };
             let mut recorder = Recorder::new(plan, simulation, &|| false);
             move |line| {
-                let solved = recorder.record(&Run { cells: 0..plan.cells(), line });
+                let solved = recorder.record(&Streak { cells: 0..plan.cells(), line });
                 solved.map_err(|error| StudyError::of_profile(plan, line, error))
             }
         })?;
@@ -165,7 +165,7 @@ impl Results {
         let mut recorder = Recorder::new(&plan, std::mem::take(simulation), stop);
         let mut missing = (0..plan.lines).filter(|line| !self.has(0, *line)).collect::<Vec<_>>().into_iter();
         let done = missing.try_for_each(|line| {
-            let records = recorder.record(&Run { cells: 0..plan.cells(), line })?;
+            let records = recorder.record(&Streak { cells: 0..plan.cells(), line })?;
             self.set_profile(line, &records);
             report(self);
             Ok(())

@@ -104,22 +104,22 @@ pub fn run(
         };
         let (mut recorder, sender) = (Recorder::new(plan, simulation, &|| false), sender.clone());
         move |number: u64| -> Result<(), StudyError> {
-            for run in cells.runs(units[number as usize]) {
-                let is_missing = |cell: u64| !done[(cell * plan.lines + run.line) as usize];
-                if !run.cells.clone().any(is_missing) {
+            for streak in cells.streaks(units[number as usize]) {
+                let is_missing = |cell: u64| !done[(cell * plan.lines + streak.line) as usize];
+                if !streak.cells.clone().any(is_missing) {
                     continue;
                 }
                 if stop() || ended.load(Ordering::SeqCst) {
                     break;
                 }
-                let (cell, seed) = (run.cells.start, plan.seed_of(run.line));
-                let records = recorder.record_each(&run).map_err(|error| {
+                let (cell, seed) = (streak.cells.start, plan.seed_of(streak.line));
+                let records = recorder.record_each(&streak).map_err(|error| {
                     ended.store(true, Ordering::SeqCst);
                     let place = format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
                     StudyError::Run { place, error }
                 })?;
                 let mut text = String::new();
-                for (cell, record) in run.cells.zip(&records).filter(|(cell, _)| is_missing(*cell)) {
+                for (cell, record) in streak.cells.zip(&records).filter(|(cell, _)| is_missing(*cell)) {
                     encode(cell, seed, record, &mut text);
                 }
                 // The text has no receiver once the file cannot be written.

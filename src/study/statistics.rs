@@ -1,11 +1,9 @@
 //! Numbers of random profiles: their mean, spread and quartiles, and how many are in each regime.
 
 use crate::analysis::Regime;
-use crate::numerics::{mean, quantile, standard_deviation};
+use crate::numerics::{mean, quantile, standard_deviation, student_quantile};
 use crate::scene::{format_range, format_rounded};
 use serde::Serialize;
-use std::cell::Cell;
-use std::f64::consts::FRAC_2_PI;
 
 /// Share of samples whose confidence interval holds the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
@@ -207,68 +205,9 @@ impl RegimeCounts {
     }
 }
 
-thread_local! {
-    /// The last quantile of Student's distribution: most samples in a row have the same size.
-    static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
-}
-
-fn student_quantile(freedom: u32) -> f64 {
-    if KNOWN.get().0 != freedom {
-        KNOWN.set((freedom, student_t(freedom)));
-    }
-    KNOWN.get().1
-}
-
-/// The two-sided 5 % quantile of Student's distribution: the t that |t| exceeds with a probability of 5 %.
-fn student_t(freedom: u32) -> f64 {
-    let (mut low, mut high) = (0.0, 16.0);
-    for _ in 0..200 {
-        let middle = f64::midpoint(low, high);
-        if share_within(middle, freedom) < CONFIDENCE {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    f64::midpoint(low, high)
-}
-
-/// Probability that |t| of Student's distribution is at most this (Abramowitz and Stegun, 26.7.3 and 26.7.4).
-fn share_within(t: f64, freedom: u32) -> f64 {
-    let angle = (t / f64::from(freedom).sqrt()).atan();
-    let (sine, cosine) = angle.sin_cos();
-    let odd = freedom % 2 == 1;
-    // Sum over cosines to the powers 1, 3, … up to freedom − 2, or 0, 2, …
-    let (mut term, mut power) = if odd { (cosine, 1) } else { (1.0, 0) };
-    let mut sum = 0.0;
-    while power + 2 <= freedom {
-        sum += term;
-        power += 2;
-        term *= cosine * cosine * f64::from(power - 1) / f64::from(power);
-    }
-    if odd { FRAC_2_PI * (angle + sine * sum) } else { sine * sum }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn quantiles_are_those_of_the_tables() {
-        for (freedom, expected) in [
-            (1, 12.706_204_736),
-            (2, 4.302_652_730),
-            (3, 3.182_446_305),
-            (4, 2.776_445_105),
-            (9, 2.262_157_163),
-            (31, 2.039_513_446),
-            (100, 1.983_971_519),
-            (1000, 1.962_339_081),
-        ] {
-            let t = student_t(freedom);
-            assert!((t - expected).abs() < 2e-9 * expected, "{freedom}: {t}");
-        }
-    }
 
     #[test]
     fn what_is_no_number_is_missing() {

@@ -1,7 +1,7 @@
 //! Progress of a study and of the processes that work on it.
 
 use super::StudyError;
-use super::cells::{Cells, Run};
+use super::cells::{Cells, Streak};
 use super::shard::Shard;
 use super::store::{Folder, ShardFile};
 use crate::text::{path_name, printable};
@@ -110,7 +110,7 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
 /// as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
-    for Run { cells, line } in shard.units(cells.units()).flat_map(|unit| cells.runs(unit)) {
+    for Streak { cells, line } in shard.units(cells.units()).flat_map(|unit| cells.streaks(unit)) {
         total += cells.end - cells.start;
         there += cells.filter(|cell| done[(cell * folder.plan().lines + line) as usize]).count() as u64;
     }

@@ -228,7 +228,7 @@ fn results_that_differ_are_stated() {
     fs::write(file.with_file_name("zz.shard"), other).unwrap();
     let error = merge(&folder, false).unwrap_err().to_string();
     let file = file.display();
-    assert!(error.starts_with("cell 0, seed 18446744073709551614 (kappa = 0.5, "), "{error}");
+    assert!(error.starts_with("cell 0, seed 18446744073709551614 (adhesion.kappa = 0.5, "), "{error}");
     assert!(
         error.contains(&format!("two records differ, in {file} and ")) && error.contains("zz.shard;"),
         "{error}"
@@ -242,7 +242,10 @@ fn what_is_missing_is_named() {
     let (_place, folder) = study(&plan);
     compute(&folder, 1, Shard { number: 1, count: 2 });
     let error = merge(&folder, false).unwrap_err().to_string();
-    assert!(error.starts_with("48 of 96 records are missing, in 32 cells: cell 0 (kappa = 0.5, "), "{error}");
+    assert!(
+        error.starts_with("48 of 96 records are missing, in 32 cells: cell 0 (adhesion.kappa = 0.5, "),
+        "{error}"
+    );
     assert!(error.contains("preload = 0.01)") && error.ends_with("--partial"), "{error}");
     assert!(!folder.path().join(RESULTS).exists());
     assert!(matches!(Results::open(folder.path()), Err(StudyError::Folder { .. })));
