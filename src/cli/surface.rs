@@ -218,7 +218,7 @@ fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, Cl
         surfaces.extend(read);
     }
     let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
-        let file = facts.get(error.surface.unwrap_or(0));
+        let file = facts.get(error.surface());
         CliError::named(file.map(|file| path_name(&file.path)).unwrap_or_default(), error)
     })?;
     Ok(MeasuredFace { files: facts, analysis })

@@ -1,8 +1,10 @@
 //! Straight lines, polynomials and columns through values, by least squares.
 
+use crate::numerics::mean;
+
 /// Straight line through evenly spaced values, by least squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Line {
+pub(super) struct Baseline {
     count: f64,
     pub mean: f64,
     pub slope: f64,
@@ -10,16 +12,16 @@ pub(super) struct Line {
     pub noise: f64,
 }
 
-impl Line {
-    pub fn through(values: &[f64]) -> Line {
+impl Baseline {
+    pub fn through(values: &[f64]) -> Baseline {
         let count = values.len() as f64;
         let place = |index: usize| index as f64 - 0.5 * (count - 1.0);
-        let mean = values.iter().sum::<f64>() / count;
+        let mean = mean(values);
         let product: f64 = values.iter().enumerate().map(|(index, value)| place(index) * value).sum();
         let slope = product / (count * (count * count - 1.0) / 12.0);
         let rest = |(index, value): (usize, &f64)| (value - mean - slope * place(index)).powi(2);
         let noise = (values.iter().enumerate().map(rest).sum::<f64>() / (count - 2.0)).sqrt();
-        Line { count, mean, slope, noise }
+        Baseline { count, mean, slope, noise }
     }
 
     /// Deviations of the values from the line; the first one is the first of the line.
@@ -100,7 +102,7 @@ mod tests {
     #[test]
     fn a_line_has_the_deviation_of_its_values() {
         // The line 0, 1, 2, 3 with deviations of 0.5 that neither lift nor turn it, over two degrees of freedom.
-        let line = Line::through(&[0.5, 0.5, 1.5, 3.5]);
+        let line = Baseline::through(&[0.5, 0.5, 1.5, 3.5]);
         assert!((line.mean - 1.5).abs() < 1e-15 && (line.slope - 1.0).abs() < 1e-15, "{line:?}");
         assert!((line.noise - 0.5_f64.sqrt()).abs() < 1e-15, "{line:?}");
     }

@@ -2,7 +2,7 @@
 
 use super::options::CurveOptions;
 use crate::scene::parse_quantity;
-use crate::topography::text::{COMMENT, Separator};
+use crate::topography::text::Column;
 use crate::topography::{Place, TopographyError, refused, shown};
 
 /// Term, SI unit and an example of a unit of each quantity, and the letters of the names of its column, the preferred ones
@@ -43,11 +43,6 @@ const DIRECTIONS: [&[&str]; 2] = [
 /// Remedy for unknown columns.
 const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
     beside its approach";
-/// Shortest word in round brackets that is part of a name, as in `height (measured)`, unless it is a unit.
-const WORD: usize = 5;
-
-/// Name of a column and the unit that its file states.
-type Heading = (String, Option<String>);
 
 /// Columns of displacement and force with the values of 1 in them in SI units.
 #[derive(Clone, Copy, Debug)]
@@ -67,35 +62,30 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// Chooses from `count` columns with these names and units; those of a file in SI units need no unit.
-    pub fn new(
-        headings: &[Heading],
-        count: usize,
-        is_si: bool,
-        options: &CurveOptions,
-    ) -> Result<Self, TopographyError> {
+    /// Chooses from columns with these names and units; those of a file in SI units need no unit.
+    pub fn new(columns: &[Column], is_si: bool, options: &CurveOptions) -> Result<Self, TopographyError> {
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS);
-        let all: Vec<_> = headings.iter().map(|(name, _)| shown(name)).collect();
-        let all = format!("{count} columns {}", all.join(", "));
+        let count = columns.len();
+        let names = columns.iter().map(|column| &*column.name).filter(|name| !name.is_empty());
+        let all = format!("{count} columns {}", names.map(shown).collect::<Vec<_>>().join(", "));
         let place = |wanted: &String| {
             let letters = letters(wanted);
-            let named =
-                headings.iter().position(|(name, _)| !letters.is_empty() && self::letters(name) == letters);
+            let is_it = |column: &Column| !letters.is_empty() && self::letters(&column.name) == letters;
+            let named = columns.iter().position(is_it);
             let number = || wanted.parse().ok().filter(|number| (1..=count).contains(number));
             let place = named.or_else(|| Some(number()? - 1));
             place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
         };
         let mut statements = Vec::new();
+        let is_unnamed = columns.iter().all(|column| column.name.is_empty());
         let (pairs, segment) = match &options.columns[..] {
-            [] if count == 2
-                && (headings.is_empty() || are_unknown(headings) && options.units.len() == 2) =>
-            {
+            [] if count == 2 && (is_unnamed || are_unknown(columns) && options.units.len() == 2) => {
                 (vec![[0, 1]], None)
             }
             [] => {
                 let pairs =
-                    known(headings).map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
-                let name = |place: usize| shown(&headings[place].0);
+                    known(columns).map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
+                let name = |place: usize| shown(&columns[place].name);
                 if count > 2 {
                     let mut text = format!("Displacement and force from the columns {}", name(pairs[0][0]));
                     text += &format!(" and {}", name(pairs[0][1]));
@@ -105,7 +95,7 @@ impl Choice {
                     }
                     statements.push(text + ".");
                 }
-                if OF_BODY.contains(&&*letters(&headings[pairs[0][0]].0)) {
+                if OF_BODY.contains(&&*letters(&columns[pairs[0][0]].name)) {
                     statements.push(format!(
                         "The column {} is a displacement of the body: the deflection of the instrument is taken off already, \
                          and --set loading_stiffness=None fits it.",
@@ -124,7 +114,7 @@ impl Choice {
         let pair = |places: [usize; 2]| {
             let mut units = [1.0; 2];
             for (quantity, place) in places.into_iter().enumerate() {
-                let stated = headings.get(place).and_then(|(_, unit)| unit.as_deref());
+                let stated = columns[place].unit.as_deref();
                 units[quantity] = of_one(quantity, stated, is_si, options, &mut statements)?;
             }
             Ok(Pair { places, units })
@@ -171,8 +161,8 @@ fn of_one(
 
 /// The known columns of displacement and force, twice if approach and retraction are side by side, or the term of the
 /// quantity that no column is known as.
-fn known(headings: &[Heading]) -> Result<Vec<[usize; 2]>, &'static str> {
-    let words: Vec<_> = headings.iter().map(|(name, _)| direction(name)).collect();
+fn known(columns: &[Column]) -> Result<Vec<[usize; 2]>, &'static str> {
+    let words: Vec<_> = columns.iter().map(|column| direction(&column.name)).collect();
     let of = |quantity: usize, direction: Option<usize>| {
         let is = |known: &&str| words.iter().position(|(of, rest)| *of == direction && rest == known);
         QUANTITIES[quantity].3.iter().find_map(is)
@@ -184,7 +174,7 @@ fn known(headings: &[Heading]) -> Result<Vec<[usize; 2]>, &'static str> {
     if let Some(pairs) = beside(0).zip(beside(1)) {
         return Ok(vec![pairs.0, pairs.1]);
     }
-    match ([of(0, None), of(1, None)], headings.len()) {
+    match ([of(0, None), of(1, None)], columns.len()) {
         ([Some(displacement), Some(force)], _) => Ok(vec![[displacement, force]]),
         // Of two columns the other one.
         ([Some(displacement), None], 2) => Ok(vec![[displacement, 1 - displacement]]),
@@ -194,9 +184,9 @@ fn known(headings: &[Heading]) -> Result<Vec<[usize; 2]>, &'static str> {
     }
 }
 
-fn are_unknown(headings: &[Heading]) -> bool {
+fn are_unknown(columns: &[Column]) -> bool {
     let is_known = |name: &str| QUANTITIES.iter().any(|row| row.3.contains(&&*letters(name)));
-    !headings.iter().any(|(name, _)| is_known(name))
+    !columns.iter().any(|column| is_known(&column.name))
 }
 
 /// The letters of a name in lower case: `Z-Sense` and `z_sense` are one name.
@@ -212,52 +202,12 @@ fn direction(name: &str) -> (Option<usize>, String) {
     (words.iter().find_map(of), rest)
 }
 
+/// Returns true for a unit of length or force.
+pub(super) fn is_unit(text: &str) -> bool {
+    QUANTITIES.iter().any(|row| unit(text, row.1).is_some())
+}
+
 /// A unit of length or force, such as nm, in SI units.
 fn unit(text: &str, si: &str) -> Option<f64> {
     parse_quantity(&format!("1 {text}"), si).ok().filter(|_| text.ends_with(si))
-}
-
-/// Returns true for a header of the table that PyJibe and afmformats write, the columns of which are in SI units.
-pub(super) fn is_afmformats(header: &[String]) -> bool {
-    header.iter().any(|line| line.trim_start_matches(COMMENT).trim() == "BEGIN METADATA")
-}
-
-/// Names and units of `count` columns from the last lines of a header that have as many, those after `columns:` and `units:`
-/// before others: names with units, such as `force [nN]`, and a row of units.
-pub(super) fn headings(header: &[String], separator: Separator, count: usize) -> Vec<Heading> {
-    let bare = |cell: &str| cell.trim_matches(['[', ']', '(', ')', '"', ' ']).to_owned();
-    let mut units: Option<Vec<String>> = None;
-    let is_labelled = |line: &&String| line.contains("columns:") || line.contains("units:");
-    let (labelled, others): (Vec<_>, Vec<_>) = header.iter().rev().partition(is_labelled);
-    for line in labelled.into_iter().chain(others) {
-        let line = line.trim_start_matches(COMMENT).trim_start();
-        let line = line.split_once("columns:").or(line.split_once("units:")).map_or(line, |(_, cells)| cells);
-        // Between a name and its unit there may be a blank.
-        let line = match separator {
-            Separator::SPACE => line.replace(" [", "[").replace(" (", "("),
-            _ => line.to_owned(),
-        };
-        let cells: Vec<&str> = separator.split(line.trim()).collect();
-        let of_units = |si: &str| cells.iter().any(|cell| unit(&bare(cell), si).is_some());
-        if cells.len() != count {
-            continue;
-        } else if units.is_none() && of_units("m") && of_units("N") {
-            units = Some(cells.iter().map(|cell| bare(cell)).collect());
-            continue;
-        }
-        let of_row = |column: usize| units.as_ref().map(|units| units[column].clone());
-        let heading = |(column, cell): (usize, &&str)| {
-            let is_unit = |text: &str| {
-                let text = bare(text);
-                text.chars().count() < WORD || QUANTITIES.iter().any(|row| unit(&text, row.1).is_some())
-            };
-            let in_round = || cell.rsplit_once('(').filter(|(_, text)| is_unit(text));
-            match cell.split_once('[').or_else(in_round).or_else(|| cell.split_once('/')) {
-                Some((name, unit)) => (bare(name), Some(bare(unit))),
-                None => (cell.trim_matches(['"', ' ']).to_owned(), of_row(column)),
-            }
-        };
-        return cells.iter().enumerate().map(heading).collect();
-    }
-    units.unwrap_or_default().into_iter().map(|unit| (String::new(), Some(unit))).collect()
 }

@@ -8,6 +8,7 @@ use super::read::Columns;
 use super::segment::{Segments, are_shuffled};
 use super::zero::FreeParts;
 use super::{ExperimentError, refused};
+use crate::numerics::mean;
 use crate::scene::format_quantity;
 use crate::text::grouped;
 use std::path::Path;
@@ -21,41 +22,37 @@ const NO_NOISE: f64 = 1e-6;
 /// Force in standard deviations of the noise that is a tension: at the end of the approach its sign is in doubt.
 const PULLS: f64 = -5.0;
 
-/// A measured curve in SI units: displacement of the instrument that grows on pressing, m, and force, N, without that
+/// A measured curve in SI units: displacement of the instrument that grows on pressing, m, and force, N, without the force
 /// before contact; compression is positive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// Displacement of the instrument, m.
-    pub displacement: Vec<f64>,
-    /// Force, N.
-    pub force: Vec<f64>,
-    /// Number of the segment of each point; those of even number press.
-    pub segment: Vec<usize>,
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) force: Vec<f64>,
+    /// Number of the segment of each point; segments of even number press.
+    pub(crate) segment: Vec<usize>,
     /// Number of the first points, before contact.
-    pub free: usize,
+    pub(super) free: usize,
     /// Displacement at which the contact seems to begin, m.
-    pub touch: f64,
+    pub(crate) touch: f64,
     /// Standard deviation of the force, N.
-    pub noise: f64,
+    pub(crate) noise: f64,
     /// Points of the file that are used.
-    pub points: usize,
+    pub(crate) points: usize,
     /// Points left out since a value is missing.
-    pub missing: usize,
-    /// Points of the file in each point.
-    pub averaged: usize,
+    pub(crate) missing: usize,
     /// Displacements at which the segments end, m.
-    turns: Vec<f64>,
+    pub(super) turns: Vec<f64>,
     /// True at the points of a pause.
     pub(super) is_still: Vec<bool>,
     /// Changes of the force over time, over the displacement, and from before to after contact that remain in the curve, N: 0
     /// where there is none.
     pub(super) remaining: [f64; 3],
-    /// Share of time and of displacement of each point in those of the whole curve.
+    /// Time and displacement of each point, as shares of the whole curve.
     pub(super) shares: [Vec<f64>; 2],
     /// True if the zero of the force, a drift and a tilt are estimated from the points without contact and taken off.
     is_estimated: [bool; 3],
     /// Statements on the changes of the curve.
-    pub statements: Vec<String>,
+    pub(crate) statements: Vec<String>,
 }
 
 impl MeasuredCurve {
@@ -160,7 +157,6 @@ impl MeasuredCurve {
             noise,
             points: kept.iter().map(|index| points.counts[*index]).sum(),
             missing,
-            averaged,
             turns,
             is_still: kept.iter().map(|index| points.is_still[*index]).collect(),
             remaining,
@@ -174,9 +170,9 @@ impl MeasuredCurve {
         })
     }
 
-    /// Displacements at which the segments end, m.
-    pub fn turns(&self) -> Vec<f64> {
-        self.turns.clone()
+    /// Displacement, m, and force, N, of each point.
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.displacement.iter().copied().zip(self.force.iter().copied())
     }
 
     /// Largest tension of the retractions, N, if it exceeds the noise.
@@ -202,7 +198,7 @@ fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(),
     let first = points.of(points.segment[0]);
     let count = (first.len() / 20).max(1);
     let pressed = if points.segment[0] == 0 { first.end - count..first.end } else { 0..count };
-    let pressed = points.force[pressed].iter().sum::<f64>() / count as f64;
+    let pressed = mean(&points.force[pressed]);
     if options.negate.is_some() || pressed >= PULLS * noise {
         return Ok(());
     }
@@ -260,7 +256,7 @@ mod tests {
         assert!((190..=200).contains(&expected.free), "{}", expected.free);
         assert!((expected.noise / 1e-10 - 1.0).abs() < 0.02, "{:e}", expected.noise);
         assert!((expected.force[300] / 1e-7 - 1.0).abs() < 0.01, "{:e}", expected.force[300]);
-        assert_eq!(expected.turns().len(), 2);
+        assert_eq!(expected.turns.len(), 2);
         let array = |descr: &str, shape: &str, values: &mut dyn Iterator<Item = f64>| {
             let mut bytes = Vec::new();
             crate::io::npy::write_header(&mut bytes, descr, shape).unwrap();
@@ -314,14 +310,15 @@ mod tests {
         let mut text = "displacement [nm],force [nN]\nNaN,1\n0,\n".to_owned();
         points(100_000).into_iter().for_each(|(d, f)| writeln!(text, "{d},{f}").unwrap());
         let curve = read(text.as_bytes(), &CurveOptions::default()).unwrap();
-        assert_eq!((curve.missing, curve.averaged, curve.points), (2, 25, 100_000));
+        assert_eq!((curve.missing, curve.points), (2, 100_000));
+        assert!(curve.statements[1].starts_with("Means of 25 points each"), "{:?}", curve.statements);
         assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 3, "{:?}", curve.statements);
         assert!((curve.force[2000] / 1e-7 - 1.0).abs() < 0.01, "{:e}", curve.force[2000]);
         // Points of the file are counted, not means.
         let text = lines(points(9000));
         let options = CurveOptions { free_points: Some(2700), ..CurveOptions::default() };
         let curve = read(text.as_bytes(), &options).unwrap();
-        assert_eq!((curve.averaged, curve.free), (3, 900));
+        assert_eq!((curve.force.len(), curve.free), (3000, 900));
     }
 
     #[test]
@@ -411,7 +408,7 @@ mod tests {
             let text = text("Piezo [nm],Deflection [nm]\n", |d, f| format!("{},{}", d / 1e3, f / unit));
             let units = vec!["um".to_owned(), format!("{unit}nN")];
             let curve = read(text.as_bytes(), &CurveOptions { units, ..CurveOptions::default() }).unwrap();
-            let (turn, force) = (curve.turns()[0], curve.force[300]);
+            let (turn, force) = (curve.turns[0], curve.force[300]);
             assert!(
                 (turn / 5e-8 - 1.0).abs() < 0.01 && (force / 1e-7 - 1.0).abs() < 0.01,
                 "{turn:e} {force:e}"
@@ -473,13 +470,13 @@ mod tests {
         let retraction = read(lines(all.iter().copied()).as_bytes(), &segments(&[2])).unwrap();
         assert_eq!((retraction.points, retraction.free, retraction.segment[0]), (300, 0, 1));
         assert_eq!((&retraction.force[..], retraction.touch), (&whole.force[300..], whole.touch));
-        assert_eq!(retraction.turns(), whole.turns());
+        assert_eq!(retraction.turns, whole.turns);
         let alone = read(lines(all[300..].iter().copied()).as_bytes(), &CurveOptions::default()).unwrap();
-        assert_eq!((alone.points, alone.segment[0], alone.turns().len()), (300, 1, 2));
+        assert_eq!((alone.points, alone.segment[0], alone.turns.len()), (300, 1, 2));
         assert!(alone.force.iter().zip(&retraction.force).all(|(one, other)| (one - other).abs() < 5e-11));
         assert!((alone.touch - whole.touch).abs() < 2e-9, "{} {}", alone.touch, whole.touch);
         let approach = read(lines(all[..300].iter().copied()).as_bytes(), &segments(&[1])).unwrap();
-        assert_eq!((&approach.force[..], approach.turns().len()), (&whole.force[..300], 2));
+        assert_eq!((&approach.force[..], approach.turns.len()), (&whole.force[..300], 2));
         all.splice(300..300, pause);
         let paused = read(lines(all.iter().copied()).as_bytes(), &CurveOptions::default()).unwrap();
         assert_eq!(paused.points, 800);

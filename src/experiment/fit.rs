@@ -1,27 +1,21 @@
 //! The parameters of a scene that describe a measured curve, their errors, and those that the curve does not separate.
 
-use super::baseline::{dot, ends};
-use super::limits::{check_curve, check_options};
+use super::baseline::dot;
 use super::model::Model;
 use super::parameter::{Coordinate, Free, Parameter, Values};
 use super::population::WRONG_SIDE;
 use super::reason::{Reason, reason};
-use super::scene::{most_on_closing, radius_of, values_of, with_values, written_out, wrong};
+use super::scene::with_values;
 use super::search::{MISFIT, Search};
 use super::space::Space;
 use super::statistics::{block_error, correlated, correlation, spread, widen};
-use super::{ExperimentError, MeasuredCurve, refused};
+use super::{ExperimentError, MeasuredCurve};
 use crate::analysis::scene_tabor_number;
 use crate::parallel::on_threads;
-use crate::scene::{Document, Solver, format_quantity, format_within};
+use crate::scene::{Document, format_within};
 use crate::simulation::Simulation;
-use std::f64::consts::PI;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Factor from the start to the ends of a range that is not given.
-const FACTOR: f64 = 30.0;
-/// Pull-off force of a smooth body over that of the curve up to which the coordinate of the work of adhesion is linear, if the
-/// noise does not hide more.
-const LINEAR: f64 = 0.01;
 /// Correlation of parameters that are not separated, and half width of the 95 % interval of a logarithm that is flat.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
@@ -40,22 +34,31 @@ pub struct FitOptions {
 }
 
 /// A parameter with its errors.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct FittedParameter {
     /// The parameter.
+    #[serde(skip)]
     pub parameter: Parameter,
-    /// Value before the fit, in SI units as all values.
-    pub start: f64,
-    /// Range in which the value was looked for.
-    pub range: (f64, f64),
-    /// Value of the least residuals.
+    /// Value of the least residuals, in SI units as all values.
     pub value: f64,
     /// Ends of the 95 % interval.
+    #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
     /// Standard error by the noise.
     pub noise_error: f64,
     /// Standard deviation over random profiles.
     pub profile_error: Option<f64>,
+    /// Value before the fit.
+    pub start: f64,
+    /// Range in which the value was looked for.
+    pub range: (f64, f64),
+}
+
+fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(2))?;
+    map.serialize_entry("low", low)?;
+    map.serialize_entry("high", high)?;
+    map.end()
 }
 
 impl FittedParameter {
@@ -66,9 +69,10 @@ impl FittedParameter {
 }
 
 /// Result of a fit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Fit {
     /// The free parameters with their errors.
+    #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
     /// Root mean square residual, N.
     pub residual: f64,
@@ -80,6 +84,7 @@ pub struct Fit {
     /// that root mean square.
     pub misfit: f64,
     /// Upper end of the interval of the work of adhesion, J/m², if a curve without adhesion describes the measured one as well.
+    #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the values found.
     pub tabor: Option<f64>,
@@ -92,9 +97,19 @@ pub struct Fit {
     /// Number of computed curves.
     pub evaluations: usize,
     /// Force of the model at each point with the zero and the drift of the curve, which are refined with the model, N.
+    #[serde(skip)]
     pub model: Vec<f64>,
     /// The scene with the values found, loaded as the curve was.
+    #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
+}
+
+fn by_name<S: Serializer>(parameters: &[FittedParameter], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(parameters.iter().map(|one| (one.parameter, one)))
+}
+
+fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, S::Error> {
+    document.scene().serialize(serializer)
 }
 
 impl Fit {
@@ -116,10 +131,8 @@ pub fn fit(
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(usize),
 ) -> Result<Fit, ExperimentError> {
-    check_curve(curve)?;
-    check_options(&options.free, options.lines, options.jobs)?;
     let mut simulation = Simulation::new(document.resolve(""));
-    let (document, space) = prepare(curve, document, &mut simulation, options, stop)?;
+    let (document, space) = Space::of(curve, document, &mut simulation, options, stop)?;
     let model = Model::new(curve, document.scene(), &mut simulation);
     let mut search = Search { space: &space, model, report, lines: space.lines() };
     let found = search.find()?;
@@ -200,94 +213,6 @@ pub fn fit(
     })
 }
 
-/// Checks parameters and scene; returns the document with a work of adhesion, and the coordinates of the fit.
-fn prepare<'a>(
-    curve: &'a MeasuredCurve,
-    document: &Document,
-    simulation: &mut Simulation,
-    options: &FitOptions,
-    stop: &'a (dyn Fn() -> bool + Sync),
-) -> Result<(Document, Space<'a>), ExperimentError> {
-    let scene = document.scene();
-    if scene.numerics.solver != Solver::Exact {
-        return refused(
-            "numerics.solver = Stepwise: a fit needs the exact solver",
-            "numerics.solver = Exact",
-        );
-    }
-    if options.lines > 1 && scene.seed().is_none() {
-        return refused("--lines: the scene has no random profile", "a scene with random roughness");
-    }
-    let is_free = |parameter| options.free.iter().any(|free| free.parameter == parameter);
-    let radius = radius_of(scene);
-    if is_free(Parameter::Radius) && radius.is_none() {
-        return refused("radius: the form of the scene has none", "form = Paraboloid, WavySphere or Punch");
-    }
-    let (low, high) = ends(curve.force.iter().copied());
-    // Work of adhesion of a smooth body with this pull-off force.
-    let smooth = |force: f64, modulus: f64| {
-        let of_sphere = radius.map(|radius| force / (1.5 * PI * radius));
-        let of_flat = force.powi(2) / (PI * modulus * scene.length.powi(3));
-        of_sphere.into_iter().chain([of_flat]).find(|work| work.is_finite() && *work > 0.0).unwrap_or(0.05)
-    };
-    let pull_off = curve.noise.max(-low);
-    let (_, governing) = simulation.contact(scene)?;
-    let of_curve = smooth(pull_off, governing.effective_modulus);
-    let least_work = smooth(curve.noise.max(LINEAR * pull_off), governing.effective_modulus);
-    let work = is_free(Parameter::Work).then_some(of_curve);
-    let document = written_out(document, &governing, work).map_err(wrong)?;
-    let (_, governing) = simulation.contact(document.scene())?;
-    if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
-        return refused(
-            format!("{}: the scene has no adhesion", Parameter::ClosingWork.name()),
-            "adhesion.work above 0, or a free work of adhesion too",
-        );
-    }
-    let mut base = values_of(document.scene(), &governing);
-    let (touch, turn) = (curve.touch, curve.turns()[0]);
-    if turn <= touch {
-        let [touch, turn] = [touch, turn].map(|at| format_quantity(at, "m"));
-        return refused(
-            format!("the contact begins at {touch}, and the displacement turns at {turn}"),
-            "a contact before the first turning point",
-        );
-    }
-    // Of the force.
-    let extent = (high - low).max(curve.noise);
-    base[Parameter::Offset as usize] = touch;
-    let stiffness = &mut base[Parameter::Stiffness as usize];
-    if is_free(Parameter::Stiffness) && stiffness.is_infinite() {
-        *stiffness = 10.0 * extent / (turn - touch);
-    }
-    let mut coordinates = Vec::new();
-    for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
-        let start = base[parameter as usize];
-        let given =
-            options.free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
-        let range = given.unwrap_or_else(|| match parameter {
-            Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
-            Parameter::Zero => (-extent, extent),
-            Parameter::Work => (0.0, start.max(of_curve) * FACTOR),
-            Parameter::ClosingWork if is_free(Parameter::Work) => {
-                (0.0, base[Parameter::Work as usize].max(of_curve) * FACTOR)
-            }
-            Parameter::ClosingWork => (0.0, base[Parameter::Work as usize]),
-            _ => (start / FACTOR, start * FACTOR),
-        });
-        let start = start.clamp(range.0, range.1);
-        base[parameter as usize] = start;
-        let unit = match parameter {
-            Parameter::Work => least_work,
-            // A tenth of the change that the parameter makes at most.
-            Parameter::Zero => 0.1 * extent,
-            _ => 0.1 * (turn - touch),
-        };
-        coordinates.push(Coordinate { parameter, start, range, unit });
-    }
-    let most_on_closing = most_on_closing(document.scene());
-    Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
-}
-
 /// Values of fits of the same curve on the other random profiles of the scene.
 fn other_profiles(
     document: &Document,
@@ -339,30 +264,6 @@ mod tests {
             profile_error: None,
         };
         assert_eq!(modulus.text(modulus.value), "2.346 MPa");
-    }
-
-    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) of a sphere (JKR) and F²/(π E* L³) of a punch as
-    /// long as the profile (Kendall).
-    #[test]
-    fn a_fit_begins_with_the_work_of_a_smooth_body() {
-        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
-        let pull_off = curve.noise.max(-ends(curve.force.iter().copied()).0);
-        let (sphere, punch) =
-            (pull_off / (1.5 * PI * 7.5e-6), pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)));
-        for (form, expected) in [("Paraboloid(radius: 7.5e-6)", sphere), ("None", punch)] {
-            let changes = [("form", form), ("adhesion", "None")];
-            let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
-            let document = on_rubber(1e-3, 2e6).set_all(&changes).unwrap();
-            let options = FitOptions { free: vec!["work".parse().unwrap()], lines: 1, jobs: 1 };
-            let mut simulation = Simulation::default();
-            let (_, space) = prepare(&curve, &document, &mut simulation, &options, &|| false).unwrap();
-            let Coordinate { start, range, .. } = space.coordinates[0];
-            assert!((start / expected - 1.0).abs() < 1e-12, "{form}: {start:e} {expected:e}");
-            assert!(
-                (range.1 / (FACTOR * expected) - 1.0).abs() < 1e-12 && range.0 == 0.0,
-                "{form}: {range:?}"
-            );
-        }
     }
 
     /// The force of a rough sphere jumps at many displacements.

@@ -1,6 +1,6 @@
 //! The parts of a curve without contact: where they end, and the drift and the tilt of their force.
 
-use super::baseline::{Line, dot, ends, growing, right_angled, take_off};
+use super::baseline::{Baseline, dot, ends, growing, right_angled, take_off};
 use super::statistics::correlated;
 
 /// Fewest points without contact, and fewest points in contact.
@@ -49,10 +49,10 @@ pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline
     let whole = before[count - 1] + floor;
     if count as f64 * (whole / sum(&best)).ln() < GAIN {
         let (low, high) = ends(values.iter().copied());
-        return Err(NoBaseline::Straight(high - low, Line::through(values).noise));
+        return Err(NoBaseline::Straight(high - low, Baseline::through(values).noise));
     }
     let free = without_weak_contact(values, best, least);
-    let slope = Line::through(&values[..free]).slope.abs();
+    let slope = Baseline::through(&values[..free]).slope.abs();
     let range = |values: &[f64]| -> f64 {
         let (low, high) = ends(values.iter().copied());
         high - low
@@ -72,7 +72,7 @@ pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline
 /// The number of first values without the last ones that deviate from the line through those before.
 fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     let deviates = |free: usize, last: usize| {
-        let line = Line::through(&values[..free - last]);
+        let line = Baseline::through(&values[..free - last]);
         let rests: Vec<f64> = line.rests(&values[..free]).collect();
         let (before, behind) = rests.split_at(free - last);
         let count = before.len() as f64;
@@ -90,9 +90,9 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     free
 }
 
-/// Drift and tilt of the force at points without contact: changes of the force over the whole curve, N, with their standard
-/// errors, from the first to the last point and over the range of the displacement; and the step of the force from the part
-/// before contact to that after it, which is no slope.
+/// Drift, tilt and step of the force at points without contact, N, each with a standard error. The drift is the change from the
+/// first to the last point of the curve, and the tilt the change over the range of the displacement. The step is the difference
+/// between the force after contact and the force before contact that neither explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Slopes {
     pub zero: f64,
@@ -219,7 +219,7 @@ mod tests {
             };
             let values = noisy((0..500).map(force), 0.002, seed);
             let free = free_count(&values, 0.0).unwrap();
-            let noise = Line::through(&values[..free]).noise / 0.002;
+            let noise = Baseline::through(&values[..free]).noise / 0.002;
             assert!((0.85..1.2).contains(&noise), "{seed}: {free} {noise}");
         }
     }

@@ -7,7 +7,6 @@ mod coverage;
 mod curve;
 mod fit;
 mod free;
-mod limits;
 #[cfg(test)]
 mod made;
 mod model;
@@ -41,9 +40,14 @@ pub enum ExperimentError {
     /// A file that cannot be read as a curve.
     #[error(transparent)]
     File(#[from] TopographyError),
-    /// A curve or a scene that cannot be fitted: fault and what is allowed.
-    #[error("{0}; allowed: {1}")]
-    Refused(String, String),
+    /// A curve or a scene that cannot be fitted.
+    #[error("{found}; allowed: {allowed}")]
+    Refused {
+        /// What is wrong.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
     /// A failure of the computation, or a stop.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -56,6 +60,6 @@ impl From<ContactError> for ExperimentError {
 }
 
 /// Error of a curve or a scene that cannot be fitted.
-fn refused<T>(fault: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
-    Err(ExperimentError::Refused(fault.into(), allowed.into()))
+fn refused<T>(found: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
+    Err(ExperimentError::Refused { found: found.into(), allowed: allowed.into() })
 }

@@ -21,7 +21,6 @@ const FAN: i32 = 8;
 /// A scene on the displacements of a measured curve.
 pub(super) struct Model<'a> {
     curve: &'a MeasuredCurve,
-    turns: Vec<f64>,
     scene: Scene,
     simulation: &'a mut Simulation,
     /// Contact with the radius of its form, m; its springs and their tree serve all other values.
@@ -43,15 +42,7 @@ struct Sampling {
 
 impl<'a> Model<'a> {
     pub fn new(curve: &'a MeasuredCurve, scene: &Scene, simulation: &'a mut Simulation) -> Self {
-        Model {
-            turns: curve.turns(),
-            curve,
-            scene: scene.clone(),
-            simulation,
-            contact: None,
-            noise: 1.0,
-            evaluations: 0,
-        }
+        Model { curve, scene: scene.clone(), simulation, contact: None, noise: 1.0, evaluations: 0 }
     }
 
     /// Springs under the form of this radius with these works of adhesion and modulus.
@@ -91,7 +82,7 @@ impl<'a> Model<'a> {
         let mut forces = Vec::with_capacity(self.curve.force.len());
         // Leg and indentation of the body, m, while it touches.
         let mut here: Option<(Leg, f64)> = None;
-        for (number, turn) in self.turns.iter().enumerate() {
+        for (number, turn) in self.curve.turns.iter().enumerate() {
             let (presses, from) = (number % 2 == 0, here.as_ref().map(|(_, at)| *at));
             let leg = match &here {
                 Some((leg, at)) => Some(leg.turn(*at)?),
@@ -251,7 +242,8 @@ mod tests {
         assert_eq!(fresh.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6]).unwrap(), narrow);
     }
 
-    /// Where a soft instrument cannot hold the body any more, points halve their distances to the last one before it.
+    /// At a fold, where the displacement turns back since the instrument is too soft to hold the body, the points are dense: on
+    /// either side the first point is half way to the next even point, and each further point halves the distance to the fold.
     #[test]
     fn points_are_dense_on_both_sides_of_a_fold() {
         let scene = random(4, 512).scene;

@@ -1,6 +1,7 @@
 //! Parameters of a fit: names, units, ranges, and the coordinates in which a fit looks for them.
 
 use crate::scene::{did_you_mean, parse_quantity};
+use serde::{Serialize, Serializer};
 use std::str::FromStr;
 
 /// Parameter of a fit.
@@ -20,6 +21,12 @@ pub enum Parameter {
     Stiffness,
     /// Radius of the form.
     Radius,
+}
+
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
 }
 
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
@@ -65,13 +72,13 @@ impl Parameter {
     }
 
     /// Returns true for a range in which the parameter can be looked for.
-    pub(super) fn allows(self, (low, high): (f64, f64)) -> bool {
+    fn allows(self, (low, high): (f64, f64)) -> bool {
         let is_above = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
         is_above && low < high && low.is_finite() && high.is_finite()
     }
 
     /// Ranges in which the parameter can be looked for.
-    pub(super) fn ranges(self) -> String {
+    fn ranges(self) -> String {
         let above = match (self.is_signed(), self.is_work()) {
             (true, _) => "",
             (_, true) => " of at least 0",
@@ -103,13 +110,12 @@ impl Parameter {
     }
 }
 
-/// A parameter to be found, with its range if that is given.
+/// A parameter to be found, with its range if the range is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
-    /// The parameter.
-    pub parameter: Parameter,
-    /// Ends of its range in SI units; `None`: around its start.
-    pub range: Option<(f64, f64)>,
+    pub(crate) parameter: Parameter,
+    /// Ends of the range in SI units; `None`: around the start.
+    pub(crate) range: Option<(f64, f64)>,
 }
 
 impl FromStr for Free {

@@ -1,10 +1,11 @@
 //! The points of a curve in the order of time, with pressing positive.
 
-use super::baseline::{Line, ends};
+use super::baseline::{Baseline, ends};
 use super::free::{FEWEST, free_count};
 use super::options::{CurveOptions, Negate};
 use super::segment::Segments;
 use super::{ExperimentError, refused};
+use crate::numerics::mean;
 use std::ops::Range;
 
 /// Points in the order of time, means of several if there are many.
@@ -25,7 +26,6 @@ impl Points {
             ranges.push(start..start + chunk.len());
             start += chunk.len();
         }
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         let means = |values: &[f64]| ranges.iter().map(|range| mean(&values[range.clone()])).collect();
         Points {
             displacement: means(displacement),
@@ -85,7 +85,7 @@ impl Points {
     pub fn is_retraction(&self, least: f64) -> bool {
         let change = |values: &[f64]| {
             let free = free_count(values, least).ok()?;
-            Some(Line::through(&values[..free]).slope.abs() * free as f64)
+            Some(Baseline::through(&values[..free]).slope.abs() * free as f64)
         };
         let reversed: Vec<f64> = self.force.iter().rev().copied().collect();
         change(&reversed).is_some_and(|after| change(&self.force).is_none_or(|before| after < before))

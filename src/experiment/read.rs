@@ -2,18 +2,21 @@
 
 use super::ExperimentError;
 use super::baseline::ends;
-use super::columns::{Choice, Pair, headings, is_afmformats};
+use super::columns::{Choice, Pair, is_unit};
 use super::options::CurveOptions;
 use crate::io::{PROVENANCE, npy};
-use crate::topography::text::{Cell, Decimal, Separator, each_line};
+use crate::topography::text::{Cell, Column, Decimal, Header, Separator, each_line};
 use crate::topography::{Place, TopographyError, content, npy_columns, refused, shown, unpacked};
-use std::cell::RefCell;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Largest displacement, m, and force, N, either way.
 const LARGEST: [f64; 2] = [1e3, 1e6];
 /// Distance from the central nine tenths of the displacements, in units of their range, beyond which a few are wild.
 const WILD: f64 = 10.0;
+
+/// Line of the header of a table that PyJibe and afmformats write, the columns of which are in SI units.
+const OF_AFMFORMATS: &str = "END METADATA";
 
 /// Columns of a file in SI units, without the points of which a value is missing.
 #[derive(Debug, Default)]
@@ -120,88 +123,105 @@ impl Columns {
     }
 }
 
-fn parts_of(choice: &mut Choice) -> Vec<Columns> {
-    let mut parts: Vec<_> = choice.pairs.iter().map(|_| Columns::default()).collect();
-    parts[0].statements = std::mem::take(&mut choice.statements);
-    parts
+/// The points of a file in its chosen columns.
+struct Points {
+    choice: Choice,
+    /// One part, or an approach and the retraction beside it.
+    parts: Vec<Columns>,
+    /// Number of the present segment, and its word or number in the file.
+    label: (usize, String),
+}
+
+impl Points {
+    fn new(columns: &[Column], is_si: bool, options: &CurveOptions) -> Result<Self, TopographyError> {
+        let mut choice = Choice::new(columns, is_si, options)?;
+        let mut parts: Vec<_> = choice.pairs.iter().map(|_| Columns::default()).collect();
+        parts[0].statements = std::mem::take(&mut choice.statements);
+        Ok(Points { choice, parts, label: (0, String::new()) })
+    }
+
+    /// Adds the point at a place, by the values of the columns, NaN for a missing one, and their texts.
+    fn take<'a>(
+        &mut self,
+        place: &Place,
+        mut value: impl FnMut(usize) -> Result<f64, TopographyError>,
+        text: impl Fn(usize) -> Cow<'a, str>,
+    ) -> Result<(), TopographyError> {
+        let is_beside = self.parts.len() > 1;
+        for (part, pair) in self.parts.iter_mut().zip(&self.choice.pairs) {
+            let values = [value(pair.places[0])?, value(pair.places[1])?];
+            // One of two segments side by side may be longer.
+            if is_beside && pair.places.iter().all(|place| text(*place).is_empty()) {
+                continue;
+            }
+            let found = part.displacement.len();
+            part.push(values, pair, place.clone())?;
+            if let Some(column) = self.choice.segment.filter(|_| part.displacement.len() > found) {
+                let text = text(column);
+                if self.label.1 != text {
+                    self.label = (self.label.0 + 1, text.into_owned());
+                }
+                part.segment.push(self.label.0);
+            }
+        }
+        Ok(())
+    }
 }
 
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, TopographyError> {
     let (names, values) = npy_columns(bytes)?;
     // A force curve or a fit of this program, in SI units.
     let is_own = names.iter().any(|name| ["contact_length", "residual"].contains(&name.as_str()));
-    let names: Vec<_> = names.into_iter().map(|name| (name, None)).collect();
-    let mut choice = Choice::new(&names, values.len(), is_own, options)?;
-    let mut parts = parts_of(&mut choice);
-    let mut label = 0;
+    let mut columns = vec![Column::default(); values.len()];
+    columns.iter_mut().zip(names).for_each(|(column, name)| column.name = name);
+    let mut points = Points::new(&columns, is_own, options)?;
     for point in 0..values.first().map_or(0, Vec::len) {
-        for (part, pair) in parts.iter_mut().zip(&choice.pairs) {
-            let found = part.displacement.len();
-            part.push(pair.places.map(|place| values[place][point]), pair, Place::Point(point + 1))?;
-            if let Some(column) = choice.segment {
-                label += usize::from(point > 0 && values[column][point] != values[column][point - 1]);
-                part.segment.extend((part.displacement.len() > found).then_some(label));
-            }
-        }
+        let value = |column: usize| values[column][point];
+        points.take(
+            &Place::Point(point + 1),
+            |column| Ok(value(column)),
+            |column| value(column).to_string().into(),
+        )?;
     }
-    Ok(parts)
+    Ok(points.parts)
 }
 
 fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, TopographyError> {
-    let (header, mut decimal) = (RefCell::new(Vec::new()), Decimal::default());
-    let mut form = None;
-    // Count of the segments, and the word or number of the present one.
-    let mut label = (0, String::new());
-    let take = |place: Place, line: &str| {
+    let (mut decimal, mut form) = (Decimal::default(), None);
+    let take = |header: &Header, place: Place, line: &str| {
         if form.is_none() {
             let separator = Separator::of(line);
             let count = separator.split(line).count();
-            let header = header.borrow();
-            let headings = headings(&header, separator, count);
-            let is_si = bytes.starts_with(PROVENANCE.as_bytes()) || is_afmformats(&header);
-            let mut choice = Choice::new(&headings, count, is_si, options)?;
-            let parts = parts_of(&mut choice);
-            form = Some((separator, count, choice, parts));
+            let columns = header.columns(count, count, separator, is_unit);
+            let is_si = bytes.starts_with(PROVENANCE.as_bytes()) || header.has_line(OF_AFMFORMATS);
+            form = Some((separator, count, Points::new(&columns, is_si, options)?));
         }
-        let Some((separator, count, choice, parts)) = &mut form else { return Ok(()) };
+        let Some((separator, count, points)) = &mut form else { return Ok(()) };
         let cells: Vec<&str> = separator.split(line).collect();
         if cells.len() != *count {
             let allowed = format!("{count}, as in the first line of numbers");
             return Err(refused(place, format!("{} columns", cells.len()), allowed));
         }
-        let mut value = |column: usize| match decimal.read(cells[column], *separator) {
-            // A number of hundreds of digits is not the word for infinity, which marks a missing value.
-            Cell::Number(value)
-                if value.is_infinite() && cells[column].contains(|c: char| c.is_ascii_digit()) =>
-            {
-                let fault =
-                    format!("column {}: {:?} is beyond all numbers", column + 1, shown(cells[column]));
-                Err(refused(place.clone(), fault, "displacements and forces, NaN for a missing value"))
-            }
-            Cell::Number(value) => Ok(value),
-            Cell::Missing => Ok(f64::NAN),
-            Cell::OtherMark | Cell::NoNumber => {
-                let fault = format!("column {}: {:?} is not a number", column + 1, shown(cells[column]));
-                Err(refused(place.clone(), fault, "numbers of one decimal mark, NaN for a missing value"))
-            }
-        };
-        let is_beside = choice.pairs.len() > 1;
-        for (part, pair) in parts.iter_mut().zip(&choice.pairs) {
-            let values = [value(pair.places[0])?, value(pair.places[1])?];
-            // One of two segments side by side may be longer.
-            if is_beside && pair.places.iter().all(|place| cells[*place].is_empty()) {
-                continue;
-            }
-            let found = part.displacement.len();
-            part.push(values, pair, place.clone())?;
-            if let Some(column) = choice.segment.filter(|_| part.displacement.len() > found) {
-                if label.1 != cells[column] {
-                    label = (label.0 + 1, cells[column].to_owned());
+        let value = |column: usize| {
+            let cell = cells[column];
+            let (fault, allowed) = match decimal.read(cell, *separator) {
+                // A number of hundreds of digits is not the word for infinity, which marks a missing value.
+                Cell::Number(value) if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) => {
+                    ("beyond all numbers", "displacements and forces, NaN for a missing value")
                 }
-                part.segment.push(label.0);
-            }
-        }
-        Ok(())
+                Cell::Number(value) => return Ok(value),
+                Cell::Missing => return Ok(f64::NAN),
+                Cell::OtherMark | Cell::NoNumber => {
+                    ("not a number", "numbers of one decimal mark, NaN for a missing value")
+                }
+            };
+            Err(refused(
+                place.clone(),
+                format!("column {}: {:?} is {fault}", column + 1, shown(cell)),
+                allowed,
+            ))
+        };
+        points.take(&place, value, |column| cells[column].into())
     };
     // A line without two values, of which one may be missing, is part of the header.
     let is_header = |line: &str| {
@@ -210,6 +230,6 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogra
         let values = cells().filter(|cell| matches!(cell, Cell::Number(_) | Cell::Missing)).count();
         values < 2 || !cells().any(|cell| matches!(cell, Cell::Number(_)))
     };
-    each_line(bytes, is_header, |line| header.borrow_mut().push(line.to_owned()), take)?;
-    Ok(form.map_or_else(Vec::new, |(.., parts)| parts))
+    each_line(bytes, is_header, take)?;
+    Ok(form.map_or_else(Vec::new, |(.., points)| points.parts))
 }

@@ -6,8 +6,10 @@ use super::model::Model;
 use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
 use crate::analysis::LEAST_TABOR_NUMBER;
+use crate::numerics::median;
 use crate::scene::{CheckedScene, format_quantity};
 use crate::simulation::Simulation;
+use serde::{Serialize, Serializer};
 use std::fmt;
 
 /// Share of the length in contact of a body that is longer than its profile, and fewest springs in contact.
@@ -116,6 +118,12 @@ impl fmt::Display for Reason {
     }
 }
 
+impl Serialize for Reason {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
 /// The reason why a scene with these values does not describe a curve, for these free parameters.
 ///
 /// # Errors
@@ -197,7 +205,7 @@ fn largest_jump(curve: &MeasuredCurve) -> f64 {
 
 /// Slope of the force over the displacement in the last fifth of the first approach, or the first one of a retraction, N/m.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
-    let (touch, turn) = (curve.touch, curve.turns()[0]);
+    let (touch, turn) = (curve.touch, curve.turns[0]);
     let first = curve.segment.iter().zip(curve.displacement.iter().zip(&curve.force));
     let pressed = first.filter(|(segment, (at, _))| {
         Some(*segment) == curve.segment.first() && **at > turn - PRESSED * (turn - touch)
@@ -222,7 +230,7 @@ fn branches_differ(
     let mut change = |parameter: Parameter| -> Result<Vec<f64>, ExperimentError> {
         let mut moved = *values;
         let unit = match parameter {
-            Parameter::Offset => curve.turns()[0] - values[Parameter::Offset as usize],
+            Parameter::Offset => curve.turns[0] - values[Parameter::Offset as usize],
             Parameter::Zero => high - low,
             _ => -values[parameter as usize],
         };
@@ -243,8 +251,7 @@ fn branches_differ(
     }
     // A point on the wrong side of a jump counts no more than others.
     let mut sizes: Vec<f64> = rests[curve.free..].iter().map(|rest| rest.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    let most = CUT * sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    let most = CUT * median(&mut sizes).unwrap_or(0.0);
     rests.iter_mut().for_each(|rest| *rest = rest.clamp(-most, most));
     let basis = right_angled(&columns);
     let rest_of = |column: &mut Vec<f64>| {

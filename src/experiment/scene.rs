@@ -93,9 +93,9 @@ impl MeasuredCurve {
     }
 
     fn loading(&self, offset: f64) -> Change {
-        let turns = self.turns();
-        let turns = turns[..turns.len() - 1].iter();
-        let stages: String = turns
+        let turns = &self.turns;
+        let stages: String = turns[..turns.len() - 1]
+            .iter()
             .map(|turn| format!("ToDisplacement({}), ", ron_float(round_to(turn - offset, 10))))
             .collect();
         ("loading".to_owned(), format!("[{stages}ToSeparation]"))
@@ -105,7 +105,8 @@ impl MeasuredCurve {
 /// The first error of a scene with other values.
 pub(super) fn wrong(errors: SceneErrors) -> ExperimentError {
     let error = errors.first();
-    ExperimentError::Refused(format!("{} = {}", error.field, error.value), error.allowed.clone())
+    let found = format!("{} = {}", error.field, error.value);
+    ExperimentError::Refused { found, allowed: error.allowed.clone() }
 }
 
 #[cfg(test)]

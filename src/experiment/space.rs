@@ -1,10 +1,22 @@
 //! The coordinates in which a scene is fitted, and the parts of the curve beside it.
 
-use super::MeasuredCurve;
-use super::parameter::{Coordinate, Parameter, Values};
+use super::baseline::ends;
+use super::fit::FitOptions;
+use super::parameter::{Coordinate, Free, Parameter, Values};
 use super::population::WRONG_SIDE;
+use super::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use super::statistics::{PARTS, scale};
+use super::{ExperimentError, MeasuredCurve, refused};
+use crate::scene::{Document, Solver, format_quantity};
+use crate::simulation::Simulation;
+use std::f64::consts::PI;
 use std::ops::Range;
+
+/// Factor from the start to the ends of a range that is not given.
+const FACTOR: f64 = 30.0;
+/// Pull-off force of a smooth body over the pull-off force of the curve up to which the coordinate of the work of adhesion is
+/// linear, if the noise does not hide more.
+const LINEAR: f64 = 0.01;
 
 /// The coordinates in which a scene is fitted, from these values on.
 pub(super) struct Space<'a> {
@@ -16,7 +28,117 @@ pub(super) struct Space<'a> {
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Space<'_> {
+/// Refuses parameters of which there are none, or one twice.
+fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
+    if free.is_empty() {
+        let names = Parameter::ALL.map(Parameter::name).join(", ");
+        return refused("no free parameter", format!("one or more of {names}"));
+    }
+    for (index, Free { parameter, .. }) in free.iter().enumerate() {
+        if free[..index].iter().any(|other| other.parameter == *parameter) {
+            return refused(format!("{} is free twice", parameter.name()), "each parameter once");
+        }
+    }
+    Ok(())
+}
+
+impl<'a> Space<'a> {
+    /// Checks parameters and scene; returns the document with a work of adhesion, and the coordinates of the fit.
+    pub fn of(
+        curve: &'a MeasuredCurve,
+        document: &Document,
+        simulation: &mut Simulation,
+        options: &FitOptions,
+        stop: &'a (dyn Fn() -> bool + Sync),
+    ) -> Result<(Document, Self), ExperimentError> {
+        check_free(&options.free)?;
+        let scene = document.scene();
+        if scene.numerics.solver != Solver::Exact {
+            return refused(
+                "numerics.solver = Stepwise: a fit needs the exact solver",
+                "numerics.solver = Exact",
+            );
+        }
+        if options.lines > 1 && scene.seed().is_none() {
+            return refused("--lines: the scene has no random profile", "a scene with random roughness");
+        }
+        let is_free = |parameter| options.free.iter().any(|free| free.parameter == parameter);
+        let radius = radius_of(scene);
+        if is_free(Parameter::Radius) && radius.is_none() {
+            return refused(
+                "radius: the form of the scene has none",
+                "form = Paraboloid, WavySphere or Punch",
+            );
+        }
+        let (low, high) = ends(curve.force.iter().copied());
+        // Work of adhesion of a smooth body with this pull-off force.
+        let smooth = |force: f64, modulus: f64| {
+            let of_sphere = radius.map(|radius| force / (1.5 * PI * radius));
+            let of_flat = force.powi(2) / (PI * modulus * scene.length.powi(3));
+            of_sphere
+                .into_iter()
+                .chain([of_flat])
+                .find(|work| work.is_finite() && *work > 0.0)
+                .unwrap_or(0.05)
+        };
+        let pull_off = curve.noise.max(-low);
+        let (_, governing) = simulation.contact(scene)?;
+        let of_curve = smooth(pull_off, governing.effective_modulus);
+        let least_work = smooth(curve.noise.max(LINEAR * pull_off), governing.effective_modulus);
+        let work = is_free(Parameter::Work).then_some(of_curve);
+        let document = written_out(document, &governing, work).map_err(wrong)?;
+        let (_, governing) = simulation.contact(document.scene())?;
+        if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
+            return refused(
+                format!("{}: the scene has no adhesion", Parameter::ClosingWork.name()),
+                "adhesion.work above 0, or a free work of adhesion too",
+            );
+        }
+        let mut base = values_of(document.scene(), &governing);
+        let (touch, turn) = (curve.touch, curve.turns[0]);
+        if turn <= touch {
+            let [touch, turn] = [touch, turn].map(|at| format_quantity(at, "m"));
+            return refused(
+                format!("the contact begins at {touch}, and the displacement turns at {turn}"),
+                "a contact before the first turning point",
+            );
+        }
+        // Of the force.
+        let extent = (high - low).max(curve.noise);
+        base[Parameter::Offset as usize] = touch;
+        let stiffness = &mut base[Parameter::Stiffness as usize];
+        if is_free(Parameter::Stiffness) && stiffness.is_infinite() {
+            *stiffness = 10.0 * extent / (turn - touch);
+        }
+        let mut coordinates = Vec::new();
+        for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
+            let start = base[parameter as usize];
+            let given =
+                options.free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
+            let range = given.unwrap_or_else(|| match parameter {
+                Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
+                Parameter::Zero => (-extent, extent),
+                Parameter::Work => (0.0, start.max(of_curve) * FACTOR),
+                Parameter::ClosingWork if is_free(Parameter::Work) => {
+                    (0.0, base[Parameter::Work as usize].max(of_curve) * FACTOR)
+                }
+                Parameter::ClosingWork => (0.0, base[Parameter::Work as usize]),
+                _ => (start / FACTOR, start * FACTOR),
+            });
+            let start = start.clamp(range.0, range.1);
+            base[parameter as usize] = start;
+            let unit = match parameter {
+                Parameter::Work => least_work,
+                // A tenth of the change that the parameter makes at most.
+                Parameter::Zero => 0.1 * extent,
+                _ => 0.1 * (turn - touch),
+            };
+            coordinates.push(Coordinate { parameter, start, range, unit });
+        }
+        let most_on_closing = most_on_closing(document.scene());
+        Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
+    }
+
     /// Values of all parameters at these coordinates.
     pub fn values(&self, at: &[f64]) -> Values {
         let mut values = self.base;
@@ -61,7 +183,7 @@ impl Space<'_> {
 #[cfg(test)]
 mod tests {
     use super::super::baseline::dot;
-    use super::super::made::{read, rubber};
+    use super::super::made::{on_rubber, read, rubber};
     use super::super::options::Drift;
     use super::*;
 
@@ -74,6 +196,44 @@ mod tests {
             curve,
             stop: &|| false,
         }
+    }
+
+    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) of a sphere (JKR) and F²/(π E* L³) of a punch as
+    /// long as the profile (Kendall).
+    #[test]
+    fn a_fit_begins_with_the_work_of_a_smooth_body() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let pull_off = curve.noise.max(-ends(curve.force.iter().copied()).0);
+        let (sphere, punch) =
+            (pull_off / (1.5 * PI * 7.5e-6), pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)));
+        for (form, expected) in [("Paraboloid(radius: 7.5e-6)", sphere), ("None", punch)] {
+            let changes = [("form", form), ("adhesion", "None")];
+            let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
+            let document = on_rubber(1e-3, 2e6).set_all(&changes).unwrap();
+            let options = FitOptions { free: vec!["work".parse().unwrap()], lines: 1, jobs: 1 };
+            let mut simulation = Simulation::default();
+            let (_, space) = Space::of(&curve, &document, &mut simulation, &options, &|| false).unwrap();
+            let Coordinate { start, range, .. } = space.coordinates[0];
+            assert!((start / expected - 1.0).abs() < 1e-12, "{form}: {start:e} {expected:e}");
+            assert!(
+                (range.1 / (FACTOR * expected) - 1.0).abs() < 1e-12 && range.0 == 0.0,
+                "{form}: {range:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn parameters_are_named_once_each() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let refused = |free: &[&str]| {
+            let free = free.iter().map(|one| one.parse().unwrap()).collect();
+            let options = FitOptions { free, lines: 1, jobs: 1 };
+            let found =
+                Space::of(&curve, &on_rubber(1e-3, 2e6), &mut Simulation::default(), &options, &|| false);
+            found.map(|_| ()).unwrap_err().to_string()
+        };
+        assert!(refused(&[]).starts_with("no free parameter; allowed: one or more of work, closing_work"));
+        assert_eq!(refused(&["work", "work"]), "work is free twice; allowed: each parameter once");
     }
 
     #[test]

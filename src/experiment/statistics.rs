@@ -1,6 +1,7 @@
 //! Statistics of samples and residuals.
 
 use super::baseline::dot;
+use crate::numerics::{mean, standard_deviation};
 
 /// Fewest ranges without correlation in a curve.
 const RANGES: usize = 20;
@@ -28,16 +29,15 @@ pub(super) fn scale(residuals: &[f64], cut: f64) -> f64 {
 /// are no independent noise, and each block would have other values. Blocks are joined up to whole segments; the largest
 /// error counts.
 pub(super) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
+    let (count, average) = (values.len() as f64, mean(values));
     let influence = |block: usize| {
-        values.iter().zip(blocks).map(|(value, costs)| (value - mean) * costs[block]).sum::<f64>() / count
+        values.iter().zip(blocks).map(|(value, costs)| (value - average) * costs[block]).sum::<f64>() / count
     };
     let influences: Vec<f64> = (0..blocks.first().map_or(0, Vec::len)).map(influence).collect();
     let error = |joined: usize| {
         let of: Vec<f64> = influences.chunks(joined).map(|part| part.iter().sum()).collect();
-        let mean = of.iter().sum::<f64>() / of.len() as f64;
-        of.iter().map(|one| (one - mean).powi(2)).sum::<f64>().sqrt()
+        let average = mean(&of);
+        of.iter().map(|one| (one - average).powi(2)).sum::<f64>().sqrt()
     };
     [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
 }
@@ -50,11 +50,14 @@ pub(super) fn correlated(residuals: &[f64]) -> f64 {
     1.0 + 2.0 * correlations.take_while(|correlation| *correlation > least).sum::<f64>()
 }
 
+fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
+    samples.iter().map(|sample| sample[index]).collect()
+}
+
 /// Multiplies the deviations of samples from their mean by a factor.
 pub(super) fn widen(samples: &mut [Vec<f64>], factor: f64) {
-    let count = samples.len() as f64;
     for index in 0..samples.first().map_or(0, Vec::len) {
-        let mean = samples.iter().map(|sample| sample[index]).sum::<f64>() / count;
+        let mean = mean(&column(samples, index));
         samples.iter_mut().for_each(|sample| sample[index] = mean + factor * (sample[index] - mean));
     }
 }
@@ -62,18 +65,17 @@ pub(super) fn widen(samples: &mut [Vec<f64>], factor: f64) {
 /// Standard deviation, and 2.5 % and 97.5 % quantiles.
 pub(super) fn spread(mut values: Vec<f64>) -> (f64, (f64, f64)) {
     values.sort_by(f64::total_cmp);
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let deviation = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
-    let quantile = |share: f64| values[((share * count) as usize).min(values.len() - 1)];
-    (deviation, (quantile(0.025), quantile(0.975)))
+    let quantile = |share: f64| values[((share * values.len() as f64) as usize).min(values.len() - 1)];
+    (standard_deviation(&values, mean(&values)), (quantile(0.025), quantile(0.975)))
 }
 
 /// Correlation of two coordinates over samples, 0 of one that does not vary.
 pub(super) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
     let [one, other] = pair.map(|index| {
-        let mean = samples.iter().map(|sample| sample[index]).sum::<f64>() / samples.len() as f64;
-        samples.iter().map(|sample| sample[index] - mean).collect::<Vec<f64>>()
+        let mut values = column(samples, index);
+        let mean = mean(&values);
+        values.iter_mut().for_each(|value| *value -= mean);
+        values
     });
     let squares = dot(&one, &one) * dot(&other, &other);
     if squares > 0.0 { dot(&one, &other) / squares.sqrt() } else { 0.0 }

@@ -1,10 +1,11 @@
 //! The points of a curve without contact, and the zero, drift and tilt of its force that they give.
 
-use super::baseline::{Line, ends};
+use super::baseline::{Baseline, ends};
 use super::free::{FEWEST, NoBaseline, Slopes, free_count};
 use super::options::{CurveOptions, Drift, Tilt};
 use super::points::Points;
 use super::{ExperimentError, refused};
+use crate::numerics::mean;
 use crate::scene::format_quantity;
 use std::ops::Range;
 
@@ -63,8 +64,8 @@ impl FreeParts {
         self.before.map_or(count - self.after..count, |before| 0..before)
     }
 
-    pub fn line(&self, points: &Points) -> Line {
-        Line::through(&points.force[self.base()])
+    pub fn line(&self, points: &Points) -> Baseline {
+        Baseline::through(&points.force[self.base()])
     }
 
     /// Displacement at which the contact seems to begin, m: behind the part before contact, or where a retraction alone
@@ -91,8 +92,7 @@ impl FreeParts {
     ) -> Result<([f64; 3], String), ExperimentError> {
         let [time, displacement] = &self.shares;
         let (count, base) = (points.force.len(), self.base());
-        let mean = |values: &[f64]| values[base.clone()].iter().sum::<f64>() / base.len() as f64;
-        let middle = [mean(time), mean(displacement)];
+        let middle = [time, displacement].map(|shares| mean(&shares[base.clone()]));
         let known = if let Drift::Known(drift) = options.drift { Some(drift) } else { None };
         points
             .force
@@ -125,7 +125,7 @@ impl FreeParts {
         // A retraction alone has the zero of its own end.
         let of_end = !options.segments.is_empty() && !options.segments.contains(&1) && has_both;
         let step = with_step.filter(|_| of_end).map_or(0.0, |slopes| slopes.step.0);
-        let found = step + if is_removed == [false; 2] { mean(&points.force) } else { found };
+        let found = step + if is_removed == [false; 2] { mean(&points.force[base.clone()]) } else { found };
         let zero = options.zero.unwrap_or(found);
         for (index, force) in points.force.iter_mut().enumerate() {
             let lines = taken[0] * (time[index] - middle[0]) + taken[1] * (displacement[index] - middle[1]);

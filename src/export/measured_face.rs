@@ -4,7 +4,8 @@ use crate::scene::format_quantity;
 use crate::spectrum::{Analysis, End};
 use crate::text::{grouped, path_name, printable};
 use crate::topography::Topography;
-use std::path::PathBuf;
+use serde::{Serialize, Serializer};
+use std::path::{Path, PathBuf};
 
 /// Share of the squared height in long waves above which it depends on the length of the scan.
 const MANY_LONG_WAVES: f64 = 0.3;
@@ -20,33 +21,48 @@ const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 const LARGEST_GRADIENT: f64 = 1.0;
 const FAR_APART: f64 = 30.0;
 
-/// A surface and its file.
-#[derive(Clone, Debug, PartialEq)]
+/// A surface and its file. Of a profile the numbers for both axes are those along it alone.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
+    #[serde(rename = "file", serialize_with = "in_unicode")]
     pub path: PathBuf,
     /// Name of the measurement in a container; empty for a file of its own.
+    #[serde(rename = "measurement", skip_serializing_if = "String::is_empty")]
     pub name: String,
     pub format: &'static str,
     /// Points of a row, and number of rows.
-    pub points: [usize; 2],
-    /// Lengths along and between rows, m; only the first one for a profile.
-    pub lengths: [f64; 2],
+    pub points: Vec<usize>,
+    /// Lengths along and between rows, m.
+    pub lengths: Vec<f64>,
     /// Columns and rows without measured points that are left out at the borders; points at the ends of a profile.
-    pub cropped: [usize; 2],
+    pub cropped: Vec<usize>,
     pub interpolated: usize,
     /// What is odd in the file.
+    #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// Writes a path with U+FFFD for what is no Unicode.
+fn in_unicode<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&path.display())
 }
 
 impl SurfaceFile {
     /// Facts of a surface with evenly spaced points; lengths of others are 0.
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
-        let points = [surface.columns, surface.rows()];
+        let mut points = vec![surface.columns, surface.rows()];
+        points.truncate(if surface.rows() > 1 { 2 } else { 1 });
         let spacing = surface.spacing().unwrap_or_default();
-        let lengths = [0, 1].map(|axis| points[axis] as f64 * spacing[axis]);
-        let (name, interpolated) = (surface.name.clone(), surface.interpolated());
-        let (cropped, warnings) = (surface.cropped.counts(), surface.warnings.clone());
-        SurfaceFile { path, name, format: surface.format, points, lengths, cropped, interpolated, warnings }
+        SurfaceFile {
+            path,
+            name: surface.name.clone(),
+            format: surface.format,
+            lengths: points.iter().zip(spacing).map(|(count, distance)| *count as f64 * distance).collect(),
+            cropped: surface.cropped.counts()[..points.len()].to_vec(),
+            points,
+            interpolated: surface.interpolated(),
+            warnings: surface.warnings.clone(),
+        }
     }
 
     /// Name of the file, and of the measurement in a container.
@@ -57,25 +73,22 @@ impl SurfaceFile {
 
     /// Name, format, shape and sizes in words, with the points that are left out or interpolated.
     pub fn describe(&self) -> String {
-        let [columns, rows] = self.points;
-        let length = |axis: usize| format_quantity(self.lengths[axis], "m");
-        let shape = if rows > 1 {
-            let (columns, rows) = (grouped(columns as u64), grouped(rows as u64));
-            format!("map of {columns} × {rows} points, {} × {}", length(0), length(1))
-        } else {
-            format!("profile of {} points, {}", grouped(columns as u64), length(0))
-        };
+        let counts: Vec<String> = self.points.iter().map(|count| grouped(*count as u64)).collect();
+        let lengths: Vec<String> = self.lengths.iter().map(|length| format_quantity(*length, "m")).collect();
+        let kind = if counts.len() > 1 { "map" } else { "profile" };
+        let shape = format!("{kind} of {} points, {}", counts.join(" × "), lengths.join(" × "));
+        let points: usize = self.points.iter().product();
         let interpolated = match self.interpolated {
             0 => String::new(),
-            some => format!(", {:.2} % interpolated", 100.0 * some as f64 / (columns * rows) as f64),
+            some => format!(", {:.2} % interpolated", 100.0 * some as f64 / points as f64),
         };
-        let cropped = match self.cropped {
-            [0, 0] => String::new(),
-            [points, _] if rows == 1 => format!(", {points} missing at its ends left out"),
-            [columns, rows] => {
-                let empty = [(columns, "column"), (rows, "row")].into_iter().filter(|(count, _)| *count > 0);
+        let cropped = match self.cropped[..] {
+            [0] | [0, 0] => String::new(),
+            [points] => format!(", {points} missing at its ends left out"),
+            ref counts => {
+                let empty = counts.iter().zip(["column", "row"]).filter(|(count, _)| **count > 0);
                 let counted = empty.map(|(count, name)| {
-                    let plural = if count == 1 { "" } else { "s" };
+                    let plural = if *count == 1 { "" } else { "s" };
                     format!("{count} empty {name}{plural}")
                 });
                 format!(", without {} at its border", counted.collect::<Vec<_>>().join(" and "))

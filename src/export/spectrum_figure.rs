@@ -1,7 +1,7 @@
 //! Spectra over the wave number: measured, fitted, and those of the equivalent line.
 
 use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use crate::spectrum::{Analysis, Bin, Direction, End};
+use crate::spectrum::{Along, Analysis, Bin, End};
 use crate::surface::EquivalentLine;
 use std::f64::consts::TAU;
 
@@ -27,14 +27,14 @@ pub struct Spectra {
     pub heights: Vec<SpectrumPoint>,
 }
 
-pub(super) fn spectrum_name(face: usize, direction: Direction) -> &'static str {
+pub(super) fn spectrum_name(face: usize, direction: Along) -> &'static str {
     match (face, direction) {
-        (0, Direction::X) => "1D PSD along x",
-        (0, Direction::Y) => "1D PSD along y",
-        (0, Direction::Radial) => "q/π × 2D PSD",
-        (_, Direction::X) => "opposite, 1D PSD along x",
-        (_, Direction::Y) => "opposite, 1D PSD along y",
-        (_, Direction::Radial) => "opposite, q/π × 2D PSD",
+        (0, Along::X) => "1D PSD along x",
+        (0, Along::Y) => "1D PSD along y",
+        (0, Along::Radial) => "q/π × 2D PSD",
+        (_, Along::X) => "opposite, 1D PSD along x",
+        (_, Along::Y) => "opposite, 1D PSD along y",
+        (_, Along::Radial) => "opposite, q/π × 2D PSD",
     }
 }
 

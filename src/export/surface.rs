@@ -5,13 +5,13 @@ use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
 use crate::draw::Figure;
-use crate::io::{Kind, Pairs, Table, object};
+use crate::io::{Kind, Table};
 use crate::scene::{CheckedScene, Move, Scene, format_quantity, format_range};
-use crate::spectrum::{Analysis, Bin, Direction, End, Estimate, LineMoments, Moment};
-use crate::study::MeasuredAdhesion;
+use crate::spectrum::{Along, Analysis, Bin, End, Estimate, LineMoments, Moment, Node, Statistics};
+use crate::study::{self, MeasuredAdhesion, ProfileAdhesion, RegimeCounts};
 use crate::surface::EquivalentLine;
 use crate::text::{grouped, path_name, per_cent};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;
 
@@ -88,22 +88,26 @@ impl Report for SurfaceReport {
     /// The opposite face is an object inside, without equivalent line and adhesion.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
-        let line = Pairs(self.moments().map(|(_, key, _, moment)| (key, moment)));
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
         let adhesion = adhesion.map(|(scene, computed)| {
-            object! {
-                "length": scene.length,
-                "springs": scene.numerics.points,
-                "preload": preload(scene),
-                "adhesion_force": computed.adhesion_force().filter(|forces| forces.spread.is_some()),
-                "fit_deviation": computed.fit_deviation(),
-                "regimes": computed.regimes()[0],
-                "regimes_after_zero_force": computed.regimes()[1],
-                "lines": &computed.profiles,
+            let [regimes, regimes_after_zero_force] = computed.regimes();
+            AdhesionJson {
+                length: scene.length,
+                springs: scene.numerics.points,
+                preload: preload(scene),
+                adhesion_force: computed.adhesion_force().filter(|forces| forces.spread.is_some()),
+                fit_deviation: computed.fit_deviation(),
+                regimes,
+                regimes_after_zero_force,
+                lines: &computed.profiles,
             }
         });
-        let opposite = others.first().map(|face| face_json(face, None::<()>, None::<()>, None::<()>));
-        Some(Box::new(face_json(first, Some(line), Some(adhesion), opposite)))
+        Some(Box::new(FaceJson {
+            equivalent_line: Some(self.moments()),
+            adhesion: Some(adhesion),
+            opposite: others.first().map(|face| Box::new(FaceJson::new(face))),
+            ..FaceJson::new(first)
+        }))
     }
 
     /// Spectra: kind, wave number in rad/m, power in m³, waves averaged (if any).
@@ -134,23 +138,34 @@ impl Report for SurfaceReport {
 }
 
 impl SurfaceReport {
-    /// Moments of the equivalent line and what follows from them: label, key, unit, and value if it is known.
-    fn moments(&self) -> [(&'static str, &'static str, &'static str, Option<Moment>); 6] {
+    /// Moments of the equivalent line and what follows from them.
+    fn moments(&self) -> [MomentRow; 6] {
         let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus } =
             self.line.moments();
         let stiff = |moment: Moment| Some(moment.scaled(self.modulus?));
         let over_work = |moment: Moment| Some(moment.scaled(1.0 / self.work?));
         let energy = stiff(energy_per_modulus);
+        let row = |label, key, unit, value| MomentRow { label, key, unit, value };
         [
-            ("rms height h", "rms_height", "m", Some(rms_height)),
-            ("rms gradient ⟨∇z⟩", "rms_gradient", "1", Some(rms_gradient)),
-            ("e_el/E*", "energy_per_modulus", "m", Some(energy_per_modulus)),
-            ("elastic energy e_el", "elastic_energy", "J/m²", energy),
+            row("rms height h", "rms_height", "m", Some(rms_height)),
+            row("rms gradient ⟨∇z⟩", "rms_gradient", "1", Some(rms_gradient)),
+            row("e_el/E*", "energy_per_modulus", "m", Some(energy_per_modulus)),
+            row("elastic energy e_el", "elastic_energy", "J/m²", energy),
             // κ has half the relative error of h⟨∇z⟩.
-            ("κ", "kappa", "1", stiff(height_gradient).and_then(over_work).map(Moment::root)),
-            ("e_el/γ", "elastic_energy_ratio", "1", energy.and_then(over_work)),
+            row("κ", "kappa", "1", stiff(height_gradient).and_then(over_work).map(Moment::root)),
+            row("e_el/γ", "elastic_energy_ratio", "1", energy.and_then(over_work)),
         ]
     }
+}
+
+/// A moment of the equivalent line, or what follows from one, if it is known.
+#[derive(Clone, Copy)]
+struct MomentRow {
+    label: &'static str,
+    /// Key in JSON.
+    key: &'static str,
+    unit: &'static str,
+    value: Option<Moment>,
 }
 
 /// Preload of the scene of an equivalent line, N; `None` for touch alone.
@@ -210,8 +225,8 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
 /// Moments with their errors, a column for each kind; without e_el/E* if e_el is known.
 fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
     let mut rows = vec![["", "value", "statistical", "method", "missing short waves"].map(str::to_owned)];
-    for (label, key, unit, moment) in report.moments() {
-        let Some(moment) = moment.filter(|_| key != "energy_per_modulus" || report.modulus.is_none()) else {
+    for MomentRow { label, key, unit, value } in report.moments() {
+        let Some(moment) = value.filter(|_| key != "energy_per_modulus" || report.modulus.is_none()) else {
             continue;
         };
         let share = |error: f64| per_cent(error / moment.value);
@@ -235,56 +250,71 @@ fn with_error(estimate: Estimate, unit: &str) -> String {
 
 /// JSON object of the surfaces of a face in SI units. That of the first face holds the results of both faces
 /// together, and the object of the opposite face.
-fn face_json<'a>(
-    face: &'a MeasuredFace,
-    equivalent_line: Option<impl Serialize + 'a>,
-    adhesion: Option<impl Serialize + 'a>,
-    opposite: Option<impl Serialize + 'a>,
-) -> impl Serialize + 'a {
-    let MeasuredFace { files, analysis } = face;
-    let (statistics, fit) = (&analysis.statistics, analysis.power_law);
-    let file = |file: &'a SurfaceFile| {
-        let axes = if file.points[1] > 1 { 2 } else { 1 };
-        object! {
-            "file": file.path.to_string_lossy(),
-            "measurement"?: Some(&file.name).filter(|name| !name.is_empty()),
-            "format": file.format,
-            "points": &file.points[..axes],
-            "lengths": &file.lengths[..axes],
-            "cropped": &file.cropped[..axes],
-            "interpolated": file.interpolated,
+#[derive(Serialize)]
+struct FaceJson<'a> {
+    version: &'static str,
+    files: &'a [SurfaceFile],
+    #[serde(flatten)]
+    statistics: &'a Statistics,
+    reliability_cutoff: Option<f64>,
+    hurst_exponent: Option<Estimate>,
+    roll_off_wave_number: Option<Estimate>,
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "by_key")]
+    equivalent_line: Option<[MomentRow; 6]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adhesion: Option<Option<AdhesionJson<'a>>>,
+    spectrum: Vec<Node>,
+    profile_spectra: Vec<SpectrumJson<'a>>,
+    ends_inside_scan: bool,
+    warnings: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    opposite: Option<Box<FaceJson<'a>>>,
+}
+
+#[derive(Serialize)]
+struct SpectrumJson<'a> {
+    name: &'static str,
+    bins: &'a [Bin],
+}
+
+#[derive(Serialize)]
+struct AdhesionJson<'a> {
+    length: f64,
+    springs: u64,
+    preload: Option<f64>,
+    adhesion_force: Option<study::Statistics>,
+    fit_deviation: Option<f64>,
+    regimes: RegimeCounts,
+    regimes_after_zero_force: RegimeCounts,
+    lines: &'a [ProfileAdhesion],
+}
+
+fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(rows.iter().flatten().map(|row| (row.key, row.value)))
+}
+
+impl<'a> FaceJson<'a> {
+    /// The face alone.
+    fn new(face: &'a MeasuredFace) -> Self {
+        let MeasuredFace { files, analysis } = face;
+        let spectrum = |(direction, bins): &'a (Along, Vec<Bin>)| SpectrumJson {
+            name: spectrum_name(0, *direction),
+            bins,
+        };
+        FaceJson {
+            version: env!("CARGO_PKG_VERSION"),
+            files,
+            statistics: &analysis.statistics,
+            reliability_cutoff: analysis.reliability_cutoff,
+            hurst_exponent: analysis.power_law.map(|fit| fit.hurst),
+            roll_off_wave_number: analysis.power_law.and_then(|fit| fit.roll_off),
+            equivalent_line: None,
+            adhesion: None,
+            spectrum: analysis.isotropic.nodes().collect(),
+            profile_spectra: analysis.spectra.iter().map(spectrum).collect(),
+            ends_inside_scan: analysis.ends_inside,
+            warnings: face.warnings(),
+            opposite: None,
         }
-    };
-    let estimate = |estimate: Option<Estimate>| {
-        estimate.map(|Estimate { value, error }| object! { "value": value, "error": error })
-    };
-    let node = |(wave_number, c2d, error)| {
-        let line = analysis.isotropic.line(wave_number);
-        object! { "wave_number": wave_number, "c2d": c2d, "relative_error": error, "line": line }
-    };
-    let spectrum = |(direction, bins): &'a (Direction, Vec<Bin>)| {
-        let bin =
-            |bin: &Bin| object! { "wave_number": bin.wave_number, "power": bin.power, "waves": bin.waves };
-        object! { "name": spectrum_name(0, *direction), "bins": bins.iter().map(bin).collect::<Vec<_>>() }
-    };
-    object! {
-        "version": env!("CARGO_PKG_VERSION"),
-        "files": files.iter().map(file).collect::<Vec<_>>(),
-        "points": statistics.points,
-        "rms_height": statistics.rms_height,
-        "rms_slope": statistics.rms_slope,
-        "rms_gradient": statistics.rms_gradient,
-        "skewness": statistics.skewness,
-        "kurtosis": statistics.kurtosis,
-        "reliability_cutoff": analysis.reliability_cutoff,
-        "hurst_exponent": estimate(fit.map(|fit| fit.hurst)),
-        "roll_off_wave_number": estimate(fit.and_then(|fit| fit.roll_off)),
-        "equivalent_line"?: equivalent_line,
-        "adhesion"?: adhesion,
-        "spectrum": analysis.isotropic.nodes().map(node).collect::<Vec<_>>(),
-        "profile_spectra": analysis.spectra.iter().map(spectrum).collect::<Vec<_>>(),
-        "ends_inside_scan": analysis.ends_inside,
-        "warnings": face.warnings(),
-        "opposite"?: opposite,
     }
 }

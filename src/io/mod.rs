@@ -13,7 +13,7 @@ pub(crate) const PROVENANCE: &str = "# asperity ";
 
 pub(crate) use hash::{hexadecimal, sha256_of};
 pub use json::write_json;
-pub(crate) use object::{Entry, Object, Optional, Pairs, object};
+pub(crate) use object::{Entry, Object, Optional, object};
 pub(crate) use read::*;
 pub use table::{Kind, Table, TableOf};
 pub(crate) use write::sync_folder;

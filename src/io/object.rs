@@ -45,15 +45,6 @@ impl<E: Entries> Serialize for Object<E> {
     }
 }
 
-/// An object of keys with values of one type.
-pub(crate) struct Pairs<T, const N: usize>(pub [(&'static str, T); N]);
-
-impl<T: Serialize, const N: usize> Serialize for Pairs<T, N> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(key, value)| (key, value)))
-    }
-}
-
 /// An object with these keys and values, for serialisation; an entry `"key"?: option` is omitted for `None`.
 macro_rules! object {
     (@entries) => { () };

@@ -4,7 +4,7 @@ use super::fit::{Model, PowerLaw, fit_power_law};
 use super::interlaced;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
 use super::observation::{self, Observation};
-use super::periodogram::{Bin, Direction, MapPower, ProfilePower, bins, square};
+use super::periodogram::{Along, Bin, MapPower, ProfilePower, bins, square};
 use super::statistics::{Statistics, Sums, reliability_cutoff};
 use super::{Detrend, SpectrumError};
 use crate::topography::{self, Place, Topography, TopographyError};
@@ -58,7 +58,7 @@ pub struct Analysis {
     /// Rms height of each surface, m.
     pub rms_heights: Vec<f64>,
     /// Spectra of the measured surfaces, in bins.
-    pub spectra: Vec<(Direction, Vec<Bin>)>,
+    pub spectra: Vec<(Along, Vec<Bin>)>,
     /// Underlying isotropic spectrum.
     pub isotropic: IsotropicSpectrum,
     /// Self-affine fit; `None` if it does not converge.
@@ -104,7 +104,7 @@ struct Powers {
 /// [`SpectrumError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
 pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, SpectrumError> {
     if surfaces.is_empty() {
-        return Err(SpectrumError::new("no surface; allowed: at least one"));
+        return Err(SpectrumError::refused("no surface", "at least one"));
     }
     let mut sums = Sums::default();
     // Only the longest scans hold the height of the line, and only the finest ones its gradient.
@@ -143,10 +143,9 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     if let End::Continues(to) = options.end
         && (to <= range[1] || to.is_nan())
     {
-        return Err(SpectrumError::new(format!(
-            "the spectrum continues up to q = {to:e} rad/m; allowed: above the last resolved wave, q = {:e} rad/m",
-            range[1]
-        )));
+        let found = format!("the spectrum continues up to q = {to:e} rad/m");
+        let allowed = format!("above the last resolved wave, q = {:e} rad/m", range[1]);
+        return Err(SpectrumError::refused(found, allowed));
     }
     let fitted = |observations: &[Observation], end: End| {
         Model::new(observations, range, end).fit().ok_or_else(SpectrumError::no_maximum)
@@ -226,7 +225,7 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     if left > 1e-12 * largest(before) && left > 1e-100 {
         return Ok(());
     }
-    Err(SpectrumError::new("no roughness is left after detrending; allowed: heights that differ"))
+    Err(SpectrumError::refused("no roughness is left after detrending", "heights that differ"))
 }
 
 impl Powers {
@@ -240,8 +239,7 @@ impl Powers {
     ) -> Result<Powers, SpectrumError> {
         let mut powers = Powers::default();
         for (index, surface) in surfaces.iter().enumerate() {
-            let refused =
-                |error: TopographyError| SpectrumError { surface: Some(index), ..SpectrumError::new(error) };
+            let refused = |reason: TopographyError| SpectrumError::Surface { index, reason };
             let (columns, rows) = (surface.columns, surface.rows());
             let distances = surface.spacing().map_err(refused)?;
             let points = if rows > 1 { columns.min(rows) } else { columns };
@@ -321,7 +319,7 @@ impl Powers {
         profiles.chain(maps).fold([f64::INFINITY, 0.0], |[low, high], [a, b]| [low.min(a), high.max(b)])
     }
 
-    fn spectra(&self) -> Vec<(Direction, Vec<Bin>)> {
+    fn spectra(&self) -> Vec<(Along, Vec<Bin>)> {
         let mean = |powers: &mut dyn Iterator<Item = &ProfilePower>| {
             bins(powers.flat_map(|power| {
                 power.waves.iter().map(|(q, sum)| (*q, sum / power.profiles as f64, power.profiles))
@@ -330,9 +328,9 @@ impl Powers {
         let radial =
             self.maps.iter().flat_map(|map| map.waves.iter().map(|(q, power)| (*q, q * power / PI, 1)));
         [
-            (Direction::X, mean(&mut self.profiles.iter().chain(&self.axes[0]))),
-            (Direction::Y, mean(&mut self.axes[1].iter())),
-            (Direction::Radial, bins(radial)),
+            (Along::X, mean(&mut self.profiles.iter().chain(&self.axes[0]))),
+            (Along::Y, mean(&mut self.axes[1].iter())),
+            (Along::Radial, bins(radial)),
         ]
         .into_iter()
         .filter(|(_, bins)| !bins.is_empty())

@@ -52,7 +52,7 @@ pub enum End {
 }
 
 /// Value with its standard error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Value.
     pub value: f64,
@@ -188,6 +188,19 @@ impl Term {
     }
 }
 
+/// Values of a spectrum at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Node {
+    /// Wave number q, rad/m.
+    pub wave_number: f64,
+    /// C2D(q), m⁴.
+    pub c2d: f64,
+    /// Standard error of ln C2D(q).
+    pub relative_error: f64,
+    /// PSD of the equivalent line, m³.
+    pub line: f64,
+}
+
 /// Isotropic spectrum C2D(q), m⁴; ln C2D is linear in ln q between nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
@@ -228,10 +241,12 @@ impl IsotropicSpectrum {
         [self.nodes.wave_number(0), self.nodes.end]
     }
 
-    /// Wave number (rad/m), C2D (m⁴) and standard error of ln C2D at each node.
-    pub fn nodes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+    /// The values at the nodes.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {
-            (self.nodes.wave_number(index), value.exp(), self.information.standard_error(index))
+            let wave_number = self.nodes.wave_number(index);
+            let relative_error = self.information.standard_error(index);
+            Node { wave_number, c2d: value.exp(), relative_error, line: self.line(wave_number) }
         })
     }
 

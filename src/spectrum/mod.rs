@@ -26,35 +26,53 @@ pub use crate::topography::Detrend;
 pub use analysis::{Analysis, Options, analyse};
 pub use fit::PowerLaw;
 pub(crate) use isotropic::line_moments;
-pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment};
-pub use periodogram::{Bin, Direction, line_spectrum};
+pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment, Node};
+pub use periodogram::{Along, Bin, line_spectrum};
 pub use statistics::Statistics;
 
 use crate::memory::OutOfMemory;
+use crate::topography::TopographyError;
 use thiserror::Error;
 
 /// Reason why surfaces are not analysed.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{reason}")]
-pub struct SpectrumError {
-    /// Index of the refused surface, from 0, if it is one.
-    pub(crate) surface: Option<usize>,
-    reason: String,
+pub enum SpectrumError {
+    /// One of the surfaces cannot be analysed.
+    #[error("{reason}")]
+    Surface {
+        /// Index of the surface, from 0.
+        index: usize,
+        /// Reason of the refusal.
+        reason: TopographyError,
+    },
+    /// The surfaces, or the choices of the analysis, are not allowed.
+    #[error("{found}; allowed: {allowed}")]
+    Refused {
+        /// What is wrong.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// The Fourier transform refused its input.
+    #[error("the Fourier transform failed: {0}")]
+    Transform(String),
+    /// Insufficient memory.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
 }
 
 impl SpectrumError {
-    fn new(reason: impl ToString) -> Self {
-        SpectrumError { surface: None, reason: reason.to_string() }
+    fn refused(found: impl ToString, allowed: impl ToString) -> Self {
+        SpectrumError::Refused { found: found.to_string(), allowed: allowed.to_string() }
     }
 
     fn no_maximum() -> Self {
-        let fault = "the likelihood has no maximum: heights without noise or with few digits";
-        SpectrumError::new(format!("{fault}; allowed: measured heights"))
+        let found = "the likelihood has no maximum: heights without noise or with few digits";
+        SpectrumError::refused(found, "measured heights")
     }
-}
 
-impl From<OutOfMemory> for SpectrumError {
-    fn from(error: OutOfMemory) -> Self {
-        SpectrumError::new(error)
+    /// Index of the surface that cannot be analysed; 0 if all of them together cannot be.
+    pub(crate) fn surface(&self) -> usize {
+        if let SpectrumError::Surface { index, .. } = self { *index } else { 0 }
     }
 }

@@ -5,15 +5,16 @@ use crate::memory::{check_room, emptied};
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
+use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
 /// Bins per decade of wave numbers for display.
 const BINS_PER_DECADE: f64 = 10.0;
 
-/// Direction of a spectrum.
+/// Waves that a spectrum holds, by their direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+pub enum Along {
     /// Along the rows of a map, or along a profile: C1D, m³.
     X,
     /// Between the rows of a map: C1D, m³.
@@ -23,7 +24,7 @@ pub enum Direction {
 }
 
 /// Mean power of the waves within a range of wave numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bin {
     /// Mean wave number of the waves, rad/m.
     pub wave_number: f64,
@@ -235,7 +236,7 @@ fn transform(
             *value = height * weight;
         }
         plan.process_with_scratch(&mut input, &mut output, &mut scratch)
-            .map_err(|error| SpectrumError::new(format!("the Fourier transform failed: {error}")))?;
+            .map_err(|error| SpectrumError::Transform(error.to_string()))?;
         each(&output);
     }
     Ok(())

@@ -1,7 +1,9 @@
 //! Moments of heights and gradients of the measured points, and the shortest length that a tip resolves.
 
+use serde::Serialize;
+
 /// Statistics of the points of one or more surfaces, after detrending.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of points.
     pub points: usize,

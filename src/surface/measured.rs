@@ -204,7 +204,7 @@ impl MeasuredOptions {
             surfaces.extend(read);
         }
         analyse(&surfaces, &self.spectrum).map_err(|error| {
-            let file = files.get(error.surface.unwrap_or(0));
+            let file = files.get(error.surface());
             SurfaceError::measured(file.map_or(Path::new(""), |path| path), &error)
         })
     }

@@ -135,7 +135,8 @@ impl<'a> Field<'a> {
         }
         let [width, height] = self.sizes;
         let spacing = Some([width / columns as f64, height / rows as f64]);
-        let units = [Unit::stated(self.unit_xy, place())?, Unit::stated(self.unit_z, place())?];
+        let lateral = Unit::stated(self.unit_xy, place())?;
+        let units = [lateral, lateral, Unit::stated(self.unit_z, place())?];
         Ok(Reading::even("GWY", values.numbers(count, Number::F64)?, columns, spacing, units))
     }
 }

@@ -3,7 +3,7 @@
 
 use super::{Place, TopographyError, refused};
 use crate::memory::{OutOfMemory, gathered};
-use crate::numerics::median;
+use crate::numerics::{between, median};
 use std::ops::Range;
 
 /// Smallest share of measured points for interpolation.
@@ -53,7 +53,7 @@ fn fill_profile(heights: &mut [f64]) {
         for gap in place..end.unwrap_or(heights.len()) {
             heights[gap] = match (before, end) {
                 (Some(from), Some(to)) => {
-                    heights[from] + (gap - from) as f64 / (to - from) as f64 * (heights[to] - heights[from])
+                    between(heights[from], heights[to], (gap - from) as f64 / (to - from) as f64)
                 }
                 (Some(near), None) | (None, Some(near)) => heights[near],
                 (None, None) => continue,
@@ -62,6 +62,12 @@ fn fill_profile(heights: &mut [f64]) {
         before = end;
         place = end.map_or(heights.len(), |end| end + 1);
     }
+}
+
+/// Mean of a few heights; NaN of none.
+fn mean(heights: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = heights.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
+    sum / f64::from(count)
 }
 
 /// Passes over the missing points at each size.
@@ -77,10 +83,7 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
         let (row, column) = (2 * (index / half_columns), 2 * (index % half_columns));
         let points =
             (row..rows.min(row + 2)).flat_map(|y| (column..columns.min(column + 2)).map(move |x| (x, y)));
-        let known = points.map(|(x, y)| heights[y * columns + x]).filter(|height| height.is_finite());
-        let (sum, count) = known.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
-        // Not a number without any.
-        sum / f64::from(count)
+        mean(points.map(|(x, y)| heights[y * columns + x]).filter(|height| height.is_finite()))
     };
     if places.is_empty() {
         return Ok(());
@@ -95,15 +98,11 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
     for _ in 0..PASSES {
         for &index in places {
             let (row, column) = (index / columns, index % columns);
-            let beside = [(column > 0, 1), (row > 0, columns)]
-                .into_iter()
-                .filter(|side| side.0)
-                .map(|side| index - side.1);
-            let behind =
-                [(column + 1 < columns, 1), (row + 1 < rows, columns)].into_iter().filter(|side| side.0);
-            let around = beside.chain(behind.map(|side| index + side.1)).map(|index| heights[index]);
-            let (sum, count) = around.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
-            heights[index] = sum / f64::from(count);
+            let before = [(column > 0, 1), (row > 0, columns)].map(|(is, step)| is.then(|| index - step));
+            let behind = [(column + 1 < columns, 1), (row + 1 < rows, columns)];
+            let behind = behind.map(|(is, step)| is.then(|| index + step));
+            let around = before.into_iter().chain(behind).flatten();
+            heights[index] = mean(around.map(|index| heights[index]));
         }
     }
     Ok(())

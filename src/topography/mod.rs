@@ -37,13 +37,19 @@ const MOST_SHOWN: usize = 40;
 
 /// Place of a fault within a file. Lines and points count from 1, bytes, after decompression, from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub enum Place {
+    /// The file as a whole.
     File,
+    /// A line of a text.
     Line(usize),
+    /// A point of a surface or of a curve.
     Point(usize),
+    /// A byte.
     Byte(usize),
     /// Named part of a container: a file of an archive, an element, a channel.
     Part(String),
+    /// A place within the file of a measurement of this name.
+    Measurement(String, Box<Place>),
 }
 
 impl fmt::Display for Place {
@@ -54,6 +60,7 @@ impl fmt::Display for Place {
             Place::Point(number) => write!(f, "point {number}: "),
             Place::Byte(offset) => write!(f, "byte {offset}: "),
             Place::Part(name) => write!(f, "{}: ", shown(name)),
+            Place::Measurement(name, place) => write!(f, "{}: {place}", shown(name)),
         }
     }
 }
@@ -61,9 +68,19 @@ impl fmt::Display for Place {
 /// Reason why a file cannot be read as a surface. The caller puts the name of the file before the message.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TopographyError {
-    /// The content cannot be read, or is invalid: place within the file, fault, and allowed content.
+    /// The file cannot be read, for this reason.
     #[error("{0}")]
-    Refused(String),
+    Unreadable(String),
+    /// The content is invalid.
+    #[error("{place}{found}; allowed: {allowed}")]
+    Refused {
+        /// Place within the file.
+        place: Place,
+        /// What is wrong there.
+        found: String,
+        /// What is allowed there.
+        allowed: String,
+    },
     /// Insufficient memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
@@ -72,19 +89,27 @@ pub enum TopographyError {
 impl TopographyError {
     /// The error with the name of the measurement that has it.
     pub(super) fn within(self, name: &str) -> Self {
-        let TopographyError::Refused(reason) = self else { return self };
-        TopographyError::Refused(format!("{}: {reason}", shown(name)))
+        match self {
+            TopographyError::Refused { place, found, allowed } => {
+                let place = Place::Measurement(name.to_owned(), Box::new(place));
+                TopographyError::Refused { place, found, allowed }
+            }
+            TopographyError::Unreadable(reason) => {
+                TopographyError::Unreadable(format!("{}: {reason}", shown(name)))
+            }
+            TopographyError::OutOfMemory(_) => self,
+        }
     }
 }
 
 impl From<ReadError> for TopographyError {
     fn from(error: ReadError) -> Self {
-        TopographyError::Refused(error.to_string())
+        TopographyError::Unreadable(error.to_string())
     }
 }
 
-pub(crate) fn refused(place: Place, fault: impl fmt::Display, allowed: impl fmt::Display) -> TopographyError {
-    TopographyError::Refused(format!("{place}{fault}; allowed: {allowed}"))
+pub(crate) fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> TopographyError {
+    TopographyError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
 }
 
 /// Text of a file for a message: one line of limited length.
@@ -117,17 +142,26 @@ pub struct Unit {
 
 /// Text that is not a unit of length.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{:?} is not a unit of length; allowed: {}", shown(.0), UnitError::ALLOWED)]
+#[error("{}; allowed: {}", self.found(), UnitError::ALLOWED)]
 pub struct UnitError(String);
 
 impl UnitError {
     /// Accepted units.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
+
+    fn found(&self) -> String {
+        format!("{:?} is not a unit of length", shown(&self.0))
+    }
 }
 
 impl Unit {
     /// Metre.
     pub const METRE: Unit = Unit { name: "m", per_metre: 1.0 };
+
+    /// Returns true for the name of a unit of length.
+    pub(crate) fn is_name(text: &str) -> bool {
+        text.parse::<Unit>().is_ok()
+    }
 
     /// Usual name.
     pub fn name(self) -> &'static str {
@@ -137,7 +171,7 @@ impl Unit {
     /// Returns the unit stated by a file at a place; `None` for an empty text.
     pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, TopographyError> {
         let unit = Some(text).filter(|text| !text.is_empty()).map(str::parse).transpose();
-        unit.map_err(|error: UnitError| TopographyError::Refused(format!("{place}{error}")))
+        unit.map_err(|error: UnitError| refused(place, error.found(), UnitError::ALLOWED))
     }
 
     /// Value in m of a value in this unit.

@@ -62,12 +62,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let (slow, fast) = match heights.dimensions[..] {
         [slow, fast] => (slow, fast),
         [along] => {
-            let units = [unit_over(along)?, height_unit];
-            let Some(x) = over(along) else {
-                let points = values.len();
-                return Ok(Reading::even("NetCDF", values, points, None, units));
-            };
-            return Ok(Reading::profile("NetCDF", dataset.values(x)?, values, units));
+            let (unit, points) = (unit_over(along)?, values.len());
+            return Ok(match over(along) {
+                Some(x) => Reading::profile("NetCDF", dataset.values(x)?, values, [unit, height_unit]),
+                None => Reading::even("NetCDF", values, points, None, [unit, unit, height_unit]),
+            });
         }
         _ => {
             let fault = format!("`heights` over {} dimensions", heights.dimensions.len());
@@ -79,16 +78,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     };
     let mut columns = dataset.length(fast)?;
     let mut spacing = spacing(fast)?.zip(spacing(slow)?).map(|(fast, slow)| [fast, slow]);
-    let mut axis_units = [unit_over(fast)?, unit_over(slow)?];
+    let mut units = [unit_over(fast)?, unit_over(slow)?, height_unit];
     if over(slow).is_some_and(|variable| variable.name == b"x") {
         // Rows are along x.
         let turned = (0..columns).flat_map(|x| values.iter().skip(x).step_by(columns).copied());
         values = gathered(values.len(), turned)?;
         columns = dataset.length(slow)?;
         spacing = spacing.map(|[fast, slow]| [slow, fast]);
-        axis_units.reverse();
+        units.swap(0, 1);
     }
-    Ok(Reading::on_axes("NetCDF", values, columns, spacing, axis_units, height_unit))
+    Ok(Reading::even("NetCDF", values, columns, spacing, units))
 }
 
 impl<'a> Dataset<'a> {

@@ -11,50 +11,38 @@ pub(super) use crate::io::npy::SIGNATURE;
 use crate::memory::{emptied, gathered};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
-    let (mut header, mut data) = Header::read(bytes)?;
-    let [(_, number), ref others @ ..] = header.fields[..] else {
-        return Err(refused(Place::Byte(10), "an array without fields", "numbers"));
-    };
-    if others.len() > 1 || others.iter().any(|other| other.1 != number) {
-        let fault = "other fields than one or two of the same type";
-        return Err(refused(Place::Byte(10), fault, "heights, or positions and heights"));
+    const FORMAT: &str = "NumPy array";
+    let (header, mut data) = Header::read(bytes)?;
+    let even = |heights, columns| Ok(Reading::even(FORMAT, heights, columns, None, [None; 3]));
+    match (&header.fields[..], &header.shape[..]) {
+        ([_, _], _) | (_, [2..=usize::MAX, 2]) => {
+            let [positions, heights] =
+                header.columns(data)?.try_into().map_err(|_| header.wrong_axes("1 or 2 axes"))?;
+            Ok(Reading::profile(FORMAT, positions, heights, [None; 2]))
+        }
+        (&[(_, number)], &[points]) => even(data.numbers(points, number)?, points),
+        (&[(_, number)], &[rows, columns]) => {
+            let values = data.numbers(header.points(), number)?;
+            if !header.is_column_major {
+                return even(values, columns);
+            }
+            let of_row = |row: usize| values.iter().skip(row).step_by(rows).copied();
+            even(gathered(values.len(), (0..rows).flat_map(of_row))?, columns)
+        }
+        ([_], _) => Err(header.wrong_axes("1 or 2 axes")),
+        _ => {
+            let fault = format!("points of {} fields", header.fields.len());
+            Err(refused(Place::Byte(10), fault, "heights, or positions and heights"))
+        }
     }
-    if others.len() == 1 {
-        // Fields of a point are consecutive, like the columns of a row.
-        header.shape.push(2);
-    }
-    let points = header.points();
-    let values = data.numbers(points, number)?;
-    header.into_reading(values)
 }
 
 /// Reads the columns of an array of two or more, with their names: fields of points, or the shorter one of two axes.
 pub(crate) fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), TopographyError> {
-    let (header, mut data) = Header::read(bytes)?;
-    let Header { fields, shape, is_column_major, .. } = &header;
-    if let (true, &[points]) = (fields.len() > 1, &shape[..]) {
-        let names = fields.iter().map(|(name, _)| name.clone()).collect();
-        let size = fields.iter().map(|(_, number)| number.size()).sum::<usize>();
-        let mut rows = data.part(points.saturating_mul(size))?;
-        let column = |_: &(String, Number)| emptied(Vec::new(), points);
-        let mut columns = fields.iter().map(column).collect::<Result<Vec<Vec<f64>>, _>>()?;
-        for _ in 0..points {
-            for ((_, number), column) in fields.iter().zip(&mut columns) {
-                column.push(rows.number(*number)?);
-            }
-        }
-        return Ok((names, columns));
-    }
-    let (&[rows, of_row], &[(_, number)]) = (&shape[..], &fields[..]) else {
-        let fault = format!("an array with {} axes", shape.len());
-        return Err(refused(Place::Byte(10), fault, "points with fields, or 2 axes"));
-    };
-    let values = data.numbers(header.points(), number)?;
-    let (row_step, step) = if *is_column_major { (1, rows) } else { (of_row, 1) };
-    let (count, points) = (rows.min(of_row), rows.max(of_row));
-    let (along, between) = if rows >= of_row { (row_step, step) } else { (step, row_step) };
-    let column = |column: usize| (0..points).map(|point| values[point * along + column * between]).collect();
-    Ok((Vec::new(), (0..count).map(column).collect()))
+    let (header, data) = Header::read(bytes)?;
+    let columns = header.columns(data)?;
+    let names = header.fields.into_iter().map(|(name, _)| name).filter(|name| !name.is_empty());
+    Ok((names.collect(), columns))
 }
 
 struct Header {
@@ -138,25 +126,37 @@ impl Header {
         Ok(Header { fields, order, is_column_major: is_column_major && !is_list, shape })
     }
 
-    fn into_reading(self, values: Vec<f64>) -> Result<Reading, TopographyError> {
-        let even = |values, columns| Ok(Reading::even("NumPy array", values, columns, None, [None; 2]));
-        let (points, fast, slow) = match (&self.shape[..], self.is_column_major) {
-            (&[points], _) => return even(values, points),
-            (&[points, 2], true) => (points, 1, points),
-            (&[points, 2], false) => (points, 2, 1),
-            (&[_, columns], false) => return even(values, columns),
-            (&[rows, columns], true) => {
-                let of_row = |row: usize| values.iter().skip(row).step_by(rows).copied();
-                let in_rows = gathered(values.len(), (0..rows).flat_map(of_row))?;
-                return even(in_rows, columns);
+    /// The columns in the bytes behind the header: fields of points, or the shorter one of two axes.
+    fn columns(&self, mut data: Bytes<'_>) -> Result<Vec<Vec<f64>>, TopographyError> {
+        match (&self.fields[..], &self.shape[..]) {
+            (&[(_, number)], &[rows, of_row]) => {
+                let values = data.numbers(self.points(), number)?;
+                let (row_step, step) = if self.is_column_major { (1, rows) } else { (of_row, 1) };
+                let (count, points) = (rows.min(of_row), rows.max(of_row));
+                let (along, between) = if rows >= of_row { (row_step, step) } else { (step, row_step) };
+                let column = |column: usize| {
+                    (0..points).map(|point| values[point * along + column * between]).collect()
+                };
+                Ok((0..count).map(column).collect())
             }
-            (shape, _) => {
-                let fault = format!("an array with {} axes", shape.len());
-                return Err(refused(Place::Byte(10), fault, "1 or 2 axes"));
+            (fields @ [_, _, ..], &[points]) => {
+                let size = fields.iter().map(|(_, number)| number.size()).sum::<usize>();
+                let mut rows = data.part(points.saturating_mul(size))?;
+                let column = |_: &(String, Number)| emptied(Vec::new(), points);
+                let mut columns = fields.iter().map(column).collect::<Result<Vec<Vec<f64>>, _>>()?;
+                for _ in 0..points {
+                    for ((_, number), column) in fields.iter().zip(&mut columns) {
+                        column.push(rows.number(*number)?);
+                    }
+                }
+                Ok(columns)
             }
-        };
-        let column = |axis: usize| (0..points).map(|index| values[index * fast + axis * slow]).collect();
-        Ok(Reading::profile("NumPy array", column(0), column(1), [None; 2]))
+            _ => Err(self.wrong_axes("points with fields, or 2 axes")),
+        }
+    }
+
+    fn wrong_axes(&self, allowed: &str) -> TopographyError {
+        refused(Place::Byte(10), format!("an array with {} axes", self.shape.len()), allowed)
     }
 }
 

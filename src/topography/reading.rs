@@ -1,6 +1,6 @@
 //! From the numbers of a file to heights in m: units, distances between points, missing points.
 
-use super::surface::{Cropped, Cut, Grid, LARGEST, Topography};
+use super::surface::{Cropped, Cut, LARGEST, Layout, Topography};
 use super::{Place, TopographyError, refused};
 use super::{Unit, missing};
 use std::ops::Range;
@@ -47,10 +47,8 @@ pub(super) struct Reading {
     pub positions: Option<Vec<f64>>,
     /// Distances of evenly spaced points along and between rows, if the file states them.
     pub spacing: Option<[f64; 2]>,
-    /// Units of positions and of heights, if the file states them.
-    pub units: [Option<Unit>; 2],
-    /// Unit of the distance between rows, which may differ from the unit along them.
-    pub unit_between: Option<Unit>,
+    /// Units along rows, between rows and of heights, if the file states them.
+    pub units: [Option<Unit>; 3],
     /// Place of the first missing point, if the reader knows a better one than its number.
     pub first_missing: Option<Place>,
     /// What is odd in the file.
@@ -62,21 +60,9 @@ impl Reading {
     pub fn even(
         format: &'static str,
         heights: Vec<f64>,
-        columns: usize,
-        spacing: Option<[f64; 2]>,
-        [lateral, height]: [Option<Unit>; 2],
-    ) -> Reading {
-        Reading::on_axes(format, heights, columns, spacing, [lateral; 2], height)
-    }
-
-    /// The same with a unit of its own for the distances along and between rows.
-    pub fn on_axes(
-        format: &'static str,
-        heights: Vec<f64>,
         mut columns: usize,
         mut spacing: Option<[f64; 2]>,
-        [mut along, mut between]: [Option<Unit>; 2],
-        height: Option<Unit>,
+        [mut along, mut between, of_heights]: [Option<Unit>; 3],
     ) -> Reading {
         let rows = heights.len() / columns.max(1);
         if rows == 1 {
@@ -84,18 +70,9 @@ impl Reading {
         } else if columns == 1 {
             (columns, spacing, along) = (rows, spacing.map(|[_, between]| [between; 2]), between);
         }
-        let (units, unit_between) = ([along, height], between);
-        Reading {
-            format,
-            heights,
-            columns,
-            positions: None,
-            spacing,
-            units,
-            unit_between,
-            first_missing: None,
-            warnings: Vec::new(),
-        }
+        let units = [along, between, of_heights];
+        let (positions, first_missing, warnings) = (None, None, Vec::new());
+        Reading { format, heights, columns, positions, spacing, units, first_missing, warnings }
     }
 
     /// Profile at positions in the order of the file: one scanned backwards is reversed.
@@ -103,13 +80,13 @@ impl Reading {
         format: &'static str,
         mut positions: Vec<f64>,
         mut heights: Vec<f64>,
-        units: [Option<Unit>; 2],
+        [lateral, of_heights]: [Option<Unit>; 2],
     ) -> Reading {
         if positions.len() > 1 && positions[0] > positions[1] {
             positions.reverse();
             heights.reverse();
         }
-        let columns = heights.len();
+        let (columns, units) = (heights.len(), [lateral, lateral, of_heights]);
         Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
     }
 
@@ -127,7 +104,7 @@ impl Reading {
         if !(2..=MOST_POINTS).contains(&points) {
             return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
         }
-        let [lateral_unit, height_unit] = self.units;
+        let [lateral_unit, unit_between, height_unit] = self.units;
         // An option for what the file does not state contradicts nothing that it states.
         let [of_positions, of_heights] = match (lateral_unit, height_unit, options.height_unit) {
             (None, Some(_), None) => [options.unit, None],
@@ -139,7 +116,7 @@ impl Reading {
         check_range("height", &self.heights, f64::is_finite)?;
         let cropped = self.crop();
         let missing = self.has_missing(&cropped, options.interpolate)?;
-        let Reading { format, mut heights, columns, positions, spacing, unit_between, warnings, .. } = self;
+        let Reading { format, mut heights, columns, positions, spacing, warnings, .. } = self;
         let unit = |name: &str, stated: Option<Unit>| {
             let option = if stated.is_none() { options.unit } else { of_positions };
             unit(name, stated, option, options.convention, None)
@@ -156,14 +133,14 @@ impl Reading {
                 Err(refused(Place::File, fault, allowed))
             }
         };
-        let grid = match positions {
+        let layout = match positions {
             Some(mut positions) => {
                 let unit = unit("positions", lateral_unit)?;
                 positions.iter_mut().for_each(|x| *x = unit.to_metres(*x));
                 check_positions(&positions)?;
-                Grid::Positions(positions)
+                Layout::Positions(positions)
             }
-            None => Grid::Even([even(0)?, even(1)?]),
+            None => Layout::Even([even(0)?, even(1)?]),
         };
         let rows = heights.len() / columns;
         if options.align_rows {
@@ -175,8 +152,21 @@ impl Reading {
         let outliers = if options.robust { missing::remove_outliers(&mut heights, columns)? } else { 0 };
         let has_gaps = missing || outliers > 0;
         let interpolated = if has_gaps { missing::interpolate(&mut heights, columns)? } else { Vec::new() };
-        let surface = Topography::new(format, heights, columns, grid, cropped, interpolated)?;
-        Ok(Topography { aligned: options.align_rows, warnings, ..surface })
+        let surface = Topography {
+            format,
+            heights,
+            columns,
+            layout,
+            cropped,
+            interpolated,
+            resampled: Vec::new(),
+            aligned: options.align_rows,
+            name: String::new(),
+            detrend: None,
+            periodic: false,
+            warnings,
+        };
+        surface.checked()
     }
 
     /// Leaves out the rows and columns without a measured point at the borders of a map, or the points at the ends of a profile.

@@ -63,7 +63,7 @@ fn reading(
     [along, between, unit]: [f64; 3],
     missing: &RangeInclusive<f64>,
 ) -> Reading {
-    let units = [Some(Unit::METRE); 2];
+    let units = [Some(Unit::METRE); 3];
     let reading = Reading::even("SDF", heights, columns, Some([along, between]), units);
     reading.scaled(|height| missing.contains(&height), unit)
 }
@@ -233,7 +233,7 @@ pub(super) fn read_gsf(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let sizes = header.number("xreal")?.zip(header.number("yreal")?);
     let spacing = sizes.map(|(width, height)| [width / columns as f64, height / rows as f64]);
     let unit = |key: &str| header.text(key).map_or(Ok(None), |(value, place)| Unit::stated(value, place));
-    let units = [unit("xyunits")?, unit("zunits")?];
+    let units = [unit("xyunits")?, unit("xyunits")?, unit("zunits")?];
     Ok(Reading::even("GSF", heights, columns, spacing, units))
 }
 

@@ -45,7 +45,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         let place = data.place();
         unit_of(data.take(16)?, place)
     };
-    let (unit_along, unit_between, height_unit) = (unit()?, unit()?, unit()?);
+    let units = [unit()?, unit()?, unit()?];
     // Units of axes and ratios of units, imprint; further on times.
     data.take(3 * 16 + 3 * 4 + 2)?;
     let is_inverted = data.size(Number::U16)? != 0;
@@ -59,8 +59,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     };
     let scale = if is_inverted { -scale } else { scale };
     let missing = has_missing.then_some(lowest - MISSING_BELOW);
-    let (spacing, axis_units) = (Some([along, between]), [unit_along, unit_between]);
-    let reading = Reading::on_axes("SUR", heights, columns, spacing, axis_units, height_unit);
+    let reading = Reading::even("SUR", heights, columns, Some([along, between]), units);
     Ok(reading.scaled(|height| Some(height) == missing, scale))
 }
 
@@ -147,7 +146,7 @@ mod tests {
         assert!(bytes.len() < 4000, "{}", bytes.len());
         let reading = read(&bytes).unwrap();
         assert_eq!((reading.heights.len(), reading.columns), (600_000, 1000));
-        let between = reading.unit_between.map(|unit| unit.to_metres(3.0));
+        let between = reading.units[1].map(|unit| unit.to_metres(3.0));
         assert_eq!((reading.spacing, between), (Some([2.0, 3.0]), Some(3e-9)));
         let mut more = bytes;
         more[112..116].copy_from_slice(&601_u32.to_le_bytes());

@@ -3,6 +3,7 @@
 use super::missing;
 use super::{Place, TopographyError, refused};
 use crate::memory::gathered;
+use crate::numerics::between;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
@@ -29,8 +30,9 @@ pub enum Cut {
     Column(u64),
 }
 
+/// Where the points of a surface are, m.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Grid {
+pub(super) enum Layout {
     /// Positions of a profile, ascending.
     Positions(Vec<f64>),
     /// Distances along and between rows, equal for a profile.
@@ -67,7 +69,7 @@ pub struct Topography {
     pub heights: Vec<f64>,
     /// Points of a row; all points of a profile.
     pub columns: usize,
-    pub(super) grid: Grid,
+    pub(super) layout: Layout,
     /// Parts of the file that are left out, since they are empty.
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
@@ -86,45 +88,21 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// A surface of a file of its own, without slopes above 1e9.
-    pub(super) fn new(
-        format: &'static str,
-        heights: Vec<f64>,
-        columns: usize,
-        grid: Grid,
-        cropped: Cropped,
-        interpolated: Vec<usize>,
-    ) -> Result<Self, TopographyError> {
+    /// The surface, unless it has a slope above 1e9.
+    pub(super) fn checked(self) -> Result<Self, TopographyError> {
         let slope = |index: usize| {
-            let distance = match &grid {
-                Grid::Positions(positions) => positions[index] - positions[index - 1],
-                Grid::Even([along, between]) => along.min(*between),
+            let distance = match &self.layout {
+                Layout::Positions(positions) => positions[index] - positions[index - 1],
+                Layout::Even([along, between]) => along.min(*between),
             };
-            (heights[index] - heights[index - 1]).abs() / distance
+            (self.heights[index] - self.heights[index - 1]).abs() / distance
         };
         let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
-        let mut places = (1..heights.len()).filter(|index| index % columns > 0);
-        let Some(index) = places.find(is_steep) else {
-            let (name, aligned, detrend, periodic, warnings) =
-                (String::new(), false, None, false, Vec::new());
-            return Ok(Topography {
-                format,
-                heights,
-                columns,
-                grid,
-                cropped,
-                interpolated,
-                resampled: Vec::new(),
-                aligned,
-                name,
-                detrend,
-                periodic,
-                warnings,
-            });
-        };
-        let fault = format!("a slope of {:e} from the point before", slope(index));
-        let place = Place::Point(cropped.place_in_file(index, columns) + 1);
-        Err(refused(place, fault, format!("at most {LARGEST:e}")))
+        let mut places = (1..self.heights.len()).filter(|index| index % self.columns > 0);
+        let Some(index) = places.find(is_steep) else { return Ok(self) };
+        let found = format!("a slope of {:e} from the point before", slope(index));
+        let place = Place::Point(self.cropped.place_in_file(index, self.columns) + 1);
+        Err(refused(place, found, format!("at most {LARGEST:e}")))
     }
 
     /// Number of points with interpolated heights, outliers among them.
@@ -150,7 +128,7 @@ impl Topography {
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
-        if let (Grid::Even([spacing, _]), 1.., true) = (&self.grid, quarters, self.is_resampled()) {
+        if let (Layout::Even([spacing, _]), 1.., true) = (&self.layout, quarters, self.is_resampled()) {
             let (former, first) = (&self.resampled, self.resampled[0]);
             let places = gathered(columns, (0..columns).map(|index| first + index as f64 * spacing))?;
             let there = gathered(columns, interpolated(&places, &heights, 0.0, former.iter().copied()))?;
@@ -191,9 +169,11 @@ impl Topography {
             let allowed = "a profile; in a scene with as_line: false the equivalent line of a map";
             return Err(refused(Place::File, fault, allowed));
         }
-        let positions = match self.grid {
-            Grid::Positions(positions) => positions,
-            Grid::Even([spacing, _]) => gathered(columns, (0..columns).map(|index| index as f64 * spacing))?,
+        let positions = match self.layout {
+            Layout::Positions(positions) => positions,
+            Layout::Even([spacing, _]) => {
+                gathered(columns, (0..columns).map(|index| index as f64 * spacing))?
+            }
         };
         Ok((positions, self.heights))
     }
@@ -201,7 +181,7 @@ impl Topography {
     /// One row or column of a map, as a profile.
     pub(super) fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
-        let (Grid::Even([along, between]), 2..) = (&self.grid, rows) else {
+        let (Layout::Even([along, between]), 2..) = (&self.layout, rows) else {
             return Err(refused(Place::File, "a profile, which has no rows and columns", "a map"));
         };
         // Rows and columns are those of the file.
@@ -229,7 +209,7 @@ impl Topography {
             cropped: Cropped { before: ends(self.cropped.before), after: ends(self.cropped.after) },
             heights: gathered(points, self.heights.iter().skip(first).step_by(step).take(points).copied())?,
             columns: points,
-            grid: Grid::Even([spacing; 2]),
+            layout: Layout::Even([spacing; 2]),
             aligned: false,
             interpolated: self.interpolated.iter().filter_map(place).collect(),
             ..self
@@ -242,9 +222,9 @@ impl Topography {
     /// A profile with unequal spacing: the first point that lies off the even grid from the first to the last point
     /// by more than 0.1 % of the mean distance.
     pub fn spacing(&self) -> Result<[f64; 2], TopographyError> {
-        match &self.grid {
-            Grid::Even(spacing) => Ok(*spacing),
-            Grid::Positions(positions) => {
+        match &self.layout {
+            Layout::Even(spacing) => Ok(*spacing),
+            Layout::Positions(positions) => {
                 let (first, mean) = (positions[0], mean_distance(positions));
                 let Some(index) = first_uneven(positions, first, mean) else { return Ok([mean; 2]) };
                 let (x, off) = (positions[index], (positions[index] - first) / mean - index as f64);
@@ -264,11 +244,11 @@ impl Topography {
         if self.spacing().is_ok() {
             return Ok(self);
         }
-        let Grid::Positions(positions) = self.grid else { return Ok(self) };
+        let Layout::Positions(positions) = self.layout else { return Ok(self) };
         let (first, spacing, points) = (positions[0], mean_distance(&positions), positions.len());
         let places = (0..points).map(|index| first + index as f64 * spacing);
         self.heights = gathered(points, interpolated(&positions, &self.heights, 0.0, places))?;
-        (self.grid, self.resampled) = (Grid::Even([spacing; 2]), positions);
+        (self.layout, self.resampled) = (Layout::Even([spacing; 2]), positions);
         Ok(self)
     }
 }
@@ -293,7 +273,7 @@ pub(crate) fn interpolated(
         } else if x >= x1 {
             z1
         } else {
-            z0 + (z1 - z0) * ((x - x0) / (x1 - x0))
+            between(z0, z1, (x - x0) / (x1 - x0))
         }
     })
 }
@@ -321,18 +301,20 @@ pub enum Detrend {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Unit;
+    use super::super::reading::{ReadOptions, Reading};
     use super::*;
 
-    fn surface(heights: &[f64], columns: usize, grid: Grid) -> Result<Topography, TopographyError> {
-        Topography::new("", heights.to_vec(), columns, grid, Cropped::default(), Vec::new())
-    }
+    const METRES: [Option<Unit>; 3] = [Some(Unit::METRE); 3];
 
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {
-        surface(heights, heights.len(), Grid::Positions(positions.to_vec())).unwrap()
+        let reading = Reading::profile("", positions.to_vec(), heights.to_vec(), [Some(Unit::METRE); 2]);
+        reading.resolve(&ReadOptions::default()).unwrap()
     }
 
     fn map() -> Topography {
-        surface(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], 3, Grid::Even([1.0, 2.0])).unwrap()
+        let heights = vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        Reading::even("", heights, 3, Some([1.0, 2.0]), METRES).resolve(&ReadOptions::default()).unwrap()
     }
 
     #[test]
@@ -370,8 +352,14 @@ mod tests {
 
     #[test]
     fn steep_slopes_and_maps_as_profiles_are_refused() {
-        let steep = surface(&[0.0, 1e5, 0.0, 0.0], 2, Grid::Even([1e-5; 2]));
-        assert!(steep.unwrap_err().to_string().starts_with("point 2: a slope of 1e10"));
+        let steep = Reading::even("", vec![0.0, 1e5, 0.0, 0.0], 2, Some([1e-5; 2]), METRES);
+        assert!(
+            steep
+                .resolve(&ReadOptions::default())
+                .unwrap_err()
+                .to_string()
+                .starts_with("point 2: a slope of 1e10")
+        );
         let error = map().into_profile().unwrap_err().to_string();
         assert_eq!(
             error,

@@ -47,7 +47,7 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, TopographyError>
     };
     heights.iter_mut().for_each(|height| *height = *height * scale + offset);
     let spacing = along.zip(between).map(|(along, between)| [along, between]);
-    Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 2]))
+    Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 3]))
 }
 
 /// Encoding that the declaration of XML states, in a file of one of the encodings that contain ASCII.

@@ -68,6 +68,7 @@ pub(super) fn list_of(columns: &[Column]) -> Result<Option<List>, TopographyErro
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::Unit;
     use super::super::header::Header;
     use super::super::layout::Separator;
     use super::*;
@@ -76,7 +77,8 @@ mod tests {
         let mut header = Header::default();
         header.take(names);
         let (separator, count) = (Separator::of(names), names.split(',').count());
-        let found = list_of(&header.columns(count, count, separator)).map_err(|error| error.to_string())?;
+        let found = list_of(&header.columns(count, count, separator, Unit::is_name))
+            .map_err(|error| error.to_string())?;
         Ok(found.map(|list| [list.x, list.y, Some(list.height), list.valid]))
     }
 

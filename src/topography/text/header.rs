@@ -8,6 +8,9 @@ use std::collections::VecDeque;
 const LONGEST: usize = 4096;
 const LAST_LINES: usize = 64;
 
+/// Characters that a unit in round brackets may have that is not known.
+const LONGEST_UNIT: usize = 5;
+
 /// Keys of sizes, of channels and of units in English and in the other languages of Gwyddion.
 const WIDTH: &str = "width šířka breite anchura largeur larghezza 幅 폭 largura ширина";
 const HEIGHT: &str = "height výška höhe altura hauteur altezza 高さ 높이 высота";
@@ -25,9 +28,9 @@ const SPACING: [&str; 3] = ["xy calibration", "pixel size", "sampling distance"]
 /// Keys of the number of columns and of rows.
 const COUNTS: [&str; 2] = ["horizontal", "vertical"];
 
-/// What a column holds, as its name says.
+/// What a column of a surface holds, as its name says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Role {
+pub(crate) enum Role {
     #[default]
     Unknown,
     X,
@@ -51,14 +54,15 @@ const ROLES: [(Role, &str); 6] = [
 
 /// A column with its name and, if that states one, its unit.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Column {
+pub(crate) struct Column {
     pub name: String,
     pub role: Role,
-    pub unit: Option<Unit>,
+    /// Unit as the file writes it.
+    pub unit: Option<String>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Header {
+pub(crate) struct Header {
     /// Name of the channel.
     pub channel: Option<String>,
     /// Units of x, of y and of heights, as keys that name them state.
@@ -123,13 +127,14 @@ impl Header {
 
     /// Unit of x (0), y (1) or heights (2), as a key states, if the column does not.
     pub fn unit(&self, axis: usize, column: Option<&Column>) -> Option<Unit> {
-        column.and_then(|column| column.unit).or(self.units[axis]).or(self.unit)
+        let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
+        of_column.or(self.units[axis]).or(self.unit)
     }
 
     /// Names and units of columns, from the last line with a name for each of `count` columns, of which the numbers may be
     /// followed by further separators up to `cells` cells, and a row of units. Without such a line nothing is known of them.
-    pub fn columns(&self, count: usize, cells: usize, separator: Separator) -> Vec<Column> {
-        let mut units = None;
+    pub fn columns(&self, count: usize, cells: usize, separator: Separator, is_unit: IsUnit) -> Vec<Column> {
+        let mut units: Option<Vec<String>> = None;
         for line in self.lines.iter().rev() {
             let Some(found) = cells_of(line, count, cells, separator) else { continue };
             let is_number =
@@ -137,10 +142,10 @@ impl Header {
             if found.iter().any(is_number) || !found.iter().any(|cell| cell.contains(char::is_alphanumeric)) {
                 continue;
             }
-            let mut columns: Vec<Column> = found.iter().map(|cell| column(cell)).collect();
-            let bare: Vec<Option<Unit>> = found.iter().map(|cell| bare(cell).parse().ok()).collect();
+            let mut columns: Vec<Column> = found.iter().map(|cell| column(cell, is_unit)).collect();
+            let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
             let names = columns.iter().any(|column| column.role != Role::Unknown);
-            if units.is_none() && !names && bare.iter().any(Option::is_some) {
+            if units.is_none() && !names && bare.iter().any(|cell| is_unit(cell)) {
                 units = Some(bare);
                 continue;
             }
@@ -151,13 +156,29 @@ impl Header {
             {
                 first.role = Role::Number;
             }
-            let units = units.unwrap_or_else(|| vec![None; count]);
-            let with_unit =
-                |(column, unit): (Column, Option<Unit>)| Column { unit: unit.or(column.unit), ..column };
-            return columns.into_iter().zip(units).map(with_unit).collect();
+            add_units(&mut columns, units.unwrap_or_default(), is_unit);
+            return columns;
         }
-        let unnamed = |unit| Column { unit, ..Column::default() };
-        units.unwrap_or_else(|| vec![None; count]).into_iter().map(unnamed).collect()
+        let mut columns = vec![Column::default(); count];
+        add_units(&mut columns, units.unwrap_or_default(), is_unit);
+        columns
+    }
+
+    /// Returns true if one of the last lines that are no entries is this text.
+    pub fn has_line(&self, text: &str) -> bool {
+        self.lines.iter().any(|line| line == text)
+    }
+}
+
+/// Returns true for a text that is a unit of a quantity in the columns.
+pub(crate) type IsUnit = fn(&str) -> bool;
+
+/// Adds a row of units, which overrules the units beside names where it is known.
+fn add_units(columns: &mut [Column], units: Vec<String>, is_unit: IsUnit) {
+    for (column, unit) in columns.iter_mut().zip(units) {
+        if is_unit(&unit) || column.unit.is_none() && !unit.is_empty() {
+            column.unit = Some(unit);
+        }
     }
 }
 
@@ -219,7 +240,8 @@ fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Opti
     // Between a name and its unit there may be a blank.
     let joined = line.trim().replace(" [", "[").replace(" (", "(").replace(" / ", "/");
     let split = |separator: Separator| {
-        let mut cells: Vec<String> = separator.split(&joined).map(str::to_owned).collect();
+        let line = if separator == Separator::SPACE { &joined } else { line.trim() };
+        let mut cells: Vec<String> = separator.split(line).map(str::to_owned).collect();
         let end = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
         cells.truncate(end);
         cells
@@ -242,23 +264,31 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// Name, role and unit in the name of a column: in brackets, behind a slash, or its last word, as in `Lateral um`.
-fn column(cell: &str) -> Column {
-    let in_brackets =
-        || cell.split(['[', '(']).skip(1).find_map(|part| part.split([']', ')']).next()?.parse().ok());
-    let behind_slash = || cell.rsplit_once('/')?.1.parse().ok();
-    // `Length 5 um` is a size.
-    let last_word = || {
-        let (name, unit) = cell.rsplit_once([' ', '_'])?;
-        let before = name.rsplit(' ').next().unwrap_or_default();
-        unit.parse().ok().filter(|_| !before.contains(|c: char| c.is_ascii_digit()))
+/// Name, role and unit in the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral um`;
+/// an unknown one is in square brackets, behind a slash, or a short word in round brackets: `height (measured)` is a name.
+fn column(cell: &str, is_unit: IsUnit) -> Column {
+    let bracket = |(at, mark): (usize, &str)| {
+        let unit = bare(cell[at + 1..].split([']', ')']).next()?);
+        Some((&cell[..at], unit, mark == "[" || unit.chars().count() < LONGEST_UNIT))
     };
-    let unit: Option<Unit> = in_brackets().or_else(behind_slash).or_else(last_word);
-    let name = cell.split(['[', '(', '/']).next().unwrap_or_default().trim();
-    let lower = name.to_lowercase();
+    let slash = cell.rsplit_once('/').map(|(name, unit)| (name, bare(unit), true));
+    // `Length 5 um` is a size.
+    let last_word = cell.rsplit_once([' ', '_']).filter(|(name, _)| {
+        !name.rsplit(' ').next().is_some_and(|before| before.contains(|c: char| c.is_ascii_digit()))
+    });
+    let parts = cell.match_indices(['[', '(']).filter_map(bracket).chain(slash);
+    let parts: Vec<_> = parts.chain(last_word.map(|(name, unit)| (name, unit, false))).collect();
+    let known = parts.iter().find(|(_, unit, _)| is_unit(unit));
+    let found = known.or_else(|| parts.iter().find(|(.., is_stated)| *is_stated));
+    let (name, unit) = found.map_or((cell, None), |(name, unit, _)| (*name, Some((*unit).to_owned())));
+    let lower = cell.split(['[', '(', '/']).next().unwrap_or_default().to_lowercase();
     let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let role = ROLES.iter().find(|(_, known)| words().any(|word| is_one_of(word, known)));
-    Column { name: name.to_owned(), role: role.map_or(Role::Unknown, |(role, _)| *role), unit }
+    Column {
+        name: name.trim_matches(['"', ' ']).to_owned(),
+        role: role.map_or(Role::Unknown, |(role, _)| *role),
+        unit,
+    }
 }
 
 #[cfg(test)]
@@ -274,7 +304,7 @@ mod tests {
     /// Units of positions and heights of a table of x and height.
     fn units(lines: &[&str]) -> [Option<&'static str>; 2] {
         let header = header(lines);
-        let columns = header.columns(2, 2, Separator::SPACE);
+        let columns = header.columns(2, 2, Separator::SPACE, Unit::is_name);
         [(0, 0), (2, 1)].map(|(axis, column)| header.unit(axis, Some(&columns[column])).map(Unit::name))
     }
 
@@ -333,7 +363,7 @@ mod tests {
             let count = roles.len();
             let mut header = Header::default();
             header.lines.push_back(line.to_owned());
-            let found = header.columns(count, count, Separator::of(line));
+            let found = header.columns(count, count, Separator::of(line), Unit::is_name);
             assert_eq!(found.iter().map(|column| column.role).collect::<Vec<_>>(), roles, "{line}");
         }
     }

@@ -11,7 +11,8 @@ mod layout;
 mod matrix;
 mod table;
 mod warnings;
-pub(crate) use layout::{COMMENT, Cell, Decimal, Separator};
+pub(crate) use header::{Column, Header};
+pub(crate) use layout::{Cell, Decimal, Separator};
 
 use super::Unit;
 use super::reading::Reading;
@@ -19,7 +20,7 @@ use super::{Place, TopographyError, refused, shown};
 use crate::io::PROVENANCE;
 use crate::memory::check_room;
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
-use header::Header;
+use layout::COMMENT;
 use std::borrow::Cow;
 use std::ops::Range;
 use table::{Table, is_header};
@@ -130,23 +131,21 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
     Err(refused(Place::File, fault, "--channel with the number of one, in a scene roughness.channel"))
 }
 
-/// Passes the lines of a text on: those of its header to `header`, up to the first line for which `is_header` is false,
-/// and all lines of numbers with their places to `row`. Empty lines, comments between numbers and the scene in a table of
-/// results are skipped.
+/// Passes all lines of numbers of a table with the header before them and their places on: the header ends at the first line
+/// for which `is_header` is false. Empty lines, comments between numbers and the scene in a table of results are skipped.
 pub(crate) fn each_line(
     bytes: &[u8],
     is_header: impl Fn(&str) -> bool,
-    mut header: impl FnMut(&str),
-    mut row: impl FnMut(Place, &str) -> Result<(), TopographyError>,
+    mut take: impl FnMut(&Header, Place, &str) -> Result<(), TopographyError>,
 ) -> Result<(), TopographyError> {
-    let mut has_begun = false;
+    let (mut header, mut has_begun) = (Header::default(), false);
     each_text(bytes, |number, line| {
         let is_comment = line.starts_with(COMMENT);
         has_begun |= !line.is_empty() && !is_comment && !is_header(line);
         match (has_begun, is_comment) {
             (_, false) if line.is_empty() => {}
-            (true, false) => row(Place::Line(number), line)?,
-            (false, _) => header(line),
+            (true, false) => take(&header, Place::Line(number), line)?,
+            (false, _) => header.take(line),
             _ => {}
         }
         Ok(())
@@ -227,8 +226,8 @@ mod tests {
         ] {
             assert_eq!(text(other).unwrap(), expected, "{other}");
         }
-        let units = text("x [µm];z [nm]\n0,5;1e-1\n1,5;2,5\n2,5;-3\n").unwrap();
-        assert_eq!(units.units.map(|unit| unit.map(Unit::name)), [Some("µm"), Some("nm")]);
+        let named = text("x [µm];z [nm]\n0,5;1e-1\n1,5;2,5\n2,5;-3\n").unwrap();
+        assert_eq!(units(&named), [Some("µm"), Some("nm")]);
     }
 
     #[test]
@@ -260,9 +259,9 @@ mod tests {
         }
     }
 
-    /// Units by their names.
+    /// Units of positions and of heights by their names.
     fn units(reading: &Reading) -> [Option<&'static str>; 2] {
-        reading.units.map(|unit| unit.map(Unit::name))
+        [0, 2].map(|axis| reading.units[axis].map(Unit::name))
     }
 
     #[test]
@@ -354,7 +353,8 @@ mod tests {
             "4 columns of numbers, 5 in the header; allowed: as many as the header states"
         );
         let points = text("x [mm] y [µm] z [nm]\n0 0 1\n1 0 2\n0 5 3\n1 5 4\n").unwrap();
-        assert_eq!((points.spacing, units(&points)), (Some([1e-3, 5e-6]), [Some("m"), Some("nm")]));
+        assert_eq!((points.spacing, units(&points)), (Some([1.0, 5.0]), [Some("mm"), Some("nm")]));
+        assert_eq!(points.units[1].map(Unit::name), Some("µm"));
         let one = text("x [mm] y z [nm]\n0 0 1\n1 0 2\n0 5 3\n1 5 4\n").unwrap_err();
         assert!(one.starts_with("mm is the unit of one position, and the other one has none"), "{one}");
         let rough = |row: usize| {

@@ -49,24 +49,11 @@ fn widths(separator: Separator, line: &str) -> (usize, usize) {
     separator.split(line).enumerate().fold((0, 0), count)
 }
 
-type Distances = Option<[f64; 2]>;
-
-/// Distances along x and y and their common unit: m if those of x and y differ.
-fn in_one_unit(
-    distances: Distances,
-    units: [Option<Unit>; 2],
-) -> Result<(Distances, Option<Unit>), TopographyError> {
-    let Some([along, between]) = distances else { return Ok((None, units[0])) };
-    match units {
-        [Some(x), Some(y)] if x != y => {
-            Ok((Some([x.to_metres(along), y.to_metres(between)]), Some(Unit::METRE)))
-        }
-        [Some(unit), None] | [None, Some(unit)] => {
-            let fault = format!("{unit} is the unit of one position, and the other one has none");
-            Err(refused(Place::File, fault, "units of both x and y in the file, or of none"))
-        }
-        [unit, _] => Ok((distances, unit)),
-    }
+/// Checks that the positions along both axes have a unit, or none of them.
+fn check_both([x, y]: [Option<Unit>; 2]) -> Result<(), TopographyError> {
+    let (Some(unit), None) = (x.or(y), x.and(y)) else { return Ok(()) };
+    let found = format!("{unit} is the unit of one position, and the other one has none");
+    Err(refused(Place::File, found, "units of both x and y in the file, or of none"))
 }
 
 fn is_word(cell: &str) -> bool {
@@ -257,7 +244,7 @@ impl Table {
             self.breaks.clear();
             self.lines = vec![(0, self.line(rows.start))];
         }
-        let columns = header.columns(self.columns(), cells, self.separator);
+        let columns = header.columns(self.columns(), cells, self.separator, Unit::is_name);
         let Some(list) = list_of(&columns)? else { return self.map(header, is_open) };
         self.check_counts(&[])?;
         let place = |row: usize| Place::Line(self.line(row));
@@ -302,8 +289,9 @@ impl Table {
                 self.check_measured(&xs)?;
                 let place = |row: usize| Place::Line(self.line(row));
                 let map = map_of([&xs, &ys], &heights, [digits(x), digits(y)], place)?;
-                let (distances, lateral) = in_one_unit(map.distances, [of_x, of_y])?;
-                Ok(Reading::even(format, map.heights, map.columns, distances, [lateral, of_heights]))
+                check_both([of_x, of_y])?;
+                let units = [of_x, of_y, of_heights];
+                Ok(Reading::even(format, map.heights, map.columns, map.distances, units))
             }
             (Some(x), None) => {
                 let lateral = unit(if is_y(x) { 1 } else { 0 }, x);
@@ -314,7 +302,8 @@ impl Table {
             }
             (None, _) => {
                 let count = heights.len();
-                Ok(Reading::even(format, heights, count, None, [header.unit(0, None), of_heights]))
+                let lateral = header.unit(0, None);
+                Ok(Reading::even(format, heights, count, None, [lateral, lateral, of_heights]))
             }
         }
     }
@@ -352,11 +341,16 @@ impl Table {
         let of_sizes = width.zip(height).map(|(width, height)| [width / found as f64, height / rows as f64]);
         let stated = of_sizes.or(header.spacing.map(|spacing| [spacing; 2]));
         // Sizes are in m.
-        let (spacing, lateral) = match stated {
-            Some(stated) => (Some(stated), Some(Unit::METRE)),
-            None => in_one_unit(distances, [0, 1].map(|axis| header.unit(axis, None)))?,
+        let of_axes = if stated.is_some() {
+            [Some(Unit::METRE); 2]
+        } else {
+            [0, 1].map(|axis| header.unit(axis, None))
         };
-        let reading = Reading::even("text matrix", heights, found, spacing, [lateral, header.unit(2, None)]);
+        if stated.or(distances).is_some() {
+            check_both(of_axes)?;
+        }
+        let units = [of_axes[0], of_axes[1], header.unit(2, None)];
+        let reading = Reading::even("text matrix", heights, found, stated.or(distances), units);
         Ok(Reading { first_missing, warnings, ..reading })
     }
 

@@ -1,6 +1,7 @@
 //! Warnings of heights that are far from all others: marks of missing points, and numbers that are cut off.
 
 use super::super::Place;
+use crate::numerics::median;
 
 /// Least distance of a height from the median, in medians of these distances, that is an error of the file.
 const FAR: f64 = 1e6;
@@ -56,11 +57,6 @@ pub(super) fn of_heights(heights: &[f64], is_open: bool, place: impl Fn(usize) -
         heights[first],
         far.count()
     )]
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 #[cfg(test)]
