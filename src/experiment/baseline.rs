@@ -35,7 +35,7 @@ impl Baseline {
 }
 
 /// Sums of the squared residuals of polynomials with this number of terms through the first value, the first two, and so on,
-/// by rotations of each row into the triangle of those before.
+/// by rotations of each row into the triangle of the rows before.
 pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
@@ -60,7 +60,7 @@ pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) 
     values.enumerate().map(add).collect()
 }
 
-/// Columns of length 1 at right angles to each other that span these columns, 0 for one that depends on those before it.
+/// Columns of length 1 at right angles to each other that span these columns, 0 for a column that depends on the columns before it.
 pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {

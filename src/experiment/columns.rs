@@ -1,4 +1,4 @@
-//! The columns of a curve: their names and units in a header, and those of displacement, force and segment.
+//! The columns of a curve: which of them hold displacement, force and segment, and their units.
 
 use super::options::CurveOptions;
 use crate::scene::parse_quantity;
@@ -6,7 +6,7 @@ use crate::topography::text::Column;
 use crate::topography::{Place, TopographyError, refused, shown};
 
 /// Term, SI unit and an example of a unit of each quantity, and the letters of the names of its column, the preferred ones
-/// first: the displacement of the instrument before that of the body, which lacks the deflection of the instrument.
+/// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the instrument.
 const QUANTITIES: [(&str, &str, &str, &[&str]); 2] = [
     (
         "displacement",
@@ -54,7 +54,7 @@ pub(super) struct Pair {
 /// The chosen columns.
 #[derive(Debug)]
 pub(super) struct Choice {
-    /// One pair, or that of an approach and that of a retraction beside it.
+    /// One pair, or one for an approach and one for a retraction beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
     /// Sentences on the columns chosen by name, and on units of the file that the options overrule.
@@ -62,7 +62,7 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// Chooses from columns with these names and units; those of a file in SI units need no unit.
+    /// Chooses from columns with these names and units; columns of a file in SI units need no unit.
     pub fn new(columns: &[Column], is_si: bool, options: &CurveOptions) -> Result<Self, TopographyError> {
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS);
         let count = columns.len();

@@ -8,7 +8,7 @@ use crate::parallel::on_threads;
 use crate::scene::Document;
 use std::fmt;
 
-/// Counts of intervals and of those that hold the truth.
+/// Counts of intervals, and of intervals that hold the truth.
 #[derive(Clone, Copy, Default)]
 struct Held {
     held: usize,
@@ -86,7 +86,7 @@ fn intervals_hold_the_truth_of_most_spheres() {
     let percent = |held: Held| format!("{held}, {:.1} %", 100.0 * held.share());
     let row = |parameter: &Parameter| {
         let [smooth, rough] = rows.map(|row| row[*parameter as usize]);
-        format!("| {} | {smooth} | {rough} |\n", parameter.row().1)
+        format!("| {} | {smooth} | {rough} |\n", parameter.row().term)
     };
     let tried = Parameter::ALL.into_iter().filter(|one| rows[0][*one as usize].all > 0);
     let table: String = tried.map(|one| row(&one)).collect();

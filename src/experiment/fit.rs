@@ -1,4 +1,4 @@
-//! The parameters of a scene that describe a measured curve, their errors, and those that the curve does not separate.
+//! The parameters of a scene that describe a measured curve, their errors, and parameters that the curve does not separate.
 
 use super::baseline::dot;
 use super::model::Model;
@@ -27,7 +27,7 @@ const NORMAL: f64 = 1.96;
 pub struct FitOptions {
     /// Parameters to be found.
     pub free: Vec<Free>,
-    /// Random profiles on which the fit is repeated; 1: that of the scene alone.
+    /// Random profiles on which the fit is repeated; 1: the profile of the scene alone.
     pub lines: u64,
     /// Threads that share the profiles.
     pub jobs: usize,
@@ -64,7 +64,7 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 impl FittedParameter {
     /// A value of the parameter with the digits that its interval determines.
     pub fn text(&self, value: f64) -> String {
-        format_within(value, 0.5 * (self.interval.1 - self.interval.0), self.parameter.row().3)
+        format_within(value, 0.5 * (self.interval.1 - self.interval.0), self.parameter.row().unit)
     }
 }
 
@@ -355,7 +355,7 @@ mod tests {
         assert!(modulus.interval.1 / modulus.interval.0 > 1.02, "{modulus:?}");
     }
 
-    /// The scatter over profiles counts twice: for that of the specimen and that of the scene.
+    /// The scatter over profiles counts twice: for the profile of the specimen and for the profile of the scene.
     #[test]
     fn the_interval_holds_the_scatter_over_profiles() {
         let made = random(11, 1024);

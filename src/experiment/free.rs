@@ -10,7 +10,7 @@ const FEWEST_IN_CONTACT: usize = 4;
 const GAIN: f64 = 40.0;
 /// Deviation of the last points from the line before, in standard errors, that is a contact.
 const DEVIATES: f64 = 4.0;
-/// Parts of the points without contact of which the last one is compared with those before.
+/// Parts of the points without contact of which the last part is compared with the parts before.
 const PARTS: [usize; 3] = [5, 10, 20];
 /// Slope before the contact over that in contact, and change of the force before contact over its range, of a line that is in
 /// contact from the first point on.
@@ -28,11 +28,11 @@ pub(super) enum NoBaseline {
     InContact,
 }
 
-/// Number of the first values of a segment, those before contact. The noise is `least` at least.
+/// Number of the first values of a segment, which are before contact. The noise is `least` at least.
 ///
 /// The contact begins where a straight line before and a parabola behind describe the segment best. This finds the strong
 /// part of the contact; its weak beginning is found from there back: the last points without contact do not deviate from the
-/// line through those before.
+/// line through the points before them.
 pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
     let count = values.len();
     if count < 2 * FEWEST {
@@ -69,7 +69,7 @@ pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline
     Ok(free)
 }
 
-/// The number of first values without the last ones that deviate from the line through those before.
+/// The number of first values without the last ones that deviate from the line through the values before them.
 fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     let deviates = |free: usize, last: usize| {
         let line = Baseline::through(&values[..free - last]);
@@ -103,7 +103,7 @@ pub(super) struct Slopes {
 
 impl Slopes {
     /// Slopes through points of time and displacement, as shares of the whole curve, 1 after contact and 0 before it, and
-    /// force; only those asked for differ from 0. `None` if the points do not separate them.
+    /// force; only slopes asked for differ from 0. `None` if the points do not separate them.
     pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let mut columns = vec![vec![1.0; points.len()]];
@@ -114,7 +114,7 @@ impl Slopes {
         Some(Slopes { zero, drift: slope(0)?, tilt: slope(1)?, step: slope(2)? })
     }
 
-    /// Root mean square deviation of points from drift, tilt and step, N, and that of their noise from point to point.
+    /// Root mean square deviation of points from drift, tilt and step, N, and deviation by the noise from point to point.
     pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
@@ -129,7 +129,7 @@ impl Slopes {
 }
 
 /// Coefficients of columns that describe values by least squares, with their standard errors; `None` if a column depends on
-/// those before it.
+/// the columns before it.
 pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
     let basis = right_angled(columns);
     let mut rests = values.to_vec();

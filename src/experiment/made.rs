@@ -11,7 +11,6 @@ use crate::simulation::Simulation;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
-use std::fmt::Write;
 
 /// Scene and disturbances from which a curve is made.
 pub(super) struct Made {
@@ -81,17 +80,50 @@ pub(super) fn measured(made: &Made, seed: u64) -> MeasuredCurve {
 
 /// The curve of these displacements, m, and forces, N.
 pub(super) fn read(points: impl Iterator<Item = (f64, f64)>, drift: Drift) -> MeasuredCurve {
-    let mut text = "displacement [nm],force [uN]\n".to_owned();
-    points
-        .for_each(|(displacement, force)| writeln!(text, "{},{}", displacement * 1e9, force * 1e6).unwrap());
+    let line = |text: String, (displacement, force): (f64, f64)| {
+        text + &format!("{},{}\n", displacement * 1e9, force * 1e6)
+    };
+    let text = points.fold("displacement [nm],force [uN]\n".to_owned(), line);
+    from_text(&text, &CurveOptions { drift, ..CurveOptions::default() }).unwrap()
+}
+
+/// The curve in a file of this content.
+pub(super) fn from_bytes(content: &[u8], options: &CurveOptions) -> Result<MeasuredCurve, String> {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("curve.csv");
-    std::fs::write(&path, &text).unwrap();
-    MeasuredCurve::read(&path, &CurveOptions { drift, ..CurveOptions::default() }).unwrap()
+    let path = folder.path().join("curve");
+    std::fs::write(&path, content).unwrap();
+    MeasuredCurve::read(&path, options).map_err(|error| error.to_string())
+}
+
+pub(super) fn from_text(text: &str, options: &CurveOptions) -> Result<MeasuredCurve, String> {
+    from_bytes(text.as_bytes(), options)
+}
+
+/// Displacements, nm, and forces, nN: a spring of 2 N/m from 0 nm on, with an alternating noise of 0.1 nN and a zero at
+/// 1 nN, pressed from −100 to 50 nm and back in `count` points.
+pub(super) fn of_spring(count: usize) -> Vec<(f64, f64)> {
+    let point = |index: usize| {
+        let way = 300.0 * index as f64 / (count - 1) as f64;
+        let displacement = if way < 150.0 { way - 100.0 } else { 200.0 - way };
+        let noise = if index.is_multiple_of(2) { 0.1 } else { -0.1 };
+        (displacement, 1.0 + noise + 2.0 * displacement.max(0.0))
+    };
+    (0..count).map(point).collect()
+}
+
+/// Lines of points of the spring, each in this form, behind a header.
+pub(super) fn text_of_spring(header: &str, count: usize, form: impl Fn(f64, f64) -> String) -> String {
+    of_spring(count).into_iter().fold(header.to_owned(), |text, (d, f)| text + &form(d, f) + "\n")
+}
+
+/// Text of points with their displacements in nm and forces in nN.
+pub(super) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
+    let line = |text: String, (d, f): (f64, f64)| text + &format!("{d},{f}\n");
+    points.into_iter().fold("displacement [nm],force [nN]\n".to_owned(), line)
 }
 
 /// A sphere without adhesion on rubber (Hertz): R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm; 100 points there and back, with a
-/// force of this multiple of that of Hertz at an indentation, m, and a direction of 1 or -1.
+/// force of this multiple of the force of Hertz at an indentation, m, and a direction of 1 or -1.
 pub(super) fn rubber(deviation: f64, seed: u64, times: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
     let force = |indentation: f64| 4.0 / 3.0 * 2e6 * (7.5e-6 * indentation.max(0.0).powi(3)).sqrt();
     let point = |(index, noise): (usize, f64)| {

@@ -26,7 +26,7 @@ mod zero;
 pub use curve::MeasuredCurve;
 pub use fit::{Fit, FitOptions, FittedParameter, fit};
 pub use options::{CurveOptions, Drift, Negate, Tilt};
-pub use parameter::{Free, Parameter};
+pub use parameter::{Free, Parameter, Row};
 pub use reason::Reason;
 
 use crate::contact::ContactError;

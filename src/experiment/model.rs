@@ -7,7 +7,7 @@ use crate::contact::{Contact, ContactError, CurvePoint, Direction, Foundation, H
 use crate::scene::{Form, Scene};
 use crate::simulation::Simulation;
 
-/// Points of the force curve of each segment beside those at its jumps, and those of coarse forces.
+/// Points of the force curve of each segment beside the points at jumps, and points of a coarse force curve.
 const SAMPLES: usize = 128;
 const FEW: usize = 64;
 /// Extensions of a loading that does not reach the displacement of its end, and halvings of the way to that end.
@@ -25,7 +25,7 @@ pub(super) struct Model<'a> {
     simulation: &'a mut Simulation,
     /// Contact with the radius of its form, m; its springs and their tree serve all other values.
     contact: Option<(Contact, f64)>,
-    /// Noise to which the forces are exact, in units of that of the curve: 1 or more.
+    /// Noise to which the forces are exact, in units of the noise of the curve: 1 or more.
     pub noise: f64,
     pub evaluations: usize,
 }

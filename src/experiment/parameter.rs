@@ -32,8 +32,18 @@ impl Serialize for Parameter {
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
 pub(super) type Values = [f64; 7];
 
-/// Texts of a parameter, see [`Parameter::row`].
-type Row = (&'static str, &'static str, &'static str, &'static str);
+/// Texts of a parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Name on the command line and in JSON.
+    pub name: &'static str,
+    /// Technical term.
+    pub term: &'static str,
+    /// Symbol.
+    pub symbol: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+}
 
 impl Parameter {
     /// All parameters, in the order of tables.
@@ -42,23 +52,23 @@ impl Parameter {
         [Work, ClosingWork, Modulus, Offset, Zero, Stiffness, Radius]
     };
 
-    /// Name on the command line and in JSON, technical term, symbol and SI unit.
+    /// Texts of the parameter.
     pub fn row(self) -> Row {
-        const ROWS: [Row; 7] = [
-            ("work", "work of adhesion", "γ", "J/m²"),
-            ("closing_work", "work of adhesion on closing", "γ₁", "J/m²"),
-            ("modulus", "effective modulus", "E*", "Pa"),
-            ("offset", "displacement at first touch", "D₀", "m"),
-            ("zero", "force before contact", "F₀", "N"),
-            ("stiffness", "loading stiffness", "k", "N/m"),
-            ("radius", "radius of the form", "R", "m"),
-        ];
-        ROWS[self as usize]
+        let row = |name, term, symbol, unit| Row { name, term, symbol, unit };
+        match self {
+            Parameter::Work => row("work", "work of adhesion", "γ", "J/m²"),
+            Parameter::ClosingWork => row("closing_work", "work of adhesion on closing", "γ₁", "J/m²"),
+            Parameter::Modulus => row("modulus", "effective modulus", "E*", "Pa"),
+            Parameter::Offset => row("offset", "displacement at first touch", "D₀", "m"),
+            Parameter::Zero => row("zero", "force before contact", "F₀", "N"),
+            Parameter::Stiffness => row("stiffness", "loading stiffness", "k", "N/m"),
+            Parameter::Radius => row("radius", "radius of the form", "R", "m"),
+        }
     }
 
     /// Name on the command line and in JSON.
     pub fn name(self) -> &'static str {
-        self.row().0
+        self.row().name
     }
 
     /// Returns true for a parameter of either sign.
@@ -131,7 +141,7 @@ impl FromStr for Free {
         })?;
         let allowed = || format!("allowed: {}, such as {name}=1..2", parameter.ranges());
         let end = |text: &str| {
-            parse_quantity(text, parameter.row().3).map_err(|error| format!("{error}; {}", allowed()))
+            parse_quantity(text, parameter.row().unit).map_err(|error| format!("{error}; {}", allowed()))
         };
         let ends = |range: &str| {
             let (low, high) = range.split_once("..").ok_or_else(allowed)?;

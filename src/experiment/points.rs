@@ -91,7 +91,7 @@ impl Points {
         change(&reversed).is_some_and(|after| change(&self.force).is_none_or(|before| after < before))
     }
 
-    /// Number of the last points, those after contact.
+    /// Number of the last points, which are after contact.
     pub fn free_at_the_end(&self, least: f64) -> Option<usize> {
         let last = self.moving(*self.segment.last()?);
         let reversed: Vec<f64> = self.force[last].iter().rev().copied().collect();

@@ -12,7 +12,7 @@ pub(super) struct Member {
     pub rests: Vec<f64>,
 }
 
-/// Members with their costs at a noise, in units of that of the curve, and the best of all with its cost.
+/// Members with their costs at a noise, in units of the noise of the curve, and the best member of all with its cost.
 pub(super) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,

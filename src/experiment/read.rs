@@ -45,7 +45,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// The approach, and the retraction beside it from the end that is nearer to that of the approach.
+    /// The approach, and the retraction beside it from the end that is nearer to the end of the approach.
     fn joined(parts: Vec<Columns>) -> Columns {
         let has_two = parts.len() > 1;
         let mut joined = Columns::default();
@@ -232,4 +232,158 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogra
     };
     each_line(bytes, is_header, take)?;
     Ok(form.map_or_else(Vec::new, |(.., points)| points.parts))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::MeasuredCurve;
+    use super::super::made::{from_bytes, from_text, lines, of_spring, text_of_spring};
+    use super::*;
+
+    fn columns(names: &[&str]) -> CurveOptions {
+        CurveOptions { columns: names.iter().map(ToString::to_string).collect(), ..CurveOptions::default() }
+    }
+
+    /// Lines of the spring with this header, each point in this form.
+    fn text(header: &str, form: impl Fn(f64, f64) -> String) -> String {
+        text_of_spring(header, 600, form)
+    }
+
+    fn spring() -> MeasuredCurve {
+        from_text(&lines(of_spring(600)), &CurveOptions::default()).unwrap()
+    }
+
+    fn assert_same(found: &MeasuredCurve, expected: &MeasuredCurve, name: &str) {
+        let both = found
+            .force
+            .iter()
+            .zip(&expected.force)
+            .chain(found.displacement.iter().zip(&expected.displacement));
+        assert!(both.into_iter().all(|(one, other)| (one - other).abs() < 1e-20), "{name}");
+        assert_eq!((found.free, &found.segment), (expected.free, &expected.segment), "{name}");
+    }
+
+    #[test]
+    fn a_curve_is_the_same_in_every_form() {
+        let units = |columns: CurveOptions| CurveOptions { units: vec!["nm".into(), "nN".into()], ..columns };
+        let plain = CurveOptions::default;
+        let expected = spring();
+        // Both points at the turn have one displacement.
+        assert_eq!((expected.segment[298], expected.segment[301], expected.segment[599]), (0, 1, 1));
+        assert!((190..=200).contains(&expected.free), "{}", expected.free);
+        assert!((expected.noise / 1e-10 - 1.0).abs() < 0.02, "{:e}", expected.noise);
+        assert!((expected.force[300] / 1e-7 - 1.0).abs() < 0.01, "{:e}", expected.force[300]);
+        assert_eq!(expected.turns.len(), 2);
+        for (content, options) in [
+            (text("x/nm;F/nN\n", |d, f| format!("{d};{f}")), columns(&["x", "f"])),
+            (text("# columns: time height force\n# units: s nm nN\n", |d, f| format!("0 {d} {f}")), plain()),
+            (text("", |d, f| format!("{d}\t{f}")), units(plain())),
+            (text("nm,nN\n", |d, f| format!("{d},{f}")), plain()),
+            (text("a (nm)\tb (nN)\n", |d, f| format!("{d}\t{f}").replace('.', ",")), columns(&["1", "2"])),
+            (
+                text("separation [um],force [N]\n", |d, f| format!("{},{}", -d / 1e3, f / 1e9)),
+                columns(&["1", "2"]),
+            ),
+            (
+                text("z [nm],deflection [nm]\n", |d, f| format!("{d},{}", f / 4.0)),
+                CurveOptions { units: vec!["nm".into(), "4nN".into()], ..columns(&["1", "2"]) },
+            ),
+        ] {
+            assert_same(&from_text(&content, &options).unwrap(), &expected, &content[..20]);
+        }
+        let all = of_spring(600);
+        let array =
+            |descr: &str, shape: &str, values: &mut dyn Iterator<Item = f64>, options: CurveOptions| {
+                let mut bytes = Vec::new();
+                npy::write_header(&mut bytes, descr, shape).unwrap();
+                bytes.extend(values.flat_map(f64::to_le_bytes));
+                assert_same(&from_bytes(&bytes, &units(options)).unwrap(), &expected, shape);
+            };
+        array("'<f8'", "600, 2", &mut all.iter().flat_map(|&(d, f)| [d, f]), columns(&["1", "2"]));
+        // Any number that changes with the segment.
+        let labelled =
+            all.iter().zip(&expected.segment).flat_map(|(&(d, f), segment)| [d, f, 7.0 - *segment as f64]);
+        array("'<f8'", "600, 3", &mut labelled.into_iter(), columns(&["1", "2", "3"]));
+        let axes = all.iter().map(|point| point.0).chain(all.iter().map(|point| point.1));
+        array("'<f8'", "2, 600", &mut axes.into_iter(), columns(&["1", "2"]));
+        let fields = "[('load', '<f8'), ('height', '<f8')]";
+        array(fields, "600,", &mut all.iter().flat_map(|&(d, f)| [f, d]), plain());
+    }
+
+    /// Tables of analysis programs and instruments, also with approach and retraction side by side.
+    #[test]
+    fn exports_of_other_programs_are_read_without_options() {
+        let (all, expected) = (of_spring(600), spring());
+        let joined = |head: &str, count: usize, line: &dyn Fn(usize) -> String| {
+            (0..count).fold(head.to_owned(), |all, index| all + &line(index) + "\n")
+        };
+        let tab = "# afmformats\n# BEGIN METADATA\n# {}\n# END METADATA\n# force\theight (measured)\theight (piezo)\ttime\n";
+        let tab = joined(tab, 600, &|index| {
+            format!("{:e}\t{:e}\t0\t{index}", all[index].1 * 1e-9, -all[index].0 * 1e-9)
+        });
+        let jpk = "# segment: extend\n# columns: time height vDeflection\n# fancyNames: \"a b\" \"c d\"\n# units: s m N\n";
+        let jpk = joined(jpk, 600, &|index| {
+            let again = if index == 300 { "# segment: retract\n" } else { "" };
+            format!("{again}{index} {:e} {:e}", all[index].0 * 1e-9, all[index].1 * 1e-9)
+        });
+        // The retraction along the same direction as the approach, and with minus signs of a spreadsheet.
+        let side = joined("Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n", 300, &|index| {
+            let (one, other) = (all[index], all[599 - index]);
+            format!("{};{};{};{}", one.0, one.1, other.0, other.1).replace('-', "\u{2212}")
+        });
+        let one_height = joined("x [nm],approach force [nN],retract force [nN]\n", 300, &|index| {
+            format!("{},{},{}", all[index].0, all[index].1, all[599 - index].1)
+        });
+        for (text, is_reversed) in [(tab, true), (jpk, false), (side, false), (one_height, false)] {
+            let found = from_text(&text, &CurveOptions::default()).unwrap();
+            assert_same(&found, &expected, &text[..60]);
+            assert_eq!(found.statements.iter().any(|text| text.starts_with("Reversed")), is_reversed);
+        }
+        let words = joined("d [nm],f [nN],s\n", 600, &|index| {
+            format!("{},{},{}", all[index].0, all[index].1, ["extend", "retract"][index / 300])
+        });
+        let found = from_text(&words, &columns(&["d", "f", "s"])).unwrap();
+        assert_eq!((found.segment[299], found.segment[300]), (0, 1));
+    }
+
+    #[test]
+    fn units_of_the_command_line_overrule_those_of_the_file() {
+        // A divisor that is a whole number, and a factor.
+        for unit in [4.0, 3.0] {
+            let text = text("Piezo [nm],Deflection [nm]\n", |d, f| format!("{},{}", d / 1e3, f / unit));
+            let units = vec!["um".to_owned(), format!("{unit}nN")];
+            let curve = from_text(&text, &CurveOptions { units, ..CurveOptions::default() }).unwrap();
+            let (turn, force) = (curve.turns[0], curve.force[300]);
+            assert!(
+                (turn / 5e-8 - 1.0).abs() < 0.01 && (force / 1e-7 - 1.0).abs() < 0.01,
+                "{turn:e} {force:e}"
+            );
+            let of_force = format!("Unit of the force by --units: {unit}nN; the file states nm.");
+            assert_eq!(curve.statements[0], "Unit of the displacement by --units: um; the file states nm.");
+            assert_eq!(curve.statements[1], of_force);
+        }
+    }
+
+    #[test]
+    fn files_that_hold_no_curve_are_refused_with_their_place() {
+        let comma = |d: f64, f: f64| format!("{d},{f}");
+        let more = |line: &str| (lines(of_spring(600)) + line, columns(&[]));
+        for ((text, options), said) in [
+            (more("1e11,0\n"), "line 602: a displacement of 1e2 m far from all others"),
+            (more("0,1e299\n"), "line 602: a force of 1e290 N"),
+            (more(&("9".repeat(400) + ",0\n")), "line 602: column 1: \"999"),
+            (more("1,2,3\n"), "line 602: 3 columns; allowed: 2"),
+            (more("1,2x\n"), "line 602: column 2: \"2x\" is not a number"),
+            ((text("d,f\n", comma), columns(&[])), "no unit of the displacement is stated"),
+            ((text("d [nm],f [V]\n", comma), columns(&[])), "\"V\" is not a unit of the force"),
+            (
+                (text("a [nm],b [nN]\n", comma), columns(&[])),
+                "2 columns a, b: none is known as the displacement",
+            ),
+            ((lines(of_spring(600)), columns(&["1", "5"])), "2 columns displacement, force: none is \"5\""),
+        ] {
+            let error = from_text(&text, &options).expect_err(said);
+            assert!(error.starts_with(said) && error.contains("allowed: "), "{said}: {error}");
+        }
+    }
 }

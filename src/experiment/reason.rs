@@ -272,6 +272,7 @@ fn branches_differ(
 
 #[cfg(test)]
 mod tests {
+    use super::super::made::from_text;
     use super::super::options::CurveOptions;
     use super::super::scene::values_of;
     use super::*;
@@ -310,10 +311,7 @@ mod tests {
         for (index, (at, force)) in points.enumerate() {
             writeln!(text, "{at},{}", force + if index % 2 == 0 { 1e-3 } else { -1e-3 }).unwrap();
         }
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("curve.csv");
-        std::fs::write(&path, text).unwrap();
-        let curve = MeasuredCurve::read(&path, &CurveOptions::default()).unwrap();
+        let curve = from_text(&text, &CurveOptions::default()).unwrap();
         let document = curve.load(&scene(&[&HERTZ, changes].concat()), 0.0).unwrap();
         let mut simulation = Simulation::default();
         let (_, governing) = simulation.contact(document.scene()).unwrap();

@@ -1,4 +1,4 @@
-//! The scene of a fit: the values from which a search begins, and the document with those found.
+//! The scene of a fit: the values from which a search begins, and the document with the values found.
 
 use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};

@@ -61,8 +61,8 @@ pub(super) fn are_shuffled(displacement: &[f64]) -> bool {
     way > SHUFFLED * (high - low) * displacement.len() as f64
 }
 
-/// Numbers of the segments between the turning points of the smoothed displacement: those from which it comes back by a
-/// share of its range.
+/// Numbers of the segments between the turning points of the smoothed displacement, from which the displacement
+/// comes back by a share of its range.
 fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     let last = displacement.len() - 1;
     let half = (0.5 * SMOOTHING * last as f64) as usize;

@@ -9,7 +9,7 @@ const RANGES: usize = 20;
 /// Parts of each segment that are blocks of a curve.
 pub(super) const PARTS: usize = 4;
 
-/// Root mean square of residuals, where those beyond `cut` times this scale count as that much (Huber, Robust Statistics,
+/// Root mean square of residuals, where larger ones than `cut` times this scale count as `cut` times the scale (Huber, Robust Statistics,
 /// proposal 2): single ones on the wrong side of a jump count little, while all may be as large as they are.
 pub(super) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();

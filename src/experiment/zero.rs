@@ -21,7 +21,7 @@ pub(super) struct FreeParts {
     pub before: Option<usize>,
     /// Number of the last ones; 0 where there are few.
     pub after: usize,
-    /// Share of time and of displacement of each point in those of the whole curve.
+    /// Time and displacement of each point, as shares of the whole curve.
     pub shares: [Vec<f64>; 2],
 }
 
@@ -220,5 +220,64 @@ fn refuse_baseline<T>(
             format!("no contact: in the approach the force stays within its noise of {}", newton(noise)),
             "a change by more than the noise; --free-points COUNT for a weak contact",
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::MeasuredCurve;
+    use super::super::made::{from_text, lines, of_spring};
+    use super::*;
+
+    /// The spring with a drift, a tilt and a step after contact, nN.
+    fn made(drift: f64, tilt: f64, step: f64) -> String {
+        lines(of_spring(600).into_iter().enumerate().map(|(index, (d, f))| {
+            let step = if index < 300 { 0.0 } else { step };
+            (d, f + drift * index as f64 / 599.0 + tilt * (d + 100.0) / 150.0 + step)
+        }))
+    }
+
+    fn read(text: &str, drift: Drift, tilt: Tilt) -> MeasuredCurve {
+        from_text(text, &CurveOptions { drift, tilt, ..CurveOptions::default() }).unwrap()
+    }
+
+    #[test]
+    fn a_drift_is_found_in_the_part_before_contact_or_given() {
+        let end = |drift| read(&made(5.99, 0.0, 0.0), drift, Tilt::Keep).force[599];
+        let without = end(Drift::Remove);
+        assert!(without.abs() < 3e-10, "{without:e}");
+        assert!((end(Drift::Keep) / 5e-9 - 1.0).abs() < 0.05);
+        assert!((end(Drift::Known(5.99e-9)) - without).abs() < 2e-10);
+    }
+
+    /// Drift over time and tilt over the displacement, separated by the parts before and after contact; a force that differs
+    /// before and after contact is neither.
+    #[test]
+    fn what_remains_without_contact_is_named_with_its_remedy() {
+        let keep = |text: &str| read(text, Drift::Keep, Tilt::Keep).remaining.map(|one| (one * 1e9).round());
+        assert_eq!(keep(&made(0.0, 0.0, 0.0)), [0.0; 3]);
+        assert_eq!(keep(&made(0.0, 3.0, 0.0)), [0.0, 3.0, 0.0]);
+        assert_eq!(keep(&made(-3.0, 0.0, 0.0)), [-3.0, 0.0, 0.0]);
+        assert_eq!(keep(&made(2.0, -4.0, 0.0)), [2.0, -4.0, 0.0]);
+        assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
+        // Waves of the force are neither; a retraction alone has its own zero.
+        let waves = lines(of_spring(600).into_iter().map(|(d, f)| (d, f + 2.0 * (0.1 * d).sin())));
+        assert_eq!(keep(&waves), [0.0; 3]);
+        let stated = |text: &str, drift, tilt| read(text, drift, tilt).statements.concat();
+        let is_curved = |text: &str| stated(text, Drift::Keep, Tilt::Keep).contains("no straight lines");
+        assert!(is_curved(&waves) && !is_curved(&made(0.0, 0.0, 0.0)));
+        let end = CurveOptions { segments: vec![2], ..CurveOptions::default() };
+        let end = from_text(&made(0.0, 0.0, 2.0), &end).unwrap();
+        assert!(end.force[299].abs() < 3e-10, "{:e}", end.force[299]);
+        let tilted = made(0.0, 3.0, 0.0);
+        let kept = stated(&tilted, Drift::Keep, Tilt::Keep);
+        assert!(
+            kept.contains("A tilt remains: --tilt remove takes it off.") && !kept.contains("--drift"),
+            "{kept}"
+        );
+        assert!(!stated(&tilted, Drift::Keep, Tilt::Remove).contains("remains"));
+        let without = read(&made(2.0, 3.0, 0.0), Drift::Remove, Tilt::Remove);
+        let plain = read(&made(0.0, 0.0, 0.0), Drift::Keep, Tilt::Keep);
+        assert!(without.force.iter().zip(&plain.force).all(|(one, other)| (one - other).abs() < 1e-10));
     }
 }

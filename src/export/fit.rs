@@ -5,10 +5,10 @@ use super::sheet::Sheet;
 use super::summary::tabor_number;
 use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use crate::experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
-use crate::io::{Table, object};
+use crate::io::Table;
 use crate::scene::{format_quantity, format_rounded};
 use crate::text::grouped;
-use std::collections::BTreeMap;
+use serde::Serialize;
 use std::f64::consts::PI;
 
 /// A curve and its fit.
@@ -20,6 +20,19 @@ pub struct FitReport<'a> {
     pub curve: &'a MeasuredCurve,
     /// Parameters that describe the curve, with their errors.
     pub fit: &'a Fit,
+}
+
+/// A fit in SI units, with the values of its curve.
+#[derive(Serialize)]
+struct FitJson<'a> {
+    #[serde(flatten)]
+    fit: &'a Fit,
+    described: bool,
+    noise: f64,
+    pull_off_force: Option<f64>,
+    pull_off_work: Option<f64>,
+    points_used: usize,
+    points_left_out: usize,
 }
 
 impl Report for FitReport<'_> {
@@ -36,11 +49,11 @@ impl Report for FitReport<'_> {
         sheet.heading(&format!("Curve {title}"));
         curve.statements.iter().for_each(|sentence| sheet.paragraph(sentence));
         sheet.heading(&format!("Fit of {}", fit.document.title()));
-        let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().3);
+        let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
         let header = ["", "value", "95 % interval", "error by noise", "by profile", "start"];
         let row = |one: &FittedParameter| {
             [
-                format!("{} {}", one.parameter.row().1, one.parameter.row().2),
+                format!("{} {}", one.parameter.row().term, one.parameter.row().symbol),
                 one.text(one.value),
                 format!("{} to {}", one.text(one.interval.0), one.text(one.interval.1)),
                 quantity(one, one.noise_error),
@@ -74,7 +87,7 @@ impl Report for FitReport<'_> {
         }
         let strongest = fit.correlations.iter().max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
         if let Some((one, other, value)) = strongest {
-            let (one, other) = (one.row().2, other.row().2);
+            let (one, other) = (one.row().symbol, other.row().symbol);
             sheet.paragraph(&format!("Largest correlation: {one} and {other}, {value:.2}."));
         }
         let is_bound = |pair: &&(Parameter, Parameter)| {
@@ -90,43 +103,15 @@ impl Report for FitReport<'_> {
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let FitReport { curve, fit, .. } = *self;
-        let parameter = |one: &FittedParameter| {
-            let FittedParameter {
-                value,
-                interval: (low, high),
-                noise_error,
-                profile_error,
-                start,
-                range,
-                ..
-            } = *one;
-            let value = object! {
-                "value": value, "low": low, "high": high, "noise_error": noise_error,
-                "profile_error": profile_error, "start": start, "range": range,
-            };
-            (one.parameter.name(), value)
-        };
-        let correlation =
-            |&(one, other, value): &(Parameter, Parameter, f64)| (one.name(), other.name(), value);
-        let pair = |&(one, other): &(Parameter, Parameter)| [one.name(), other.name()];
-        Some(Box::new(object! {
-            "parameters": fit.parameters.iter().map(parameter).collect::<BTreeMap<_, _>>(),
-            "described": fit.describes(),
-            "reason": fit.reason.map(|reason| reason.to_string()),
-            "residual": fit.residual,
-            "noise": curve.noise,
-            "residual_over_noise": fit.residual_over_noise,
-            "beyond_five_sigma": fit.beyond_five_sigma,
-            "misfit": fit.misfit,
-            "pull_off_force": curve.pull_off_force(),
-            "pull_off_work": curve.pull_off_force().and_then(|force| self.pull_off_work(force)),
-            "tabor": fit.tabor,
-            "points_used": curve.points,
-            "points_left_out": curve.missing,
-            "correlations": fit.correlations.iter().map(correlation).collect::<Vec<_>>(),
-            "not_distinguished": fit.not_distinguished.iter().map(pair).collect::<Vec<_>>(),
-            "evaluations": fit.evaluations,
-            "scene": fit.document.scene(),
+        let pull_off_force = curve.pull_off_force();
+        Some(Box::new(FitJson {
+            described: fit.describes(),
+            fit,
+            noise: curve.noise,
+            pull_off_force,
+            pull_off_work: pull_off_force.and_then(|force| self.pull_off_work(force)),
+            points_used: curve.points,
+            points_left_out: curve.missing,
         }))
     }
 
@@ -163,7 +148,7 @@ impl Report for FitReport<'_> {
         let found = fit.parameters.iter().map(|one| {
             let [value, half] =
                 [one.value, 0.5 * (one.interval.1 - one.interval.0)].map(|value| one.text(value));
-            format!("{} = {value} ± {half}", one.parameter.row().2).replace(' ', "\u{a0}")
+            format!("{} = {value} ± {half}", one.parameter.row().symbol).replace(' ', "\u{a0}")
         });
         let notes = vec![Label::plain(&format!("95 % intervals: {}", found.collect::<Vec<_>>().join(", ")))];
         let charts = vec![Chart::new(x(), force, layers), Chart::new(x(), rest, rests)];
@@ -185,7 +170,7 @@ const ROUGH: &str = "These errors leave out that of the model: the adhesion forc
 
 fn separation(one: Parameter, other: Parameter) -> String {
     let remedy = Parameter::remedy(one, other);
-    let (one, other) = (one.row().2, other.row().2);
+    let (one, other) = (one.row().symbol, other.row().symbol);
     if one == other {
         return format!("The curve does not determine {one} within its range. It needs {remedy}.");
     }

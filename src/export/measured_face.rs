@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Share of the squared height in long waves above which it depends on the length of the scan.
 const MANY_LONG_WAVES: f64 = 0.3;
 
-/// Number of profiles from which on the moments are as accurate as those of a map.
+/// Number of profiles from which on the moments are as accurate as the moments of a map.
 const MANY_PROFILES: u64 = 100;
 
 /// Least and largest factor by which adhesion near its boundary varies between single profiles, as `docs/surfaces.md` states.
@@ -21,7 +21,7 @@ const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 const LARGEST_GRADIENT: f64 = 1.0;
 const FAR_APART: f64 = 30.0;
 
-/// A surface and its file. Of a profile the numbers for both axes are those along it alone.
+/// A surface and its file. A profile has one number where a map has a number for each axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
     #[serde(rename = "file", serialize_with = "in_unicode")]

@@ -7,7 +7,7 @@ use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
 use crate::draw::Figure;
 use crate::io::{Kind, Table};
 use crate::scene::{CheckedScene, Move, Scene, format_quantity, format_range};
-use crate::spectrum::{Along, Analysis, Bin, End, Estimate, LineMoments, Moment, Node, Statistics};
+use crate::spectrum::{Along, Analysis, Bin, End, Estimate, LineMoments, Moment, Node, PointStatistics};
 use crate::study::{self, MeasuredAdhesion, ProfileAdhesion, RegimeCounts};
 use crate::surface::EquivalentLine;
 use crate::text::{grouped, path_name, per_cent};
@@ -255,7 +255,7 @@ struct FaceJson<'a> {
     version: &'static str,
     files: &'a [SurfaceFile],
     #[serde(flatten)]
-    statistics: &'a Statistics,
+    statistics: &'a PointStatistics,
     reliability_cutoff: Option<f64>,
     hurst_exponent: Option<Estimate>,
     roll_off_wave_number: Option<Estimate>,

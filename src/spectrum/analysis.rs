@@ -5,7 +5,7 @@ use super::interlaced;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
 use super::observation::{self, Observation};
 use super::periodogram::{Along, Bin, MapPower, ProfilePower, bins, square};
-use super::statistics::{Statistics, Sums, reliability_cutoff};
+use super::statistics::{PointStatistics, Sums, reliability_cutoff};
 use super::{Detrend, SpectrumError};
 use crate::topography::{self, Place, Topography, TopographyError};
 use std::f64::consts::{PI, TAU};
@@ -21,10 +21,10 @@ const NEGLIGIBLE: f64 = 1e-4;
 const FLOOR: usize = 8;
 const CHANCE: f64 = 0.25;
 
-/// Largest ratio of the powers beyond the end of the spectrum to those of as many waves before.
+/// Largest ratio of the powers beyond the end of the spectrum to the powers of as many waves before.
 const DROP: f64 = 0.03;
 
-/// Least ratio of length and width of a map whose longest waves are those along its length.
+/// Least ratio of length and width of a map whose longest waves are the waves along the length.
 const NARROW: f64 = 2.0;
 
 /// Waves before an end inside the scan that the self-affine fit leaves out.
@@ -50,11 +50,11 @@ pub struct Options {
     pub tip_radius: Option<f64>,
 }
 
-/// Statistics, spectra and equivalent line of measured surfaces.
+/// PointStatistics, spectra and equivalent line of measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Statistics of the points.
-    pub statistics: Statistics,
+    /// PointStatistics of the points.
+    pub statistics: PointStatistics,
     /// Rms height of each surface, m.
     pub rms_heights: Vec<f64>,
     /// Spectra of the measured surfaces, in bins.
@@ -83,7 +83,7 @@ pub struct Analysis {
     /// Share of the squared gradient by which the waves along one axis depart from their neighbours in the plane although they
     /// are not left out; 0 for chance.
     pub apart: f64,
-    /// Distance, m, by which odd rows of a map are displaced along even ones, as those of two scans are; the largest one.
+    /// Distance, m, by which odd rows of a map are displaced along even ones, as rows of two scans are; the largest one.
     pub displaced: Option<f64>,
 }
 

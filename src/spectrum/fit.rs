@@ -1,7 +1,7 @@
 //! Spectrum of the largest penalised likelihood (Whittle): powers of waves are exponentially distributed about their means.
 //!
 //! Over the values x = ln C2D at the nodes, Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised, with the
-//! observed powers P of w waves and their means m(x). Steps are those of Fisher's scoring, halved until they descend.
+//! observed powers P of w waves and their means m(x). Steps follow Fisher's scoring, halved until they descend.
 //!
 //! Beside it the self-affine fit: C2D constant below a roll-off wave number, ∝ q^(−2−2H) above.
 
@@ -137,7 +137,7 @@ impl<'a> Model<'a> {
         Some(found)
     }
 
-    /// Largest departure of the moments of the measured powers from those of the fitted means over the same waves, among
+    /// Largest departure of the moments of the measured powers from the moments of the fitted means over the same waves, among
     /// profiles or maps of one kind, relative to the moments of the whole spectrum. Of several kinds, only what is beyond chance.
     fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
         let mut largest = [0.0_f64; 3];

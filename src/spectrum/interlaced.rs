@@ -10,7 +10,7 @@ const LEFT: f64 = 0.75;
 /// Returns the number of points by which odd rows of heights are displaced along even ones, where this is certain.
 ///
 /// Neighbouring rows of a surface are most alike in their places, or where the same displacement leads from each row to the next,
-/// as for a lay askew to the rows or a drift. A displacement that changes its sign from each pair to the next is that of two scans.
+/// as for a lay askew to the rows or a drift. A displacement that changes its sign from each pair to the next is the displacement of two scans.
 pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
     let rows = heights.len() / columns;
     let reach = REACH.min(columns / 8);

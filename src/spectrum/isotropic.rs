@@ -1,7 +1,7 @@
 //! Isotropic spectra C2D(q) between nodes, and their equivalent lines.
 
 use super::linear::Cholesky;
-use super::statistics::Statistics;
+use super::statistics::PointStatistics;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
@@ -65,13 +65,13 @@ pub struct Estimate {
 pub struct Moment {
     /// Value.
     pub value: f64,
-    /// Standard error: that of the likelihood and that of the method together.
+    /// Standard error of likelihood and method together.
     pub error: f64,
     /// Standard error of the likelihood: few waves are measured.
     pub statistical: f64,
     /// Error of the method: departure of the fit from the moments of the measured powers, and interpolated points.
     pub method: f64,
-    /// Largest change of the value, that of the resolved waves or that of all, if the spectrum continues beyond its last
+    /// Largest change of the value, of the resolved waves or of all waves, if the spectrum continues beyond its last
     /// resolved wave, as a power law to a quarter of that wavelength: short waves are missing, and in samples of points add to
     /// the powers of longer ones. Zero for a spectrum that ends inside the scan or is continued.
     pub missing_short_waves: f64,
@@ -106,7 +106,7 @@ pub struct LineMoments {
     pub rms_height: Moment,
     /// Rms gradient ⟨∇z⟩.
     pub rms_gradient: Moment,
-    /// Product h⟨∇z⟩, m, to which κ² is proportional. Its error is not that of independent factors.
+    /// Product h⟨∇z⟩, m, to which κ² is proportional. The factors are not independent.
     pub height_gradient: Moment,
     /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
     pub energy_per_modulus: Moment,
@@ -301,7 +301,7 @@ impl IsotropicSpectrum {
 
     /// Adds to the errors of the method what the rms height and gradient of the line depart from a height, if it is known, and
     /// the gradient of the measured points by more than three standard errors, as for a spike under the window.
-    pub(super) fn check_identities(&mut self, height: Option<f64>, measured: &Statistics) {
+    pub(super) fn check_identities(&mut self, height: Option<f64>, measured: &PointStatistics) {
         let resolved = line_moments(std::slice::from_ref(self));
         let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
         let departure = |moment: Moment, least: f64, most: f64| {

@@ -28,7 +28,7 @@ pub use fit::PowerLaw;
 pub(crate) use isotropic::line_moments;
 pub use isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment, Node};
 pub use periodogram::{Along, Bin, line_spectrum};
-pub use statistics::Statistics;
+pub use statistics::PointStatistics;
 
 use crate::memory::OutOfMemory;
 use crate::topography::TopographyError;

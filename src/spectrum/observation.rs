@@ -4,7 +4,7 @@ use super::isotropic::{Nodes, Term, gauss};
 use super::periodogram::{MapPower, ProfilePower};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Number of waves of a profile that are single observations; those beyond are averaged in bands.
+/// Number of waves of a profile that are single observations; shorter waves are averaged in bands.
 const SINGLE: usize = 32;
 
 /// Bands per decade: within one a power law with the exponent −3 departs from its mean by 0.1 %.

@@ -102,7 +102,7 @@ const COMPARED: f64 = 1.0 / 8.0;
 /// Least number of waves that may be left out, over the number of points: longer ones have more power than offsets.
 const LEFT_OUT: f64 = 1.0 / 32.0;
 
-/// Departure of the mean power of n waves along an axis from that of their neighbours, relative and times √n, that is no
+/// Departure of the mean power of n waves along an axis from the mean power of their neighbours, relative and times √n, that is no
 /// chance: about four standard deviations under a window.
 const NO_CHANCE: f64 = 12.0;
 

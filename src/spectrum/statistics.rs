@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-/// Statistics of the points of one or more surfaces, after detrending.
+/// PointStatistics of the points of one or more surfaces, after detrending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Statistics {
+pub struct PointStatistics {
     /// Number of points.
     pub points: usize,
     /// Root mean square height about the mean (Rq of profiles, Sq of maps), m.
@@ -15,7 +15,7 @@ pub struct Statistics {
     pub rms_gradient: Option<f64>,
     /// Mean cube of the height over the cube of the rms height.
     pub skewness: f64,
-    /// Mean fourth power of the height over that of the rms height: 3 for normally distributed heights.
+    /// Mean fourth power of the height over the fourth power of the rms height: 3 for normally distributed heights.
     pub kurtosis: f64,
 }
 
@@ -57,12 +57,12 @@ impl Sums {
         self.has_profile |= rows < 2;
     }
 
-    pub fn statistics(&self) -> Statistics {
+    pub fn statistics(&self) -> PointStatistics {
         let count = self.points as f64;
         let square = self.squares / count;
         let mean_square = |(sum, count): (f64, usize)| sum / count.max(1) as f64;
         let [along, between] = self.slopes.map(mean_square);
-        Statistics {
+        PointStatistics {
             points: self.points,
             rms_height: square.sqrt(),
             rms_slope: along.sqrt(),

@@ -1,4 +1,4 @@
-//! Macroscopic forms, and their MDR transforms g(x) of profiles f(r): that of waves is a Struve function.
+//! Macroscopic forms, and their MDR transforms g(x) of profiles f(r): waves become a Struve function.
 
 use super::SurfaceError;
 use super::table::{FormTable, Rows};

@@ -45,7 +45,7 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// The same for a form and roughness, whose memory becomes that of the gaps.
+    /// The same for a form and roughness, whose memory becomes the memory of the gaps.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,

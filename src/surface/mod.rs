@@ -1,5 +1,6 @@
 //! The rigid profile: macroscopic form, self-affine or measured roughness, and its statistics.
 
+mod equivalent;
 mod form;
 mod line;
 mod measured;
@@ -7,9 +8,10 @@ mod modes;
 mod roughness;
 mod spectrum;
 mod table;
+pub use equivalent::EquivalentLine;
 pub use form::{Form, power_law_factor, struve_0};
 pub use line::{Histogram, Line};
-pub use measured::{EquivalentLine, Face, MeasuredOptions, MeasuredProfile, MeasuredRoughness, read_faces};
+pub use measured::{Face, MeasuredOptions, MeasuredProfile, MeasuredRoughness, read_faces};
 pub use modes::phases;
 pub use roughness::Synthesizer;
 pub use spectrum::{Amplitude, SelfAffine};

@@ -127,7 +127,7 @@ impl SelfAffine {
     /// twice the last mode. Length and rms height scale the heights; they depend only on spectrum, seed, number and
     /// position of the points.
     ///
-    /// The rms height is that of the sum of cosines over the whole length. Two grids sample the same profile, to
+    /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile, to
     /// the rounding of the transform.
     pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {
         Synthesizer::default().synthesize(self, seed, points, 0.0, Vec::new())

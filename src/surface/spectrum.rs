@@ -26,7 +26,7 @@ pub struct SelfAffine {
 }
 
 impl SelfAffine {
-    /// Amplitude of mode k in units of that of mode 1 without a roll-off.
+    /// Amplitude of mode k over the amplitude of mode 1 of the same spectrum without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;

@@ -211,7 +211,7 @@ impl FormTable {
     }
 }
 
-/// Slope of the form at a row, from the secants between rows: that of the parabola through three rows, at most three times
+/// Slope of the form at a row, from the secants between rows: the slope of the parabola through three rows, at most three times
 /// the smaller secant beside the row, and zero where the secants differ in sign. Between two rows the cubic then stays between
 /// their depths. Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
 fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {

@@ -58,8 +58,8 @@ enum Mode {
     Curvature,
 }
 
-/// Returns the measurements of the surface of a name, or the measurement of that name; without a name, those of the only
-/// surface.
+/// Returns the measurements of the surface of a name, or the measurement of that name; without a name, the measurements of
+/// the only surface.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],

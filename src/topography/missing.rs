@@ -1,4 +1,4 @@
-//! Missing points, interpolated from their neighbours, and outliers: heights far from those around them, as spikes of an
+//! Missing points, interpolated from their neighbours, and outliers: heights far from the heights around them, as spikes of an
 //! instrument and grains of dust are.
 
 use super::{Place, TopographyError, refused};

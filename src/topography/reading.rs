@@ -90,7 +90,7 @@ impl Reading {
         Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
     }
 
-    /// Multiplies the heights by a scale, but for those that mark missing points.
+    /// Multiplies the heights by a scale, except for the marks of missing points.
     pub fn scaled(mut self, is_missing: impl Fn(f64) -> bool, scale: f64) -> Reading {
         for height in &mut self.heights {
             *height = if is_missing(*height) { f64::NAN } else { *height * scale };
@@ -214,7 +214,7 @@ impl Reading {
     }
 }
 
-/// Checks that no length, m, is beyond the largest one, of those that `counts`.
+/// Checks that no length, m, for which `counts` holds is beyond the largest one.
 fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), TopographyError> {
     let is_beyond = |length: &f64| counts(*length) && (length.is_nan() || length.abs() > LARGEST);
     let Some(index) = lengths.iter().position(is_beyond) else { return Ok(()) };

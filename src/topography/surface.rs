@@ -216,7 +216,7 @@ impl Topography {
         })
     }
 
-    /// Distances between points along and between rows, m; those of a profile are equal.
+    /// Distances between points along and between rows, m; both are equal for a profile.
     ///
     /// # Errors
     /// A profile with unequal spacing: the first point that lies off the even grid from the first to the last point

@@ -10,7 +10,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 const LONGEST_INDEX: usize = 1 << 26;
 
 /// Most attributes of `main.xml`, declarations of namespaces among them. The parser compares each with all others of
-/// its element, and those of an element with all that it inherits.
+/// its element, and declarations with all that the element inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
 pub(super) const INDEX: &str = "main.xml";
@@ -76,7 +76,7 @@ fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
-/// Reads the heights of a binary file of an archive; those marked invalid in its bit field are missing.
+/// Reads the heights of a binary file of an archive; heights marked invalid in the bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,

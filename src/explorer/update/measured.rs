@@ -100,7 +100,7 @@ pub fn failure(app: &App) -> Option<&str> {
 fn sentence(fit: &Fit) -> String {
     let found = |one: &FittedParameter| {
         let interval = one_unit([one.interval.0, one.interval.1].map(|end| one.text(end)));
-        format!("{} {} ({interval})", one.parameter.row().2, one.text(one.value))
+        format!("{} {} ({interval})", one.parameter.row().symbol, one.text(one.value))
     };
     let found = fit.parameters.iter().map(found).collect::<Vec<_>>().join(", ");
     match fit.reason {

@@ -17,7 +17,7 @@ const HEIGHT: &str = "height výška höhe altura hauteur altezza 高さ 높이 
 const CHANNEL: &str = "channel kanál kanal canal canale チャネル 채널 канал";
 const UNIT: &str = "unit units einheit einheiten jednotka jednotky unité unités unità unidad unidades единицы 単位 단위 値の単位";
 
-/// Words beside `unit` in a key: those of heights, of both positions, and of all lengths.
+/// Words beside `unit` in a key: words for heights, for both positions, and for all lengths.
 const OF_HEIGHTS: &str = "z value values height heights data hodnot valore valor 값";
 const OF_POSITIONS: &str = "xy lateral position positions distance";
 const OF_ALL: &str = "length lengths de измерения";

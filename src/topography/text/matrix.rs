@@ -25,7 +25,7 @@ fn even_steps(
 }
 
 /// The map of rows of `columns` numbers, with distances if the first row and the first column hold positions. If these count
-/// rows and columns from 0 or 1, the distances are not known. `digits` are those of the first row and of the first column.
+/// rows and columns from 0 or 1, the distances are not known. `digits` are the digits of the first row and of the first column.
 pub(super) fn without_positions(
     mut numbers: Vec<f64>,
     columns: usize,

@@ -23,13 +23,13 @@ const MOST_COUNTS: usize = 3;
 pub(super) struct Table {
     separator: Separator,
     decimal: Decimal,
-    /// Cells of a line, those of separators at its end among them, and cells up to the last one that is not empty.
+    /// Cells of a line, empty cells at the end among them, and cells up to the last one that is not empty.
     cells: usize,
     width: usize,
     values: Vec<f64>,
     /// True for a column with a cell that is not empty.
     is_filled: Vec<bool>,
-    /// Digits of the first columns, and those of the first line without its first number.
+    /// Digits of the first columns, and digits of the first line without its first number.
     digits: [Digits; FEW_COLUMNS],
     first_line: Digits,
     /// Rows and line numbers where these do not follow the row and the line before.
@@ -216,7 +216,7 @@ impl Table {
         Err(refused(Place::Line(number), fault, allowed))
     }
 
-    /// Number of columns without those that are only separators at the ends of lines.
+    /// Number of columns up to the last one with a cell that is not empty.
     fn columns(&self) -> usize {
         self.is_filled.iter().rposition(|is_filled| *is_filled).map_or(1, |last| last + 1)
     }

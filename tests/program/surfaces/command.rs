@@ -1,7 +1,6 @@
 //! `asperity surface`, and scenes of measured surfaces: what they state follows from the files, and from each other.
 
 use crate::program::{Finished, asperity_in, rows, table};
-use asperity::scene::format_quantity;
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -71,18 +70,14 @@ impl Place {
         serde_json::from_str(&self.run(&[arguments, &["--format", "json"]].concat())).unwrap()
     }
 
-    /// Result of a scene with this version and roughness; the scene remains as `scene.ron`.
-    fn scene(&self, version: u32, roughness: &str) -> Value {
+    /// Rms height of a scene with this roughness; the scene remains as `scene.ron`.
+    fn rms_height(&self, roughness: &str) -> f64 {
         let text = format!(
-            "(version: {version}, material: (effective_modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
+            "(version: 2, material: (effective_modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
              roughness: Measured({roughness}), numerics: (points: 2048))"
         );
         self.write("scene.ron", &text);
-        self.json(&["run", "scene.ron"])
-    }
-
-    fn rms_height(&self, roughness: &str) -> f64 {
-        number(&self.scene(2, roughness)["line"]["rms_height"])
+        number(&self.json(&["run", "scene.ron"])["line"]["rms_height"])
     }
 }
 
@@ -254,34 +249,6 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     assert_equal(table(&lines).next().unwrap()[1], number(&first["adhesion_force"]), 1e-12);
     // Without a work of adhesion there is no adhesion force.
     assert_eq!(place.json(&["surface", "line.txt", "--modulus", "1MPa"])["adhesion"], Value::Null);
-}
-
-#[test]
-fn older_scenes_keep_the_profile_as_the_line() {
-    let place = Place::new();
-    let force = |version, as_line: &str| {
-        number(&place.scene(version, &format!("file: \"line.txt\"{as_line}"))["adhesion_force"])
-    };
-    let [older, profile, line] = [force(1, ""), force(2, ", as_line: true"), force(2, "")];
-    assert_eq!((older, line), (profile, force(1, ", as_line: false")));
-    assert_ne!(profile, line);
-    let line = number(&place.scene(2, "file: \"line.txt\"")["adhesion_force"]);
-    let text = place.run(&["compare", "scene.ron", "--as-line", "--format", "text"]);
-    let [of_line, of_profile, ratio] = [(line, "N"), (profile, "N"), (profile / line, "1")]
-        .map(|(value, unit)| format_quantity(value, unit));
-    let stated = format!("adhesion force F_a: {of_line} → {of_profile}, ratio {ratio}\n");
-    assert!(text.contains(&stated), "{stated}: {text}");
-    // The second scene is the first with the profile as the line, overrides of both included.
-    std::fs::copy(place.path().join("scene.ron"), place.path().join("line.ron")).unwrap();
-    place.scene(2, "file: \"line.txt\", as_line: true");
-    let curves = |scenes: &[&str]| -> Vec<String> {
-        let text = place.run(&[&["compare"], scenes, &["--set", "adhesion.work=0.1"]].concat());
-        // Without the names of the scenes, above and in the legend.
-        let is_curve = |line: &&str| !line.contains("A: ") && !line.contains("B: ");
-        text.lines().skip(2).filter(is_curve).map(str::to_owned).collect()
-    };
-    assert_eq!(curves(&["line.ron", "--as-line"]), curves(&["line.ron", "scene.ron"]));
-    assert_eq!(asperity_in(place.path(), &["compare", "line.ron", "scene.ron", "--as-line"]).code, Some(2));
 }
 
 #[test]
