@@ -1,8 +1,8 @@
 //! Arguments of the program.
 
 use super::{
-    check, compare, completions, config, cost, demo, explore, fit, line, plan, presets, reversals, run,
-    sensitivity, surface, sweep,
+    check, completions, cost, demo, explore, fit, line, plan, presets, reversals, run, sensitivity, surface,
+    sweep,
 };
 use clap::{Parser, Subcommand};
 
@@ -46,15 +46,13 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(run::RunArguments),
-    /// Show two scenes side by side: profiles, force curves, differences
-    Compare(compare::CompareArguments),
     /// Unload a scene from many turning points: reversal curves, adhesion against preload
     Reversals(reversals::ReversalsArguments),
     /// Change each number of a scene by 10 %: adhesion force, dissipated energy
     Sensitivity(sensitivity::SensitivityArguments),
     /// Fit a scene to a measured force curve: work of adhesion, other parameters, errors
     Fit(fit::FitArguments),
-    /// Play the explorer without a keyboard: on screen, as text, or as a recording
+    /// Play the explorer without a keyboard: on screen, as text, or as a picture
     Demo(demo::DemoArguments),
     /// List the computing stages of a scene with their cost, and those it skips
     Plan(plan::PlanArguments),
@@ -71,8 +69,6 @@ pub enum Command {
     /// List, show and check scenes
     #[command(subcommand)]
     Presets(presets::PresetsCommand),
-    /// Print the configuration of the explorer, or write a template of it
-    Config(config::ConfigArguments),
     /// Print a completion script for a shell
     Completions(completions::CompletionsArguments),
 }

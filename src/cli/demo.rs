@@ -7,7 +7,7 @@ use super::scene::Overrides;
 use crate::explorer::demo::{Demo, ONE_SCENE, TOUR, play};
 use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};
-use crate::explorer::{Recording, picture_of, screenshot};
+use crate::explorer::{picture_of, screenshot};
 use crate::io::write_new;
 use crate::scene::{open_argument, presets};
 use clap::Args;
@@ -19,7 +19,6 @@ Examples:
   asperity demo                             Watch a tour of the built-in scenes; any key ends it
   asperity demo rough-sphere                Watch one scene being pressed and pulled off
   asperity demo --frames --ascii | less     Read the tour frame by frame
-  asperity demo --cast tour.cast            Record it for `asciinema play tour.cast`
   asperity demo my-scene.ron --at 8 --picture screen.svg
                                             Take a picture of the screen after 8 seconds
 
@@ -55,12 +54,9 @@ pub struct DemoArguments {
     pub marker: Option<Marker>,
     /// Colours
     ///
-    /// Default: dark for a recording and a picture, else chosen from NO_COLOR and COLORFGBG.
+    /// Default: dark for a picture, else chosen from NO_COLOR and COLORFGBG.
     #[arg(long, value_enum)]
     pub theme: Option<Theme>,
-    /// Record to FILE, an asciicast of version 2
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["frames", "at"])]
-    pub cast: Option<PathBuf>,
     /// Print only the frame at this time
     #[arg(long, value_name = "SECONDS", value_parser = |text: &str| number(text, 0.0, 3600.0))]
     pub at: Option<f64>,
@@ -88,21 +84,20 @@ fn size(text: &str) -> Result<(u16, u16), String> {
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
-    for (file, extension) in [(&arguments.cast, "cast"), (&arguments.picture, "svg")] {
-        file.as_ref().map_or(Ok(()), |file| check_file(file, extension, arguments.force))?;
+    if let Some(file) = &arguments.picture {
+        check_file(file, "svg", arguments.force)?;
     }
-    let name = arguments.scene.clone().unwrap_or_else(|| "tour".to_owned());
     let script = if arguments.scene.is_some() { ONE_SCENE } else { TOUR };
-    let watched = !arguments.frames
-        && arguments.at.is_none()
-        && arguments.cast.is_none()
-        && stdout().is_terminal()
-        && io::stdin().is_terminal();
-    let recorded = arguments.cast.is_some() || arguments.picture.is_some();
+    let watched =
+        !arguments.frames && arguments.at.is_none() && stdout().is_terminal() && io::stdin().is_terminal();
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         // A file does not depend on its environment.
-        theme: arguments.theme.unwrap_or(if recorded { Theme::Dark } else { environment.theme }),
+        theme: arguments.theme.unwrap_or(if arguments.picture.is_some() {
+            Theme::Dark
+        } else {
+            environment.theme
+        }),
         marker: match arguments.marker {
             _ if arguments.ascii => Marker::Ascii,
             marker => marker.unwrap_or(environment.marker),
@@ -110,7 +105,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     };
     let of_terminal = if watched { crossterm::terminal::size().ok() } else { None };
     let size = arguments.size.or(of_terminal).unwrap_or((120, 40));
-    let is_read = !watched && !recorded && arguments.at.is_none();
+    let is_read = !watched && arguments.at.is_none();
     let fps = arguments.fps.unwrap_or(if is_read { READ } else { WATCHED });
     let mut demo = Demo::new(document, script, size, appearance, fps);
     if let Some(at) = arguments.at {
@@ -123,23 +118,12 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
             None => Ok(stdout_.write_all(text(&picture_of(app)).as_bytes())?),
         };
     }
-    if let Some(file) = &arguments.cast {
-        return Ok(write_new(file, arguments.force, |out| record(out, &mut demo, size, &name))?);
-    }
     if watched {
         return play(&mut demo, fps).map_err(failed);
     }
     while let Some(seconds) = demo.advance() {
         writeln!(stdout_, "== {seconds:.2} s ==")?;
         stdout_.write_all(text(&picture_of(demo.app())).as_bytes())?;
-    }
-    Ok(())
-}
-
-fn record(out: &mut dyn Write, demo: &mut Demo, size: (u16, u16), name: &str) -> io::Result<()> {
-    let mut recording = Recording::new(out, size, &format!("Asperity: {name}"))?;
-    while let Some(seconds) = demo.advance() {
-        recording.frame(seconds, demo.app())?;
     }
     Ok(())
 }

@@ -1,16 +1,17 @@
 //! `asperity [SCENE]`: opens the explorer on a scene or on a finished study.
 
 use super::error::CliError;
-use super::scene::Overrides;
+use super::removed;
+use super::scene::{Overrides, compute};
 use crate::experiment::{CurveOptions, MeasuredCurve};
-use crate::explorer::app::Measured;
+use crate::explorer::app::{Ghost, Measured};
 use crate::explorer::autosave::{self, Kept};
 use crate::explorer::config::{Config, default_path};
 use crate::explorer::keys::bindings;
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::{self, Opening, OpeningError, Options, view};
 use crate::export::brief_summary;
-use crate::scene::{did_you_mean, quoted};
+use crate::scene::{did_you_mean, open_argument, quoted};
 use crate::simulation::Simulation;
 use crate::text::path_name;
 use clap::Args;
@@ -28,6 +29,9 @@ pub struct ExploreArguments {
     pub scene: Option<String>,
     #[command(flatten)]
     pub overrides: Overrides,
+    /// Compare with this scene: its curve is shown as a ghost
+    #[arg(long, value_name = "OTHER", conflicts_with = "restore")]
+    pub compare: Option<String>,
     #[command(flatten)]
     pub look: LookArguments,
     /// Open the unsaved changes of a session that was interrupted
@@ -100,12 +104,9 @@ pub(super) fn explore(
     out: &mut dyn Write,
 ) -> Result<(), CliError> {
     let unsaved = autosave::folder();
-    let (restored, skipped) =
-        if arguments.restore { restored(unsaved.as_deref())? } else { Default::default() };
+    let restored = arguments.restore.then(|| restored(unsaved.as_deref())).transpose()?;
     let first = restored.as_ref().and_then(|kept| kept.documents.first().cloned());
-    let mut options = Options { restored, unsaved, ..arguments.look.options()? };
-    options.warning =
-        [options.warning, skipped].into_iter().flatten().reduce(|one, other| format!("{one}; {other}"));
+    let options = Options { restored, unsaved, ..arguments.look.options()? };
     let opening = first.map_or_else(
         || opening(arguments, &options.config.scene, commands),
         |document| Ok(document.into()),
@@ -127,7 +128,7 @@ pub(super) fn failed(error: impl Display) -> CliError {
 }
 
 /// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
-pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
+fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(CliError::message(format!(
             "TERM=dumb: the explorer places characters, this terminal does not; asperity run {} computes the scene \
@@ -145,22 +146,20 @@ pub(super) fn open(opening: Opening, options: Options, out: &mut dyn Write) -> R
     Ok(())
 }
 
-/// Newest unsaved changes of an ended session, and a statement of the newer files that cannot be read.
-fn restored(folder: Option<&Path>) -> Result<(Option<Kept>, Option<String>), CliError> {
-    let (newest, skipped) = folder.map(autosave::newest).unwrap_or_default();
-    let skipped = (!skipped.is_empty()).then(|| skipped.join("; "));
-    if newest.is_none() {
-        let none = "no unsaved changes are kept; asperity opens a scene".to_owned();
-        let why = skipped.map_or(none, |why| format!("nothing kept can be read: {why}"));
-        return Err(CliError::named("--restore", why));
-    }
-    Ok((newest, skipped.map(|why| format!("--restore skips what cannot be read: {why}"))))
+/// Newest unsaved changes of an ended session.
+fn restored(folder: Option<&Path>) -> Result<Kept, CliError> {
+    let none = || "no unsaved changes are kept; asperity opens a scene".to_owned();
+    let newest = folder.map_or(Ok(None), autosave::newest);
+    newest.and_then(|newest| newest.ok_or_else(none)).map_err(|why| CliError::named("--restore", why))
 }
 
 fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Result<Opening, CliError> {
     let name = arguments.scene.as_deref().unwrap_or(default);
     let mut opening = Opening::of_argument(name).map_err(|error| match error {
         OpeningError::Scene(errors) => {
+            if let Some(why) = removed::instead([name]) {
+                return CliError::message(why);
+            }
             // A single word that is no scene may be a misspelt command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
             if is_word && !std::path::Path::new(name).exists() {
@@ -173,6 +172,11 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
         error => CliError::message(error.to_string()),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
+    if let Some(other) = &arguments.compare {
+        let document = open_argument(other)?;
+        let outcome = compute(&document, document.scene())?.into();
+        opening.ghost = Some(Ghost { document, outcome });
+    }
     if arguments.measured.is_none() && arguments.reading != CurveOptions::default() {
         return Err(CliError::message(
             "--columns, --units and the like read a measured curve: --measured CURVE names its file",

@@ -5,9 +5,7 @@
 
 mod arguments;
 mod check;
-mod compare;
 mod completions;
-mod config;
 mod cost;
 mod demo;
 mod error;
@@ -96,14 +94,11 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 /// the words that follow for another command, or for options of none.
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
-    let unknown = error.get(ContextKind::InvalidArg).map(ToString::to_string);
-    let first = typed.get(1).map(|word| word.to_string_lossy());
-    let removed = unknown.as_deref().into_iter().chain(first.as_deref()).find_map(removed::refusal);
-    if let Some(refusal) = removed {
-        return command.error(ErrorKind::UnknownArgument, refusal);
-    }
     let names = names(&command);
     let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
+    if let Some(message) = removed::instead(words.iter().map(AsRef::as_ref)).filter(|_| error.use_stderr()) {
+        return command.error(ErrorKind::InvalidSubcommand, message);
+    }
     let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
     let (Some(first), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument) =
         (words.first(), error.kind())
@@ -135,7 +130,6 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
     match &arguments.command {
         None => explore::explore(&arguments.explore, &names(&Arguments::command()).join(", "), stdout),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
-        Some(Command::Compare(arguments)) => compare::compare(arguments, stdout),
         Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),
         Some(Command::Sensitivity(arguments)) => sensitivity::sensitivity(arguments, stdout),
         Some(Command::Fit(arguments)) => fit::fit(arguments, stdout),
@@ -147,7 +141,6 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Line(arguments)) => line::line(arguments, stdout),
         Some(Command::Surface(arguments)) => surface::surface(arguments, stdout),
         Some(Command::Presets(command)) => presets::presets(command, stdout),
-        Some(Command::Config(arguments)) => config::config(arguments, stdout),
         Some(Command::Completions(arguments)) => {
             completions::completions(arguments, Arguments::command(), stdout)
         }

@@ -20,7 +20,7 @@ mod ticks;
 
 pub use axis::Axis;
 #[cfg(feature = "tui")]
-pub use cells::{CellPlot, CellStyle, Colours, SHADES, dry, figure_text, glyph, key, legend};
+pub use cells::{CellPlot, CellStyle, Colours, SHADES, figure_text, glyph, key, legend};
 pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stroke};
 pub use colour::{Ink, Palette, Rgb, Shades, hex};
 pub use label::{Label, prefixed, statement, value_label};

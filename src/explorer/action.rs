@@ -4,7 +4,6 @@ use super::keys::Command;
 use super::opening::Opening;
 use super::snapshot::Report;
 use super::studies::Finding;
-use super::theme::Appearance;
 use crate::export::Format;
 use crate::scene::Entry;
 use crossterm::event::KeyEvent;
@@ -30,8 +29,6 @@ pub enum Action {
     Completed(Vec<String>),
     /// A scene or a study opened by its path, or the reason for none.
     Opened(String, Result<Box<Opening>, String>),
-    /// Configuration file with the kept appearance, or an error.
-    Remembered(Result<PathBuf, String>),
     Mouse(Mouse),
 }
 
@@ -43,10 +40,6 @@ pub enum Effect {
     /// Perform the remaining studies of the scene, see [`super::update::studies`], and no others.
     Study,
     Write(OutputFile),
-    Remember {
-        path: PathBuf,
-        appearance: Appearance,
-    },
     List,
     Complete(String),
     Open(String),
@@ -92,14 +85,6 @@ pub struct Mouse {
 pub enum Gesture {
     Press,
     Drag,
-    /// Its wheel turns: up is positive.
+    /// Turns of the wheel, positive upwards.
     Wheel(i32),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Traffic {
-    /// Most frames in a second.
-    pub frames: u32,
-    /// Bytes written in the last second.
-    pub bytes: u64,
 }

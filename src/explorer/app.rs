@@ -1,10 +1,10 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::action::{Effect, Traffic};
+use super::action::Effect;
 use super::config::Config;
 pub use super::editor::Editor;
 use super::editor::scene_of;
-use super::keys::Command;
+use super::keys::{Command, Context};
 use super::map::Live;
 pub use super::map::{MapState, OpenStudy};
 pub use super::measured::Measured;
@@ -15,12 +15,12 @@ pub use super::player::Player;
 use super::player::{indentations, start_of};
 use super::prompt::{Prompt, Purpose};
 use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, Drive, Preview, SolvedScene};
+use super::snapshot::{ContactSnapshot, Drive, Preview, Section, SolvedScene};
 use super::studies::Findings;
 use super::theme::Appearance;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
-use crate::draw::{AxisScale, Span};
+use crate::draw::AxisScale;
 use crate::export::LoopQuantities;
 use crate::scene::{Change, Document, Move, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
@@ -69,19 +69,11 @@ pub struct CurveLook {
     pub loss: bool,
 }
 
-/// Horizontal axis of adhesion against preload.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PreloadAxis {
-    pub scale: AxisScale,
-    /// Preloads in coordinates of the scale; `None`: around the preload of the scene.
-    pub span: Option<Span>,
-}
-
+/// A computed scene kept for comparison.
 #[derive(Clone, Debug)]
 pub struct Ghost {
     pub document: Document,
-    pub computed: Arc<SolvedScene>,
-    pub snapshot: Option<Arc<ContactSnapshot>>,
+    pub outcome: Arc<Outcome>,
 }
 
 impl Ghost {
@@ -112,24 +104,19 @@ pub struct View {
     pub pane: Pane,
     /// Pane in the place of profile and close-up; `None`: these.
     pub large: Option<Pane>,
-    /// Pane in the place of the close-up, or the close-up.
-    pub lower: Pane,
     /// True if the chosen pane has the whole screen.
     pub zoomed: bool,
     pub size: (u16, u16),
     pub appearance: Appearance,
-    /// True where octants have no known width: `M` skips them.
-    pub lacks_octants: bool,
     pub look: CloseUpTarget,
     pub profile: LineView,
     pub curve: CurveLook,
-    /// Axis of adhesion against preload.
-    pub preloads: PreloadAxis,
+    /// Scale of the preloads of adhesion against preload.
+    pub preloads: AxisScale,
     /// Position of the crosshair as a share of the profile, or of the horizontal axis of another chart.
     pub crosshair: Option<f64>,
     /// True if times are shown: they differ from run to run.
     pub shows_times: bool,
-    pub traffic: Option<Traffic>,
     /// Line in place of the keys, which have no effect while a script plays.
     pub demo: Option<&'static str>,
 }
@@ -152,15 +139,13 @@ pub struct App {
     pub map: MapState,
     /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
-    /// Scene to open beside the present one once that is computed.
-    pub opens_beside: Option<Document>,
     pub measured: Option<Measured>,
     /// Scene with the value being typed, whose outcome is awaited.
     pub tried: Option<Document>,
     pub prompt: Option<Prompt>,
     pub message: Option<Message>,
     pub config: Config,
-    /// Command chosen in the list of commands or in the footer, to be run next.
+    /// Command chosen in the list of commands, to be run next.
     pub chosen: Option<Command>,
     pub finished: bool,
     pub(super) effects: Vec<Effect>,
@@ -169,10 +154,6 @@ pub struct App {
 }
 
 impl App {
-    pub fn newest_letter(&self) -> &'static str {
-        letter(self.ghosts.len().saturating_sub(1))
-    }
-
     /// The explorer just opened on a scene or a study.
     pub fn new(
         opening: impl Into<Opening>,
@@ -180,7 +161,7 @@ impl App {
         appearance: Appearance,
         config: Config,
     ) -> Self {
-        let Opening { document, study_map, beside, measured } = opening.into();
+        let Opening { document, study_map, ghost, measured } = opening.into();
         let springs = CloseUpTarget::springs_shown(&document);
         let mut app = App {
             edit: Editor::new(document),
@@ -189,18 +170,15 @@ impl App {
             view: View {
                 pane: Pane::Force,
                 large: None,
-                lower: Pane::CloseUp,
                 zoomed: false,
                 size,
                 appearance,
-                lacks_octants: false,
                 look: CloseUpTarget { focus: Focus::Summit, springs },
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),
-                preloads: PreloadAxis::default(),
+                preloads: AxisScale::default(),
                 crosshair: None,
                 shows_times: true,
-                traffic: None,
                 demo: None,
             },
             solved: None,
@@ -208,8 +186,7 @@ impl App {
             progress: Some(0),
             studies: Findings::default(),
             map: MapState::default(),
-            ghosts: Vec::new(),
-            opens_beside: beside,
+            ghosts: ghost.into_iter().collect(),
             measured: None,
             tried: None,
             prompt: None,
@@ -221,7 +198,9 @@ impl App {
             asked: None,
         };
         if let Some(study_map) = study_map {
-            app.show_study(study_map);
+            app.map.open_study(study_map, 0);
+            app.map.of_study = true;
+            app.show(Pane::Map);
         }
         if let Some(measured) = measured {
             app.show_measured(measured);
@@ -377,8 +356,58 @@ impl App {
         all.get(place).or(all.first()).copied().unwrap_or(now)
     }
 
-    pub fn beside(&self) -> Option<&Ghost> {
-        self.ghosts.last().filter(|_| self.view.lower == Pane::Beside)
+    /// The selectable panes, the most important first.
+    pub fn panes(&self) -> Vec<Pane> {
+        match self.view.large {
+            Some(large) => vec![Pane::Force, large, Pane::Parameters],
+            None => vec![Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp],
+        }
+    }
+
+    /// Returns true if a pane is in its place, as far as the window has room.
+    pub fn is_shown(&self, pane: Pane) -> bool {
+        self.panes().contains(&pane)
+    }
+
+    /// Shows and selects a pane, or hides it again. A shown map with another pane selected is selected first: a user in
+    /// another pane wants its keys.
+    pub fn toggle(&mut self, pane: Pane) {
+        let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
+        if self.is_shown(pane) && is_in_use { self.show_large(None, Pane::Force) } else { self.show(pane) }
+    }
+
+    /// Shows a pane in its place and selects it.
+    pub fn show(&mut self, pane: Pane) {
+        let large = if pane.is_large() { Some(pane) } else { self.view.large };
+        self.show_large(large, pane);
+    }
+
+    /// Shows this pane, or none, in place of profile and close-up, where other data are studied, and selects a pane.
+    fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
+        if std::mem::replace(&mut self.view.large, large) != large {
+            self.effects.push(Effect::Study);
+        }
+        self.view.pane = selected;
+    }
+
+    /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
+    /// parameters digits begin a value.
+    pub fn keys(&self) -> Context {
+        match (&self.prompt, self.view.pane.keys()) {
+            (Some(prompt), _) => prompt.context(),
+            (None, Context::Crosshair) if self.view.crosshair.is_none() => Context::Explore,
+            (None, of_pane) => of_pane,
+        }
+    }
+
+    /// The part of the profile in the selected pane.
+    pub fn section(&self) -> Option<&Section> {
+        let snapshot = self.snapshot.as_ref()?;
+        match self.view.pane {
+            Pane::CloseUp => Some(&snapshot.close_up.section),
+            Pane::Profile => Some(&snapshot.profile),
+            _ => None,
+        }
     }
 
     pub fn drive(&self) -> Drive {
@@ -416,7 +445,7 @@ impl App {
         match parameter.setting {
             Setting::RoughnessParameter(parameter) => governing.parameter(parameter).map(ron_float),
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
-            Setting::Field | Setting::Switch(_) | Setting::Heading => None,
+            Setting::Field | Setting::Heading => None,
         }
     }
 

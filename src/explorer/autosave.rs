@@ -5,7 +5,6 @@ use crate::io::{into_text, open_regular, read_limited};
 use crate::scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
-use std::cmp::Reverse;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf, absolute};
@@ -25,6 +24,7 @@ struct Copy {
     overrides: Vec<(String, String)>,
 }
 
+/// The file of a session.
 pub struct Autosave {
     path: PathBuf,
     /// The file, locked; `None` without unsaved changes.
@@ -46,31 +46,31 @@ pub struct Kept {
     pub documents: Vec<Document>,
 }
 
-/// Returns the newest unsaved changes of an ended session, and the reasons why newer files are not read.
-pub fn newest(folder: &Path) -> (Option<Kept>, Vec<String>) {
-    let is_copy = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "ron");
+/// Returns the newest unsaved changes of an ended session; `None` without any.
+///
+/// # Errors
+/// The newest file of an ended session cannot be read.
+pub fn newest(folder: &Path) -> Result<Option<Kept>, String> {
     let files = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut files: Vec<PathBuf> = files.filter(is_copy).collect();
-    files.sort_by_key(|path| Reverse(fs::metadata(path).and_then(|found| found.modified()).ok()));
-    let mut skipped = Vec::new();
-    for path in files {
-        let read = match open_regular(&path) {
-            // A session that runs, or that has taken the file at the same time.
-            Ok(file) if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) => continue,
-            Ok(lock) => read(&lock).map(|documents| (lock, documents)),
-            Err(error) => Err(error.to_string()),
-        };
-        match read {
-            Ok((lock, documents)) => return (Some(Kept { path, lock, documents }), skipped),
-            Err(why) => skipped.push(format!("{}: {why}", path.display())),
+    let mut files: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|end| end == "ron")).collect();
+    files.sort_by_key(|path| fs::metadata(path).and_then(|found| found.modified()).ok());
+    while let Some(path) = files.pop() {
+        let wrong = |why: String| format!("{}: {why}", path.display());
+        let lock = open_regular(&path).map_err(|error| wrong(error.to_string()))?;
+        // A session that runs, or that has taken the file at the same time.
+        if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
+            continue;
         }
+        let documents = read(&lock).map_err(wrong)?;
+        return Ok(Some(Kept { path, lock, documents }));
     }
-    (None, skipped)
+    Ok(None)
 }
 
 /// Returns the message that offers the newest unsaved changes of an ended session.
 pub fn offer(folder: &Path) -> Option<String> {
-    let Kept { documents, .. } = newest(folder).0?;
+    let Kept { documents, .. } = newest(folder).ok()??;
     let name = |document: &Document| Some(Path::new(document.name()).file_name()?.display().to_string());
     let names: Vec<String> = documents.iter().filter_map(name).collect();
     Some(format!("unsaved changes of {} are kept: asperity --restore opens them", names.join(", ")))
@@ -88,7 +88,7 @@ fn read(file: &File) -> Result<Vec<Document>, String> {
 }
 
 impl Autosave {
-    /// Creates the copies of a session, without a file or with the file of an ended session.
+    /// A session without a file, or with the file of an ended session.
     pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
         if let Some(Kept { path, lock, .. }) = restored {
             return Autosave { path, own: Some(lock) };
@@ -104,8 +104,6 @@ impl Autosave {
         }
         let copy = |document: &&Document| {
             let file = absolute(document.name()).ok().filter(|path| path.is_file());
-            let whole = file.is_none().then(|| with_whole_paths(document)).flatten();
-            let document = whole.as_ref().unwrap_or(document);
             Copy {
                 name: file.map_or_else(|| document.name().to_owned(), |path| path.display().to_string()),
                 opened: document.opened().to_owned(),
@@ -128,17 +126,6 @@ impl Autosave {
     }
 }
 
-/// The document with whole paths of its measured files in place of those from the working folder.
-fn with_whole_paths(document: &Document) -> Option<Document> {
-    let files = document.scene().measured_files();
-    let mut roughness = document.value("roughness").filter(|_| !files.is_empty())?.to_owned();
-    for file in files {
-        let whole = absolute(document.resolve(file)).ok()?;
-        roughness = roughness.replace(&format!("{file:?}"), &format!("{:?}", whole.to_str()?));
-    }
-    document.set("roughness", &roughness).ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,62 +135,38 @@ mod tests {
     fn copies_are_read_back_as_they_were_once_their_session_has_ended() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path().join("state/unsaved");
-        let none = || newest(&folder).0.is_none();
-        assert!(none());
+        let kept = || newest(&folder).unwrap();
+        assert!(kept().is_none());
         let changed = open("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
         let other = open("rough-sphere").unwrap().set("length", "2.0e-4").unwrap();
         let mut session = Autosave::new(&folder, None);
         session.keep(&[&changed]).unwrap();
         session.keep(&[&changed, &other]).unwrap();
-        assert!(none(), "the session runs");
+        assert!(kept().is_none(), "the session runs");
         drop(session);
-        let kept = newest(&folder).0.unwrap();
-        assert_eq!(kept.documents, [changed.clone(), other]);
-        assert_eq!(kept.documents[0].overrides(), changed.overrides());
-        assert!(none(), "another process that restores at the same time has nothing left to open");
-        let file = kept.path.clone();
-        let scenes = || read(&File::open(&file).unwrap());
-        // A measured file is found from any folder.
-        let measured = changed.set("roughness", "Measured(file: \"map.txt\")").unwrap();
-        let mut next = Autosave::new(&folder, Some(kept));
-        next.keep(&[&measured]).unwrap();
-        let whole = absolute("map.txt").unwrap();
-        assert_eq!(scenes().unwrap()[0].scene().measured_files(), [whole.to_str().unwrap()]);
-        assert!(none(), "the session that opened the scenes continues their file");
+        let restored = kept().unwrap();
+        assert_eq!(restored.documents, [changed.clone(), other]);
+        assert_eq!(restored.documents[0].overrides(), changed.overrides());
+        assert!(kept().is_none(), "another process that restores at the same time has nothing left to open");
+        let mut next = Autosave::new(&folder, Some(restored));
         next.keep(&[&changed]).unwrap();
+        assert!(kept().is_none(), "the session that opened the scenes continues their file");
         next.keep(&[]).unwrap();
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing is unsaved any more");
     }
 
     /// A power cut may have damaged the newest file, and anything may be in the folder.
     #[test]
-    fn files_that_cannot_be_read_are_stated_and_older_ones_are_opened() {
+    fn a_file_that_cannot_be_read_is_stated() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
-        let changed = open("pressure-sensitive").unwrap().set("adhesion.kappa", "3.0").unwrap();
-        Autosave::new(folder, None).keep(&[&changed]).unwrap();
-        let later = SystemTime::now() + std::time::Duration::from_secs(10);
-        let damaged = [("a", ""), ("b", "("), ("c", "[(name: \"a\")]"), ("d", "[(name")];
-        for (name, text) in damaged {
-            let path = folder.join(name).with_extension("ron");
-            fs::write(&path, text).unwrap();
-            File::open(&path).unwrap().set_modified(later).unwrap();
+        for (name, text) in [("a.ron", ""), ("b.ron", "("), ("c.ron", "[(name: \"a\")]"), ("d.ron", "[(name")]
+        {
+            fs::write(folder.join(name), text).unwrap();
+            assert!(newest(folder).err().unwrap().contains(name) && offer(folder).is_none());
+            fs::remove_file(folder.join(name)).unwrap();
         }
         fs::create_dir(folder.join("folder.ron")).unwrap();
-        #[cfg(unix)]
-        rustix::fs::mknodat(
-            rustix::fs::CWD,
-            folder.join("pipe.ron"),
-            rustix::fs::FileType::Fifo,
-            rustix::fs::Mode::RUSR,
-            0,
-        )
-        .unwrap();
-        let (kept, skipped) = newest(folder);
-        assert_eq!(kept.unwrap().documents, [changed]);
-        for name in ["a.ron: ", "b.ron: 1:1", "c.ron: ", "d.ron: 1:"] {
-            assert!(skipped.iter().any(|why| why.contains(name)), "{name}: {skipped:?}");
-        }
-        assert!(offer(folder).is_some());
+        assert!(newest(folder).is_err());
     }
 }

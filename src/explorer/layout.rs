@@ -46,10 +46,9 @@ impl Layout {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
-    /// Cells across the profile, without its histogram; without the profile, those of the profile beside.
+    /// Cells across the profile, without its histogram.
     pub fn profile_cells(&self) -> usize {
-        let shown = [Pane::Profile, Pane::Beside].into_iter().find_map(|pane| self.pane(pane));
-        shown.map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
+        self.pane(Pane::Profile).map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
     }
 
     pub fn close_up_cells(&self) -> usize {
@@ -99,7 +98,7 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
         return vec![
             (Pane::Profile, part(0, 0, left, upper)),
             (Pane::Force, part(left, 0, body.width - left, upper)),
-            (app.view.lower, part(0, upper, left, body.height - upper)),
+            (Pane::CloseUp, part(0, upper, left, body.height - upper)),
             (Pane::Parameters, part(left, upper, body.width - left, body.height - upper)),
         ];
     }

@@ -1,4 +1,4 @@
-//! State of the shown map, over H and κ or e_el/γ or over the axes of a study.
+//! State of the shown map, over H and κ or over the axes of a study.
 
 use crate::scene::{RoughnessParameter, Scene};
 use crate::study::{Grid, LiveMap, Plan, Quantity, StudyMap, live_plan};
@@ -8,8 +8,6 @@ use std::sync::Arc;
 pub struct MapState {
     /// Quantity of the glyphs, where the map has it.
     pub quantity: Quantity,
-    /// Parameter of the live map, beside H.
-    pub parameter: RoughnessParameter,
     /// A finished study, kept until another one is opened.
     pub study: Option<OpenStudy>,
     /// True if the map of the study replaces the live map.
@@ -35,13 +33,7 @@ pub struct Live {
 
 impl Default for MapState {
     fn default() -> Self {
-        MapState {
-            quantity: Quantity::Regime,
-            parameter: RoughnessParameter::default(),
-            study: None,
-            of_study: false,
-            moving: false,
-        }
+        MapState { quantity: Quantity::Regime, study: None, of_study: false, moving: false }
     }
 }
 
@@ -70,10 +62,10 @@ impl MapState {
     }
 
     pub(super) fn plan(&self, scene: &Scene) -> Option<Plan> {
-        live_plan(scene, self.parameter).ok()
+        live_plan(scene, RoughnessParameter::Kappa).ok()
     }
 
-    /// Key of the live map of a scene: kept while the parameter of the map and H change.
+    /// Key of the live map of a scene: kept while κ and H change.
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }

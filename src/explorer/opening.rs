@@ -1,18 +1,19 @@
 //! Arguments of the explorer: a scene, or a finished study around one.
 
-use super::app::Measured;
+use super::app::{Ghost, Measured};
 use crate::scene::{Document, SceneErrors, open, open_argument};
 use crate::study::{Folder, StudyError, StudyMap};
 use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Opening {
     pub document: Document,
     /// The study of the scene, whose maps are shown.
     pub study_map: Option<Arc<StudyMap>>,
-    pub beside: Option<Document>,
+    /// A computed scene to compare with.
+    pub ghost: Option<Ghost>,
     pub measured: Option<Measured>,
 }
 
@@ -33,7 +34,7 @@ pub enum OpeningError {
 
 impl From<Document> for Opening {
     fn from(document: Document) -> Self {
-        Opening { document, study_map: None, beside: None, measured: None }
+        Opening { document, study_map: None, ghost: None, measured: None }
     }
 }
 

@@ -1,40 +1,40 @@
-//! The panes and their places.
+//! The panes: their places and keys.
+
+use super::keys::Context;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum Pane {
     Force,
     Profile,
     CloseUp,
-    /// Distribution of the lengths of contact patches, in place of the close-up.
-    Lengths,
-    /// The profile of the newest loop kept for comparison, in place of the close-up.
-    Beside,
-    /// Cost of accuracy and stages of the run, in place of profile and close-up.
+    /// Cost of accuracy and stages of the run.
     Accuracy,
-    /// Spectra, in place of profile and close-up.
     Spectrum,
-    /// Adhesion against preload, in place of profile and close-up.
+    /// Adhesion force over preload.
     Preloads,
-    /// Everett function of first-order reversal curves, in place of profile and close-up.
-    Everett,
-    /// Density of first-order reversal curves, in place of profile and close-up.
-    Density,
-    /// Sensitivity to the numbers of the scene, in place of profile and close-up.
+    /// Changes of the results where one number of the scene changes.
     Sensitivity,
-    /// The map over κ and H, in place of profile and close-up.
+    /// Regimes over κ and H, or the map of a study.
     Map,
     Parameters,
-}
-
-/// Place of a pane in a window with room for all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    Own,
-    CloseUp,
-    Large,
 }
 
 impl Pane {
     /// All panes, in the order of the help.
     pub const ALL: &[Pane] = <Pane as strum::VariantArray>::VARIANTS;
+
+    /// Returns true for a pane in place of profile and close-up.
+    pub fn is_large(self) -> bool {
+        !matches!(self, Self::Force | Self::Profile | Self::CloseUp | Self::Parameters)
+    }
+
+    /// Keys of the selected pane; those of the crosshair act while it is shown.
+    pub fn keys(self) -> Context {
+        match self {
+            Self::Sensitivity => Context::Explore,
+            Self::Map => Context::Map,
+            Self::Parameters => Context::Parameters,
+            _ => Context::Crosshair,
+        }
+    }
 }

@@ -133,7 +133,7 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
 /// Calls `draw` with the look of charts in a theme.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
     let ink = |ink| look.theme.style(meaning(ink));
-    draw(&CellStyle { marker: look.marker.symbols(), ink: &ink, colours: Colours::None })
+    draw(&CellStyle { ink: &ink, colours: Colours::None })
 }
 
 pub fn meaning(ink: Ink) -> Meaning {
@@ -284,7 +284,7 @@ impl Plot {
     fn point_at_mark(&self, place: &CellPlot, look: Appearance, buffer: &mut Buffer) {
         let marked = self.chart.layers.iter().rev().find(|layer| layer.ink == Ink::Cursor);
         let Some(Shape::Curve { points, .. }) = marked.map(|layer| &layer.shape) else { return };
-        let cell = points.first().and_then(|at| place.cell(&self.chart, look.marker.symbols(), *at));
+        let cell = points.first().and_then(|at| place.cell(&self.chart, *at));
         let Some((x, y)) = cell else { return };
         let (plot, style) = (place.plot, look.theme.style(Meaning::Cursor));
         for beside in [x.wrapping_sub(1), x + 1].into_iter().filter(|x| (plot.x..plot.right()).contains(x)) {
@@ -337,5 +337,27 @@ pub fn under(panel: &Panel, area: Rect, cell: Position) -> Under {
             if row < rows.len() { Under::Row(row) } else { Under::Frame }
         }
         _ => Under::Frame,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::{AxisScale, Layer, Span as Range, Stroke};
+    use crate::explorer::theme::{Marker, Theme};
+
+    #[test]
+    fn the_crosshair_reads_curves_and_both_ends_of_bands() {
+        let axis =
+            |symbol: &str| Axis::new(AxisScale::Linear, Range { low: 0.0, high: 4.0 }, "", symbol, "1");
+        let layers = vec![
+            Layer::new("quartiles".into(), Ink::Kept, Shape::Band(vec![(0.0, 1.0, 2.0), (4.0, 3.0, 4.0)])),
+            Layer::new("median".into(), Ink::Kept, Shape::line(vec![(0.0, 2.0), (4.0, 3.0)], Stroke::Solid)),
+            Layer::unnamed(Ink::Quiet, Shape::Level(1.0)),
+        ];
+        let mut panel = Panel::of_chart(String::new(), Chart::new(axis("x"), axis("y"), layers));
+        panel.read_at(0.25, Appearance { theme: Theme::Plain, marker: Marker::Braille }, 80);
+        let read: Vec<String> = panel.edge.iter().map(|part| part[0].content.to_string()).collect();
+        assert_eq!(read, ["x 1", "quartiles 1.5 to 2.5", "median 2.25"]);
     }
 }

@@ -8,8 +8,10 @@ use crate::text::grouped;
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
 /// number of springs that resolves the roughness. Form and material are chosen once for a scene.
-const GROUPS: [&str; 8] =
-    ["adhesion", "loading", "roughness", "numerics", "form", "material", "observe", "title"];
+const GROUPS: [&str; 7] = ["adhesion", "loading", "roughness", "numerics", "form", "material", "title"];
+
+/// Fields of the scene file without a row; the tolerance chooses the edges.
+const HIDDEN: [&str; 5] = ["version", "observe", "numerics.samples", "numerics.edges", "numerics.solver"];
 
 /// Three ways to give the adhesion, of which the others follow.
 const ADHESION: [&str; 3] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
@@ -44,7 +46,6 @@ pub struct Parameter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     Field,
-    Switch(Effect),
     /// Not at all: a group without a value of its own.
     Heading,
     /// κ or e_el/γ, for any of γ, κ and e_el/γ in the scene.
@@ -70,19 +71,17 @@ impl Parameter {
 
     /// Name with the number of its loading stage.
     pub fn name(&self) -> String {
-        match (self.leg, self.setting) {
-            (Some(leg), _) => format!("{} {}", self.field.name, leg + 1),
-            (None, Setting::Switch(effect)) => effect.name().to_owned(),
-            (None, _) => self.field.name.to_owned(),
+        match self.leg {
+            Some(leg) => format!("{} {}", self.field.name, leg + 1),
+            None => self.field.name.to_owned(),
         }
     }
 
     /// Returns true if its value is typed as a number.
     pub fn takes_number(&self) -> bool {
-        let has_value = !matches!(self.setting, Setting::Switch(_) | Setting::Heading);
         let is_text = matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. });
         // A stage in words may become one with a number.
-        has_value && (self.leg.is_some() || !is_text)
+        self.setting != Setting::Heading && (self.leg.is_some() || !is_text)
     }
 
     /// The given quantity from which a shown value follows, which a value of its own replaces; `None` for a given value.
@@ -134,15 +133,12 @@ fn group_of(path: &str) -> &'static str {
 pub fn parameters(document: &Document) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {
-        if field.path == "version" {
+        if HIDDEN.iter().any(|hidden| field.path.starts_with(hidden)) {
             continue;
         }
-        if field.range == Range::Group || field.path == "observe" {
+        if field.range == Range::Group {
             let heading = Parameter::new(field, field.path);
             parameters.push(Parameter { effect: None, setting: Setting::Heading, ..heading });
-            if field.path == "observe" {
-                parameters.extend(observers(document, field));
-            }
             continue;
         }
         let Some(written) = document.value(field.path) else { continue };
@@ -214,20 +210,6 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
         "roughness.roll_off" => Some(longest),
         _ => None,
     }
-}
-
-fn observers(document: &Document, field: &'static Field) -> impl Iterator<Item = Parameter> {
-    let observers = Effect::ALL.into_iter().filter(|effect| effect.path() == "observe");
-    observers.map(move |effect| {
-        let is_on = effect.is_on(document.scene());
-        Parameter {
-            written: is_on.to_string(),
-            shown: if is_on { "on" } else { "off" }.to_owned(),
-            effect: Some(effect),
-            setting: Setting::Switch(effect),
-            ..Parameter::new(field, &format!("observe.{}", effect.name()))
-        }
-    })
 }
 
 /// A row for each loading stage, at the path of its number if it has one.

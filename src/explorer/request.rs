@@ -66,12 +66,10 @@ pub struct LineView {
     pub centre: f64,
     /// Shown share of the line, above 0 to 1.
     pub share: f64,
-    /// True if its middle follows the close-up instead.
-    pub follow: bool,
 }
 
 impl LineView {
-    pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0, follow: false };
+    pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0 };
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

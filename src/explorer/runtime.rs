@@ -4,7 +4,6 @@
 use super::action::Action;
 use super::app::App;
 use super::completion::complete;
-use super::config::remember;
 use super::keys::Context;
 use super::opening::Opening;
 use super::request::Request;
@@ -114,11 +113,6 @@ impl Runtime {
             }
             Effect::Study => return (engine.perform)(studies(app)),
             Effect::Write(file) => writing::write(app, folder, file),
-            Effect::Remember { path, appearance } => {
-                let bindings = app.config.bindings.clone();
-                let remembered = remember(&folder.join(&path), appearance, bindings);
-                Action::Remembered(remembered.map(|()| path))
-            }
             Effect::List if folder.as_os_str().is_empty() => {
                 Action::Listed(scenes(own_folder().as_deref(), Path::new(".")))
             }

@@ -1,6 +1,6 @@
 //! A session: the explorer in a terminal, with threads for input, signals, solver and studies.
 
-use super::action::{Action, Traffic};
+use super::action::Action;
 use super::app::App;
 use super::autosave::{self, Autosave, Kept};
 use super::config::Config;
@@ -21,11 +21,9 @@ use crossterm::queue;
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
-use std::cell::Cell;
 use std::io::{self, Stdout};
 use std::mem::{ManuallyDrop, take};
 use std::path::PathBuf;
-use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel, sync_channel};
 use std::time::{Duration, Instant};
@@ -115,7 +113,6 @@ pub fn open(
     // The guard restores everything; ratatui's own drop would complain on standard error, and panic
     // where that is gone together with the terminal.
     let writer = FrameWriter::new(io::stdout());
-    let written = writer.written();
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
     let environment = Appearance::of_environment();
     let appearance = Appearance {
@@ -125,12 +122,6 @@ pub fn open(
     let mut app = App::new(opening, (size.width, size.height), appearance, options.config);
     let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
     let frame_rate = app.config.frame_rate;
-    // Terminal multiplexers keep a screen of their own.
-    app.view.lacks_octants = ["TMUX", "STY"].iter().any(|name| std::env::var_os(name).is_some());
-    if app.view.lacks_octants && appearance.marker == Marker::Octant {
-        app.view.appearance.marker = Marker::Braille;
-        app.set_done("terminal multiplexers have no width for octants: braille is used");
-    }
     if let Some(warning) = options.warning {
         app.set_error(warning);
     }
@@ -147,8 +138,6 @@ pub fn open(
         draw,
         remote,
         frames: if remote { frame_rate.min(REMOTE_FRAMES) } else { frame_rate },
-        written,
-        traffic: (Instant::now(), 0),
         inbox,
         waiting,
         autosave: options.unsaved.map(|folder| Autosave::new(&folder, options.restored)),
@@ -177,9 +166,6 @@ struct Session<'a> {
     draw: Draw,
     remote: bool,
     frames: u32,
-    written: Rc<Cell<u64>>,
-    /// Time of the last report of the traffic, and the bytes written by then.
-    traffic: (Instant, u64),
     inbox: Receiver<Message>,
     /// An entry for each event of the input in the inbox.
     waiting: Receiver<()>,
@@ -267,9 +253,6 @@ impl Session<'_> {
             let size = self.terminal.size()?;
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
-        if self.remote {
-            self.measure_traffic();
-        }
         let Session { runtime, terminal, draw, .. } = self;
         terminal.draw(|frame| draw(frame, &runtime.app)).map(drop)
     }
@@ -308,19 +291,5 @@ impl Session<'_> {
                 app.set_error(format!("unsaved changes are not kept for another session: {error}"));
             }
         }
-    }
-
-    /// Reports the number of bytes written, once in a second of drawing.
-    fn measure_traffic(&mut self) {
-        let (since, before) = self.traffic;
-        let elapsed = since.elapsed();
-        let view = &mut self.runtime.app.view;
-        if view.traffic.is_some() && elapsed < Duration::from_secs(1) {
-            return;
-        }
-        let written = self.written.get();
-        let bytes = (written - before) as f64 / elapsed.as_secs_f64().max(1.0);
-        self.traffic = (Instant::now(), written);
-        view.traffic = Some(Traffic { frames: self.frames, bytes: bytes as u64 });
     }
 }

@@ -9,7 +9,6 @@ pub use crate::export::section::{Column, Section};
 use crate::export::section::{Contact, LineColumns, Part};
 use crate::scene::{CheckedScene, Move};
 use crate::simulation::{LineFacts, Outcome};
-use std::collections::BTreeMap;
 use std::sync::{Arc, Weak};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +40,6 @@ pub struct ContactSnapshot {
     pub strip: String,
     /// Readings of the crosshair on the profile.
     pub probe: Option<Probe>,
-    /// Numbers of patches of n springs over ⌊log₂ n²⌋.
-    pub lengths: BTreeMap<u32, u64>,
     /// Path of manual loading to this state.
     pub manual: Option<ManualPath>,
 }
@@ -113,21 +110,12 @@ pub fn strip(contact: &Contact<'_>, cells: usize) -> String {
     (0..cells).map(glyph).collect()
 }
 
-/// Counts patches of n springs over ⌊log₂ n²⌋: lengths that grow by a factor √2.
-pub fn lengths(patches: &[Patch]) -> BTreeMap<u32, u64> {
-    let mut counts = BTreeMap::new();
-    for patch in patches {
-        *counts.entry((patch.springs().len() as u64).pow(2).ilog2()).or_default() += 1;
-    }
-    counts
-}
-
 /// The springs of the profile pane: a part within the line.
-pub fn profile_part(request: &SnapshotRequest, count: usize, close_up: usize) -> Part {
-    let LineView { centre, share, follow } = request.profile;
+pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
+    let LineView { centre, share } = request.profile;
     let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
-    let middle = if follow { close_up } else { (count as f64 * centre) as usize };
-    let first = middle.saturating_sub(springs / 2).min(count.saturating_sub(springs));
+    let first =
+        ((count as f64 * centre) as usize).saturating_sub(springs / 2).min(count.saturating_sub(springs));
     Part { first, springs, columns: request.profile_columns }
 }
 

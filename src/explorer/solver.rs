@@ -6,9 +6,7 @@ use super::manual_body::ManualBody;
 use super::player::{Player, indentations};
 use super::reach::Reach;
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
-use super::snapshot::{
-    ContactSnapshot, Probe, Report, SolvedScene, SpringsInContact, lengths, profile_part, strip,
-};
+use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, SpringsInContact, profile_part, strip};
 use crate::contact::{ContactError, CurvePoint, Direction, Leg};
 use crate::export::section::{Contact, LineColumns};
 use crate::scene::{CheckedScene, Move, Observer, Solver as SceneSolver};
@@ -173,8 +171,7 @@ impl Solver {
         let gaps = leg.contact().gaps();
         let contact = Contact { gaps, summit: line.summit, indentation, patches: &patches };
         let close_up = close_up(&contact, &leg, request, columns);
-        let middle = close_up.section.first + close_up.section.springs / 2;
-        let part = profile_part(request, gaps.len(), middle);
+        let part = profile_part(request, gaps.len());
         Some(ContactSnapshot {
             generation: *generation,
             drive,
@@ -186,7 +183,6 @@ impl Solver {
             close_up,
             strip: strip(&contact, request.strip_cells),
             probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
-            lengths: lengths(&patches),
             manual: body.as_mut().map(ManualBody::travel),
             springs: SpringsInContact { springs: Arc::downgrade(leg.contact().springs()), patches },
         })

@@ -2,7 +2,6 @@
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
-use ratatui::symbols::Marker as Symbols;
 use serde::{Deserialize, Serialize};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +18,6 @@ pub enum Theme {
     Dark,
     /// Dark colours for a light background
     Light,
-    /// Few strong colours, everything bold, nothing dim
-    HighContrast,
     /// No colours, only bold, dim and reverse
     Plain,
 }
@@ -29,10 +26,6 @@ pub enum Theme {
 pub enum Marker {
     /// Braille dots, 2 × 4 in a cell
     Braille,
-    /// Solid eighths of a cell, 2 × 4; few fonts have them yet
-    Octant,
-    /// Half cells: coarse, and in every font
-    HalfBlock,
     /// Nothing but ASCII, in the text too
     Ascii,
 }
@@ -108,9 +101,6 @@ impl Theme {
             (Theme::Light, Approach) => Color::Green,
             (Theme::Light, Retraction) => Color::Magenta,
             (Theme::Light, Manual) => Color::Cyan,
-            (Theme::HighContrast, Quiet | Ghost | Approach | Key) => Color::Reset,
-            (Theme::HighContrast, Surface) => Color::LightBlue,
-            (Theme::HighContrast, Contact | Error | Cursor | Retraction | Manual) => Color::LightRed,
         }
     }
 
@@ -124,27 +114,7 @@ impl Theme {
                 style.add_modifier(Modifier::DIM)
             }
             Meaning::Contact if self == Theme::Plain => style.add_modifier(Modifier::BOLD),
-            _ if self == Theme::HighContrast => style.add_modifier(Modifier::BOLD),
             _ => style,
-        }
-    }
-}
-
-impl Marker {
-    /// Marker of a canvas. ASCII is made from dots when everything is drawn.
-    pub fn symbols(self) -> Symbols {
-        match self {
-            Marker::Braille | Marker::Ascii => Symbols::Braille,
-            Marker::Octant => Symbols::Octant,
-            Marker::HalfBlock => Symbols::HalfBlock,
-        }
-    }
-
-    /// Columns of dots in a cell.
-    pub fn columns(self) -> usize {
-        match self {
-            Marker::Braille | Marker::Octant | Marker::Ascii => 2,
-            Marker::HalfBlock => 1,
         }
     }
 }

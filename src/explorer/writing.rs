@@ -2,12 +2,12 @@
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
-use super::panes::OPEN_COMMAND;
+use super::panes::{OPEN_COMMAND, Pane};
 use super::picture::{svg, text};
 use super::theme::Theme;
 use super::update::stages::with_path;
 use super::view;
-use crate::draw::Palette;
+use crate::draw::{Figure, Palette};
 use crate::export::{self, Format, Report, scene_provenance};
 use crate::io::{WriteError, write_new_file};
 use crate::scene::command_line;
@@ -43,11 +43,11 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
         Content::Scene => out.write_all(app.edit.document.text().as_bytes()),
         Content::Pane(Format::Text) => out.write_all(text(&picture_of(app)).as_bytes()),
         Content::Pane(format) if format.is_picture() => {
-            export::write(out, &app.figure().ok_or_else(missing)?, format, "")
+            export::write(out, &figure(app).ok_or_else(missing)?, format, "")
         }
         Content::Pane(format) => {
             let curves = || {
-                let figure = app.figure().filter(|figure| app.is_current() && figure.table().is_some())?;
+                let figure = figure(app).filter(|figure| app.is_current() && figure.table().is_some())?;
                 Some((OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>))
             };
             let report = (app.view.pane.row().report)(app).or_else(curves);
@@ -64,6 +64,12 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
             export::write(out, &*report, format, &provenance)
         }
     }
+}
+
+/// The selected pane as a figure; the force curve while the parameters are selected.
+fn figure(app: &App) -> Option<Figure> {
+    let pane = if app.view.pane == Pane::Parameters { Pane::Force } else { app.view.pane };
+    pane.figure(app)
 }
 
 /// The screen as an SVG document, on a background that suits its colours.

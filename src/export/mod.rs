@@ -4,7 +4,6 @@
 
 mod boundary;
 mod check;
-mod comparison;
 mod cost;
 mod ensemble;
 mod fit;
@@ -34,7 +33,6 @@ pub use report::{Format, Report, write};
 pub use run::{PathReport, RunReport};
 pub use scene_spectra::SceneSpectra;
 
-pub(crate) use comparison::{Comparison, adhesion_forces};
 pub(crate) use cost::CostReport;
 pub(crate) use ensemble::LinesReport;
 pub(crate) use fit::FitReport;
@@ -44,7 +42,7 @@ pub(crate) use parameters::parameter_lines;
 pub(crate) use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 pub(crate) use provenance::{check_measured_files, files_provenance, named_from, scenes_provenance};
 pub(crate) use report::check_extension;
-pub(crate) use reversals::{ReversalReport, everett_chart};
+pub(crate) use reversals::ReversalReport;
 pub(crate) use scene_figure::ContactSets;
 pub(crate) use scenes::ScenesReport;
 pub(crate) use sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};

@@ -64,9 +64,7 @@ pub use quantity::{QuantityError, exact_quantity, format_quantity, parse_quantit
 pub(crate) use quantity::{format_range, format_rounded, format_within, in_unit, one_unit, unit_of};
 pub use range::Range;
 pub(crate) use read::explain;
-pub(crate) use stages::{
-    Run, STAGE_KINDS, StageKind, kind_and_number, pressing_force, read_stage, runs, stage_in_ron,
-};
+pub(crate) use stages::{STAGE_KINDS, StageKind, kind_and_number, pressing_force, read_stage, stage_in_ron};
 pub use stages::{loading_text, read_loading};
 pub(crate) use statements::{Statement, statements};
 pub use switch::Computed;

@@ -5,12 +5,12 @@ use super::driver::Driver;
 use asperity::contact::CurvePoint;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::{App, Pane};
+use asperity::explorer::keys::Key;
 use asperity::explorer::layout::{Layout, inside};
 use asperity::explorer::snapshot::ContactSnapshot;
 use asperity::explorer::update::{Effect, update};
 use asperity::explorer::{Opening, view};
 use asperity::simulation::Outcome;
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::{Buffer, Cell};
@@ -43,7 +43,9 @@ impl Driver {
     pub fn press(&mut self, names: &str) -> Vec<Effect> {
         let mut effects = Vec::new();
         for name in names.split_whitespace() {
-            effects = self.act(Action::Key(key_event(name)));
+            let name = if name == "Space" { "space" } else { name };
+            let key = Key::named(name).unwrap_or_else(|| panic!("no key is called {name}"));
+            effects = self.act(Action::Key(key.event()));
         }
         effects
     }
@@ -163,34 +165,4 @@ pub fn rows(screen: &Buffer) -> Vec<String> {
         text.trim_end().to_owned()
     };
     screen.content.chunks(width).map(row).collect()
-}
-
-/// The event of a key by its name.
-fn key_event(name: &str) -> KeyEvent {
-    let (modifiers, name) = match name.split_once('+') {
-        Some(("Ctrl", rest)) => (KeyModifiers::CONTROL, rest),
-        Some(("Shift", rest)) => (KeyModifiers::SHIFT, rest),
-        _ => (KeyModifiers::NONE, name),
-    };
-    let code = match name {
-        "Space" => KeyCode::Char(' '),
-        "Enter" => KeyCode::Enter,
-        "Esc" => KeyCode::Esc,
-        "Tab" => KeyCode::Tab,
-        "Left" => KeyCode::Left,
-        "Right" => KeyCode::Right,
-        "Up" => KeyCode::Up,
-        "Down" => KeyCode::Down,
-        "Home" => KeyCode::Home,
-        "End" => KeyCode::End,
-        "PageUp" => KeyCode::PageUp,
-        "Backspace" => KeyCode::Backspace,
-        "Delete" => KeyCode::Delete,
-        "Insert" => KeyCode::Insert,
-        _ => match (name.chars().next(), name.chars().nth(1)) {
-            (Some(character), None) => KeyCode::Char(character),
-            _ => panic!("no key is called {name}"),
-        },
-    };
-    KeyEvent::new(code, modifiers)
 }

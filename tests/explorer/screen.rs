@@ -12,7 +12,6 @@ mod files;
 mod fragments;
 mod library;
 mod look;
-mod looks;
 mod manual;
 mod map;
 mod measured;
@@ -22,17 +21,16 @@ mod panes;
 mod parameters;
 mod play;
 pub mod preloads;
-mod reversals;
 mod saving;
+mod sensitivity;
 mod sizes;
 mod spectrum;
 mod stages;
 mod studies;
 mod study;
 mod typing;
-mod windows;
 
-use super::common::{self, driver::Driver, scenes::rough, script::rows};
+use super::common::{self, driver::Driver, scenes::rough};
 use asperity::explorer::app::App;
 use asperity::scene::{Document, open};
 use ratatui::buffer::{Buffer, Cell};
@@ -69,11 +67,12 @@ fn pressed(keys: &str) -> Driver {
 
 /// Explorers in every mode and pane.
 fn everywhere() -> Vec<Driver> {
-    let keys = ";?;e;s;s Enter s Enter;l q;z;Tab z;Tab Tab z;Tab Tab Tab z;F;E;o;/ h u;: m a p;d { ];c L;a v;D;N w;A;\
-                A z;Q;Q z;% 1;y;m;m z;i;*;& L;* Tab Right;* v Right;i z";
+    let keys = ";?;e;s;s Enter s Enter;l q;z;Tab z;Tab Tab z;Tab Tab Tab z;F;E;o;/ h u;: m a p;d { ];c L a v;N;A;A z;\
+                Q;Q z;% 1;y;m;m z;i;*;* Tab Right;* v Right;i z";
     let mut all: Vec<Driver> = keys.split(';').map(pressed).collect();
     all.push(Driver::open(rough()));
     all.push(accuracy::measured(rough()));
+    all.push(sensitivity::computed_sensitivity(rough()));
     all.extend(["", "V", "V V", "z"].map(|keys| {
         let mut driver = map::mapped(rough());
         driver.press(keys);
@@ -88,14 +87,6 @@ fn everywhere() -> Vec<Driver> {
     refused.enter("nothing");
     all.push(refused);
     all
-}
-
-/// The cells of the first row of the screen that contains this text.
-fn row_with<'a>(screen: &'a Buffer, text: &str) -> &'a [Cell] {
-    let number = rows(screen).iter().position(|row| row.contains(text));
-    let number = number.unwrap_or_else(|| panic!("{text} in\n{}", rows(screen).join("\n")));
-    let width = usize::from(screen.area.width);
-    &screen.content[number * width..(number + 1) * width]
 }
 
 fn reversed(cells: &[Cell]) -> String {

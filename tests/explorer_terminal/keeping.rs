@@ -72,25 +72,20 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         fs::write(folder.join("1-1.ron"), "[(name").unwrap();
         let output = command(home).arg("--restore").output().unwrap();
         let message = String::from_utf8(output.stderr).unwrap();
-        assert!(message.contains("--restore: nothing kept can be read: ") && message.contains("1-1.ron: 1:"));
+        assert!(message.contains("--restore: ") && message.contains("1-1.ron: 1:"));
     }
 }
 
 #[test]
-fn a_configuration_is_read_and_written_when_asked() {
+fn a_configuration_is_read() {
     let (program, folder) = explorer();
     let home = folder.path();
     let file = home.join(".config/asperity/config.ron");
-    let mut terminal = paused(program);
-    terminal.send("TTM\x13");
-    terminal.wait_for("colours and markers are kept in");
-    quit(&mut terminal);
-    let text = fs::read_to_string(&file).unwrap();
-    assert!(text.contains("theme: Light") && text.contains("markers: Octant"), "{text}");
+    drop(program);
+    fs::create_dir_all(file.parent().unwrap()).unwrap();
     // A default scene and a key.
-    let keys = "keys: [(action: \"quit\", keys: [\"_\"])]";
-    let text = text.replace("version: 1,", &format!("version: 1, scene: \"scene.ron\", {keys},"));
-    fs::write(&file, &text).unwrap();
+    let text = "(version: 1, scene: \"scene.ron\", keys: [(action: \"quit\", keys: [\"_\"])])";
+    fs::write(&file, text).unwrap();
     let mut terminal = Program::new(ASPERITY).folder(home).env("HOME", home.to_str().unwrap()).start();
     terminal.wait("default scene", |rows| rows[0].starts_with("Rough line"));
     terminal.wait_for("_ quit");
@@ -104,11 +99,6 @@ fn a_configuration_is_read_and_written_when_asked() {
         let text = |bytes| String::from_utf8(bytes).unwrap();
         (output.status.code(), text(output.stdout), text(output.stderr))
     };
-    let (code, printed, _) = run(&["config"]);
-    assert_eq!(code, Some(0));
-    assert!(printed.contains("scene: \"scene.ron\"") && printed.contains("keys: [\"_\"]"), "{printed}");
-    let (code, _, message) = run(&["config", "--write"]);
-    assert!(code == Some(1) && message.contains("there is a file of that name already"), "{message}");
     fs::write(&file, "(version: 1, theme: Pink)").unwrap();
     let (code, _, message) = run(&["--config", file.to_str().unwrap()]);
     assert!(

@@ -4,7 +4,7 @@
 //! Needs `sshd`, `ssh` and `ssh-keygen`; if one of them is missing the tests report so and end.
 
 use crate::common::terminal::{Frame, Program, Terminal};
-use crate::driving::{ASPERITY, headline, row_with, select};
+use crate::driving::{ASPERITY, headline, select};
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpListener;
@@ -189,7 +189,7 @@ fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
     let mut terminal = server.explorer("pressure-sensitive");
     terminal.wait_for("F_a ");
     terminal.send(".");
-    terminal.wait_for("B/s, at most 12 frames/s");
+    terminal.settle();
 
     // An edit: the force of the first leg, from 10 µN to 2 µN.
     let before = headline(&terminal.rows()).unwrap();
@@ -216,8 +216,6 @@ fn a_whole_loop_is_edited_and_played_over_a_slow_line() {
     assert!(frames.len() > 60, "it plays: {} frames", frames.len());
     assert!(frames.len() as f64 <= MOST_FRAMES * seconds + 2.0, "{} frames in {seconds} s", frames.len());
     assert!(fullest_second(frames) <= 14, "{} frames in a second", fullest_second(frames));
-    let row = row_with(&terminal, "frames/s");
-    assert!(!row.contains(" 0 B/s"), "{row}");
 
     terminal.send("q");
     terminal.wait_for("unsaved changes");

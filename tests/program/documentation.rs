@@ -5,7 +5,9 @@
 use super::generated::{check, compare, pages_in, read, root};
 use super::program::{asperity_in, table};
 use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use asperity::explorer::config::Config;
 use asperity::explorer::keys;
+use asperity::explorer::pane::Pane;
 use asperity::scene::{Document, FIELDS, LEG_FIELDS, LEG_FORCE, Range, presets};
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Plan, Quantity, Statistics};
@@ -19,7 +21,7 @@ const LONGEST_README: usize = 220;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
 const PAGES: [(&str, &str); 12] = [
-    ("keys.md", "panes and keys of the explorer, typed values, appearance, recordings"),
+    ("keys.md", "panes and keys of the explorer, typed values, appearance, configuration"),
     ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
     ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
     (
@@ -58,6 +60,9 @@ fn escaped(text: &str) -> String {
 #[test]
 fn tables_are_those_of_the_program() {
     check("docs/keys.md", "keys", &keys::bindings().markdown());
+    let panes = Pane::ALL.iter().flat_map(|pane| pane.row().help);
+    let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
+    check("docs/keys.md", "panes", &markdown(["pane", "content"], panes));
     let plans = asperity::study::PLANS.iter().map(|plan| {
         let read = Plan::open(plan.name, &Changes::default()).unwrap();
         let cells = read.cells();
@@ -299,5 +304,7 @@ fn links_and_paths_lead_somewhere() {
 #[test]
 fn examples_of_files_are_allowed() {
     Document::parse(&block("docs/scene-file.md", "ron"), "docs/scene-file.md").unwrap();
+    let config = block("docs/keys.md", "ron");
+    Config::parse(&config, Path::new("docs/keys.md"), keys::bindings()).unwrap();
     Plan::parse(&block("docs/studies.md", "ron"), "docs/studies.md", &Changes::default()).unwrap();
 }

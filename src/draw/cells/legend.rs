@@ -3,26 +3,24 @@
 use super::style::{CellStyle, glyph};
 use crate::draw::chart::{Chart, Entry, Sample, Stroke};
 use crate::draw::label::Label;
-use ratatui::symbols::Marker;
 use ratatui::text::Span as Text;
 
-fn strokes(stroke: Stroke, marker: Marker) -> [&'static str; 3] {
-    let [long, short] = if marker == Marker::Braille { ["⠒", "⠂"] } else { ["▄", "▖"] };
+fn strokes(stroke: Stroke) -> [&'static str; 3] {
     match stroke {
-        Stroke::Solid => [long; 3],
-        Stroke::Dashed => [long, short, long],
-        Stroke::Dotted => [long, " ", long],
-        Stroke::Sparse => [short, " ", short],
+        Stroke::Solid => ["⠒"; 3],
+        Stroke::Dashed => ["⠒", "⠂", "⠒"],
+        Stroke::Dotted => ["⠒", " ", "⠒"],
+        Stroke::Sparse => ["⠂", " ", "⠂"],
     }
 }
 
-fn text_of(sample: Sample, marker: Marker) -> String {
+fn text_of(sample: Sample) -> String {
     match sample {
         Sample::Line(stroke, sign) => {
-            let [left, middle, right] = stroke.map_or(["", "", ""], |stroke| strokes(stroke, marker));
+            let [left, middle, right] = stroke.map_or(["", "", ""], strokes);
             format!("{left}{}{right}", sign.map_or(middle, glyph))
         }
-        Sample::Area => strokes(Stroke::Sparse, marker).concat(),
+        Sample::Area => strokes(Stroke::Sparse).concat(),
         Sample::Solid => "■".to_owned(),
         Sample::Guide => "┊".to_owned(),
         Sample::Contour => "▁▕".to_owned(),
@@ -42,7 +40,7 @@ pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>
         for (ink, sample) in entry.samples {
             let text = match (sample, letter) {
                 (Sample::Line(..), Some(letter)) => letter.to_string(),
-                (sample, _) => text_of(sample, style.marker),
+                (sample, _) => text_of(sample),
             };
             if part.last().is_none_or(|last| *last.content != text) {
                 part.push(Text::styled(text, (style.ink)(ink)));

@@ -10,6 +10,5 @@ mod text;
 pub use legend::legend;
 pub use map::{SHADES, key};
 pub use plot::CellPlot;
-pub use shapes::dry;
 pub use style::{CellStyle, Colours, glyph};
 pub use text::figure_text;

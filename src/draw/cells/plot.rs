@@ -21,6 +21,8 @@ const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
 /// Fewest rows of an area where the label below has a row of its own if it would hide a number.
 const WITH_LABEL_BELOW: u16 = 16;
+/// Columns and rows of dots in a cell.
+const DOTS: (u16, u16) = (2, 4);
 
 /// Place of a chart in an area: plot and scales.
 pub struct CellPlot {
@@ -41,7 +43,7 @@ impl CellPlot {
         let height = area.height - u16::from(below) - u16::from(line) - u16::from(label);
         let mut left = 0;
         if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {
-            let labels = scale_beside(chart, height, Marker::Braille);
+            let labels = scale_beside(chart, height);
             left = labels.iter().map(|(_, text)| text.chars().count() as u16).max().unwrap_or(0) + 2;
         }
         // The bars beside names have the same content as the names.
@@ -73,18 +75,17 @@ impl CellPlot {
     }
 
     /// Cell of a point; `None` outside the chart, except for a map, which has the point at its edge.
-    pub fn cell(&self, chart: &Chart, marker: Marker, (x, y): (f64, f64)) -> Option<(u16, u16)> {
+    pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
         let inside = chart.map().is_some() || (across, down) == shares;
-        let (columns, rows) = dots_of(marker);
         let cell = |share: f64, cells: u16, dots: u16| match chart.map() {
             Some(_) => ((share * f64::from(cells)) as u16).min(cells - 1),
             None => cell_at(share, cells, dots),
         };
         (inside && !self.plot.is_empty()).then(|| {
-            let column = cell(across, self.plot.width, columns);
-            (self.plot.x + column, self.plot.y + cell(down, self.plot.height, rows))
+            let column = cell(across, self.plot.width, DOTS.0);
+            (self.plot.x + column, self.plot.y + cell(down, self.plot.height, DOTS.1))
         })
     }
 
@@ -101,7 +102,7 @@ impl CellPlot {
         let drawn = |layer: &&Layer| !matches!(layer.shape, Shape::Map(_));
         if chart.layers.iter().any(|layer| drawn(&layer)) {
             Canvas::default()
-                .marker(style.marker)
+                .marker(Marker::Braille)
                 .x_bounds([0.0, 1.0])
                 .y_bounds([0.0, 1.0])
                 .paint(|context| {
@@ -128,7 +129,7 @@ impl CellPlot {
         let all_columns = i32::from(plot.x)..i32::from(plot.right());
         let all_rows = i32::from(plot.y)..i32::from(plot.bottom());
         for (point, name, ink) in names {
-            let Some(cell) = self.cell(chart, style.marker, *point) else { continue };
+            let Some(cell) = self.cell(chart, *point) else { continue };
             let (column, row) = (i32::from(cell.0), i32::from(cell.1));
             let wide = name.chars().count() as i32;
             let rows = [row, row + 1, row - 1].into_iter();
@@ -156,7 +157,7 @@ impl CellPlot {
             // At most one sign in every other column.
             let every = (2 * points.len()).div_ceil(usize::from(self.plot.width)).max(1);
             for point in points.iter().step_by(every) {
-                if let Some((column, row)) = self.cell(chart, style.marker, *point) {
+                if let Some((column, row)) = self.cell(chart, *point) {
                     buffer[(column, row)].set_symbol(glyph(*sign)).set_style((style.ink)(layer.ink));
                 }
             }
@@ -166,7 +167,7 @@ impl CellPlot {
     fn draw_scales(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         let (plot, quiet) = (self.plot, (style.ink)(Ink::Quiet));
         if self.left > 0 {
-            let labels = scale_beside(chart, plot.height, style.marker);
+            let labels = scale_beside(chart, plot.height);
             for row in 0..plot.height {
                 let label = labels.iter().find(|(at, _)| *at == row).map(|(_, text)| text.as_str());
                 let mark = if label.is_some() { '┤' } else { '│' };
@@ -176,7 +177,7 @@ impl CellPlot {
             }
         }
         let mut y = plot.bottom();
-        let (numbers, label) = scale_below(chart, plot.width, style.marker, self.label);
+        let (numbers, label) = scale_below(chart, plot.width, self.label);
         if self.line {
             let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
             for (column, _) in &numbers {
@@ -208,25 +209,15 @@ impl CellPlot {
     }
 }
 
-fn dots_of(marker: Marker) -> (u16, u16) {
-    match marker {
-        Marker::Braille | Marker::Octant => (2, 4),
-        Marker::HalfBlock => (1, 2),
-        Marker::Quadrant => (2, 2),
-        Marker::Sextant => (2, 3),
-        _ => (1, 1),
-    }
-}
-
-/// Cell at a share of a plot, rounded to dots as on the canvas, so that signs and ticks fit their curves.
+/// Cell at a share of a plot of this number of dots in a cell, rounded to dots as on the canvas, so that signs and ticks fit their curves.
 fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
     let last = f64::from(cells) * f64::from(dots) - 1.0;
-    (share * last).round().max(0.0) as u16 / dots.max(1)
+    (share * last).round().max(0.0) as u16 / dots
 }
 
 /// Rows of a plot of this height with their numbers.
-fn scale_beside(chart: &Chart, height: u16, marker: Marker) -> Vec<(u16, String)> {
-    let place = |at: f64| cell_at((chart.y.span.high - at) / chart.y.span.width(), height, dots_of(marker).1);
+fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
+    let place = |at: f64| cell_at((chart.y.span.high - at) / chart.y.span.width(), height, DOTS.1);
     let fewest = usize::from(height / 3).clamp(2, 6);
     numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| true)
 }
@@ -251,13 +242,13 @@ fn numbers_at(
 
 /// Columns of a plot of this width with their numbers, and the label of the axis: in full in a row of its own, else
 /// only the symbol if the name would take more than half of the columns.
-fn scale_below(chart: &Chart, width: u16, marker: Marker, own_row: bool) -> (Vec<(u16, String)>, String) {
+fn scale_below(chart: &Chart, width: u16, own_row: bool) -> (Vec<(u16, String)>, String) {
     let mut label = chart.x.label_with_unit().to_string();
     let room = if own_row { width } else { width / 2 };
     if label.chars().count() > usize::from(room) {
         label = chart.x.symbol_with_unit().to_string();
     }
-    let place = |at: f64| cell_at((at - chart.x.span.low) / chart.x.span.width(), width, dots_of(marker).0);
+    let place = |at: f64| cell_at((at - chart.x.span.low) / chart.x.span.width(), width, DOTS.0);
     let fewest = usize::from(width / 10).clamp(2, 9);
     let is_seen = |number: &(u16, String)| !is_covered(number, width, &label);
     let mut numbers = numbers_at(&chart.x, fewest..=fewest.max(usize::from(width / 4)), place, is_seen);
@@ -273,7 +264,7 @@ fn is_covered((column, text): &(u16, String), width: u16, label: &str) -> bool {
 
 /// Returns true if the label of the horizontal axis would cover a number.
 fn label_hides_numbers(chart: &Chart, width: u16) -> bool {
-    let (numbers, label) = scale_below(chart, width, Marker::Braille, true);
+    let (numbers, label) = scale_below(chart, width, true);
     numbers.iter().any(|number| is_covered(number, width, &label))
 }
 
@@ -285,7 +276,6 @@ mod tests {
     use crate::draw::{AxisScale, Shades, Sign, Span, Stroke};
     use ratatui::style::Style;
 
-    const MARKERS: [Marker; 3] = [Marker::Braille, Marker::Octant, Marker::HalfBlock];
     const SIZES: [(u16, u16); 6] = [(20, 5), (32, 8), (47, 13), (60, 20), (80, 24), (118, 37)];
 
     fn axis(low: f64, high: f64, symbol: &str, unit: &str) -> Axis {
@@ -297,10 +287,10 @@ mod tests {
         Chart::new(x, y, layers)
     }
 
-    fn drawn(chart: &Chart, (width, height): (u16, u16), marker: Marker) -> (CellPlot, Buffer) {
+    fn drawn(chart: &Chart, (width, height): (u16, u16)) -> (CellPlot, Buffer) {
         let area = Rect::new(3, 2, width, height);
         let (place, mut buffer) = (CellPlot::within(area, chart), Buffer::empty(area));
-        place.draw(&mut buffer, chart, &CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None });
+        place.draw(&mut buffer, chart, &CellStyle { ink: &|_| Style::new(), colours: Colours::None });
         (place, buffer)
     }
 
@@ -315,20 +305,20 @@ mod tests {
             .collect();
         let (without, with) =
             (chart(vec![curve(&points, None)]), chart(vec![curve(&points, Some(Sign::Up))]));
-        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
-            let (place, line) = drawn(&without, size, marker);
-            let (_, signs) = drawn(&with, size, marker);
+        for size in SIZES {
+            let (place, line) = drawn(&without, size);
+            let (_, signs) = drawn(&with, size);
             let mut seen = 0;
             for point in &points {
-                let cell = place.cell(&without, marker, *point).unwrap();
+                let cell = place.cell(&without, *point).unwrap();
                 let blank = [" ", "\u{2800}"].contains(&line[cell].symbol());
-                assert!(!blank, "{size:?} {marker} {point:?}");
+                assert!(!blank, "{size:?} {point:?}");
                 seen += usize::from(signs[cell].symbol() == "▲");
             }
             let all = signs.content.iter().filter(|cell| cell.symbol() == "▲").count();
-            assert!(all > 0 && seen >= all, "{size:?} {marker}: {seen} of {all}");
+            assert!(all > 0 && seen >= all, "{size:?}: {seen} of {all}");
         }
-        assert_eq!(drawn(&without, SIZES[0], MARKERS[0]).0.cell(&without, MARKERS[0], (1.0, 0.0)), None);
+        assert_eq!(drawn(&without, SIZES[0]).0.cell(&without, (1.0, 0.0)), None);
     }
 
     #[test]
@@ -354,10 +344,10 @@ mod tests {
         for (width, height) in [(20, 5), (66, 30), (118, 37), (200, 90)] {
             let place = CellPlot::within(Rect::new(3, 2, width, height), &chart);
             for (x, y) in columns.iter().flat_map(|x| rows.iter().map(move |y| (*x, *y))) {
-                let cell = place.cell(&chart, MARKERS[0], (x, y)).unwrap();
+                let cell = place.cell(&chart, (x, y)).unwrap();
                 let (across, up) = place.data_at(&chart, cell).unwrap();
                 // Of several values in one cell, one whose middle is in that cell or the next.
-                let (column, row) = place.cell(&chart, MARKERS[0], (across, up)).unwrap();
+                let (column, row) = place.cell(&chart, (across, up)).unwrap();
                 assert!(column.abs_diff(cell.0) <= 1 && row.abs_diff(cell.1) <= 1, "{x} {y} {across} {up}");
                 let has_room = |cells: u16, values: &[f64]| usize::from(cells) >= values.len();
                 assert!(!has_room(place.plot.width, &columns) || across == x, "{x} {across}");
@@ -365,7 +355,7 @@ mod tests {
             }
             // A point beyond the map is at its edge, and there is none outside the plot.
             let corner = Some((place.plot.right() - 1, place.plot.y));
-            assert_eq!(place.cell(&chart, MARKERS[0], (9.0, 1e9)), corner);
+            assert_eq!(place.cell(&chart, (9.0, 1e9)), corner);
             assert_eq!(place.data_at(&chart, (place.plot.right(), place.plot.y)), None);
         }
     }
@@ -375,19 +365,19 @@ mod tests {
         let [x, y] = [axis(-5.26e-8, 6.71e-7, "d", "m"), axis(-1.93e-5, 1.22e-5, "F", "N")];
         let chart = Chart::new(x, y, Vec::new());
         for (width, height) in [(28, 7), (30, 9), (40, 12), (100, 30)] {
-            let (numbers, label) = scale_below(&chart, width, Marker::Braille, false);
+            let (numbers, label) = scale_below(&chart, width, false);
             let seen = numbers.iter().filter(|number| !is_covered(number, width, &label));
             assert!(seen.count() >= 2, "{width}: {numbers:?}");
-            assert!(scale_beside(&chart, height, Marker::Braille).len() >= 2, "{height}");
+            assert!(scale_beside(&chart, height).len() >= 2, "{height}");
         }
     }
 
     #[test]
     fn ticks_are_beside_the_dots_of_their_values() {
         let mut labelled = 0;
-        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
+        for size in SIZES {
             let level = chart(vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))]);
-            let (place, buffer) = drawn(&level, size, marker);
+            let (place, buffer) = drawn(&level, size);
             let row_of = |row: u16| -> String {
                 (buffer.area.x..buffer.area.right()).map(|column| buffer[(column, row)].symbol()).collect()
             };
@@ -395,7 +385,7 @@ mod tests {
                 let text = row_of(row);
                 if let Some((number, _)) = text.split_once(" ┤") {
                     let is_level = !["", " ", "\u{2800}"].contains(&buffer[(place.plot.x, row)].symbol());
-                    assert_eq!(number.trim() == "0", is_level, "{size:?} {marker}\n{text}");
+                    assert_eq!(number.trim() == "0", is_level, "{size:?}\n{text}");
                     labelled += 1;
                 }
             }
@@ -413,10 +403,10 @@ mod tests {
             (0..40).map(|at| (1.7e-8 * f64::from(at), -2e-5 + 5e-7 * f64::from(at))).collect();
         let chart = chart(vec![curve(&points, None)]);
         let mut found = 0;
-        for (size, marker) in SIZES.into_iter().flat_map(|size| MARKERS.map(|marker| (size, marker))) {
-            let (place, before) = drawn(&chart, size, marker);
+        for size in SIZES {
+            let (place, before) = drawn(&chart, size);
             let mut after = before.clone();
-            let style = CellStyle { marker, ink: &|_| Style::new(), colours: Colours::None };
+            let style = CellStyle { ink: &|_| Style::new(), colours: Colours::None };
             let names = [(points[9], "preload"), (points[30], "pull-off"), ((1.0, 0.0), "outside")];
             let names = names.map(|(at, name)| (at, name.to_owned(), Ink::Quiet));
             place.draw_names(&mut after, &chart, &style, &names);
@@ -429,10 +419,10 @@ mod tests {
             found += written.len();
             for (cell, old) in after.content.iter().zip(&before.content) {
                 let is_blank = [" ", "\u{2800}"].contains(&old.symbol());
-                assert!(cell.symbol() == old.symbol() || is_blank, "{size:?} {marker}");
+                assert!(cell.symbol() == old.symbol() || is_blank, "{size:?}");
             }
             for (point, name, _) in names.iter().filter(|(_, name, _)| written.contains(&name.as_str())) {
-                let (column, row) = place.cell(&chart, marker, *point).unwrap();
+                let (column, row) = place.cell(&chart, *point).unwrap();
                 let near = (row.saturating_sub(1).max(after.area.y)..=(row + 1).min(after.area.bottom() - 1))
                     .any(|y| {
                         let from = column.saturating_sub(name.len() as u16 + 1).max(after.area.x);
@@ -440,7 +430,7 @@ mod tests {
                         let text: String = (from..to).map(|x| after[(x, y)].symbol()).collect();
                         text.contains(name.as_str())
                     });
-                assert!(near, "{size:?} {marker} {name}");
+                assert!(near, "{size:?} {name}");
             }
         }
         assert!(found > 20, "{found}");
@@ -450,10 +440,10 @@ mod tests {
     fn a_column_of_the_screen_is_a_number_of_the_axis() {
         let empty = chart(Vec::new());
         for size in SIZES {
-            let place = drawn(&empty, size, Marker::Braille).0;
+            let place = drawn(&empty, size).0;
             for column in place.plot.x..place.plot.right() {
                 let (number, _) = place.data_at(&empty, (column, place.plot.y)).unwrap();
-                let (back, _) = place.cell(&empty, Marker::Braille, (number, 0.0)).unwrap();
+                let (back, _) = place.cell(&empty, (number, 0.0)).unwrap();
                 assert!(back.abs_diff(column) <= 1, "{size:?} {column} {back}");
             }
             assert_eq!(
@@ -474,7 +464,7 @@ mod tests {
             Layer::unnamed(Ink::Profile, Shape::Envelope { x: (-1e-7, 6e-7), columns: columns.collect() }),
             curve(&[(-1e-7, 0.0), (2e-7, f64::NAN), (3e-7, -5e-6), (6e-7, -2e-5)], Some(Sign::Ring)),
         ]);
-        let (_, buffer) = drawn(&chart, (64, 18), Marker::Braille);
+        let (_, buffer) = drawn(&chart, (64, 18));
         let rows =
             buffer.content.chunks(64).map(|row| row.iter().map(|cell| cell.symbol()).collect::<String>());
         insta::assert_snapshot!(rows.map(|row| row.trim_end().to_owned()).collect::<Vec<_>>().join("\n"));

@@ -2,34 +2,8 @@
 
 use crate::draw::axis::{Axes, Share};
 use crate::draw::chart::{Chart, Shape, Stroke};
-use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
-
-/// Represents the text colour of the terminal on a canvas, since the grid of half blocks would take the text colour
-/// for the background where it meets another colour. No theme uses this index.
-const INK: Color = Color::Indexed(16);
-
-/// Replaces the substitute colour on canvases by the text colour of the terminal.
-pub fn dry(buffer: &mut Buffer) {
-    for cell in &mut buffer.content {
-        // In a cell of two colours the text colour can only be the foreground.
-        let other = match cell.symbol() {
-            "▀" => "▄",
-            "▄" => "▀",
-            _ => "",
-        };
-        if cell.bg == INK && !other.is_empty() {
-            cell.set_symbol(if cell.fg == INK { "█" } else { other });
-            std::mem::swap(&mut cell.fg, &mut cell.bg);
-        }
-        for colour in [&mut cell.fg, &mut cell.bg] {
-            if *colour == INK {
-                *colour = Color::Reset;
-            }
-        }
-    }
-}
 
 pub(super) struct LayerShape<'a> {
     pub chart: &'a Chart,
@@ -46,7 +20,7 @@ impl LayerShape<'_> {
     }
 
     fn paint(&self, painter: &mut Painter<'_, '_>, (x, y): Dot) {
-        painter.paint(x, y, if self.colour == Color::Reset { INK } else { self.colour });
+        painter.paint(x, y, self.colour);
     }
 
     fn lines(&self, painter: &mut Painter<'_, '_>, runs: &[Vec<Share>], stroke: Stroke) {

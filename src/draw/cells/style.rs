@@ -1,12 +1,10 @@
-//! Appearance of charts in cells: markers, inks, colours, characters of signs.
+//! Appearance of charts in cells: inks, colours, characters of signs.
 
 use crate::draw::chart::Sign;
 use crate::draw::colour::{Ink, Rgb};
 use ratatui::style::{Color, Style};
-use ratatui::symbols::Marker;
 
 pub struct CellStyle<'a> {
-    pub marker: Marker,
     pub ink: &'a dyn Fn(Ink) -> Style,
     pub colours: Colours,
 }

@@ -3,7 +3,6 @@
 use super::legend::legend;
 use super::map;
 use super::plot::{CellPlot, WITH_LEFT_SCALE};
-use super::shapes::dry;
 use super::style::{CellStyle, Colours};
 use crate::draw::chart::{Chart, Figure};
 use crate::draw::colour::Ink;
@@ -12,7 +11,6 @@ use crate::text::wrap;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
-use ratatui::symbols::Marker;
 use ratatui::text::Line;
 
 /// Narrowest and widest text, columns.
@@ -32,7 +30,7 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
         (Ink::Text | Ink::Quiet, _) | (_, Colours::None) => Style::new(),
         (ink, colours) => Style::new().fg(colours.colour(ink.on_paper())),
     };
-    let style = CellStyle { marker: Marker::Braille, ink: &ink, colours };
+    let style = CellStyle { ink: &ink, colours };
     let mut text = String::new();
     for line in std::iter::once(&Label::plain(&figure.title)).chain(&figure.notes) {
         push_words(&mut text, &line.to_string(), columns);
@@ -74,7 +72,6 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     let mut buffer = Buffer::empty(area);
     let place = CellPlot::within(area, chart);
     place.draw(&mut buffer, chart, style);
-    dry(&mut buffer);
     for row in 0..area.height {
         let cells = (0..area.width).map(|column| &buffer[(column, row)]);
         let runs: Vec<(&str, Style)> = cells.map(|cell| (cell.symbol(), cell.style())).collect();

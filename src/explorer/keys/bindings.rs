@@ -253,6 +253,19 @@ mod tests {
     }
 
     #[test]
+    fn the_footer_has_valid_keys_and_begins_with_help_and_quit() {
+        for context in ANY {
+            let bindings = bindings();
+            let items = bindings.footer(*context, false, |_| false);
+            assert!(!items.is_empty(), "{context:?}");
+            assert!(items.iter().all(|(keys, row)| row.contexts.contains(context) && !keys.is_empty()));
+            if EXPLORE.contains(context) {
+                assert_eq!([items[0].1.label, items[1].1.label], ["help", "quit"], "{context:?}");
+            }
+        }
+    }
+
+    #[test]
     fn every_context_can_be_left() {
         for context in ANY {
             let leaves = ["quit", "quit-anyway", "close-help", "cancel"];

@@ -23,6 +23,11 @@ impl Key {
         self.modifiers == modifiers && (self.first..=self.last).contains(&event.code)
     }
 
+    /// Returns the event of the key; of a range that of its first character.
+    pub fn event(&self) -> KeyEvent {
+        KeyEvent::new(self.first, self.modifiers)
+    }
+
     /// Returns true if an event matches both keys.
     pub fn overlaps(&self, other: &Key) -> bool {
         self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last

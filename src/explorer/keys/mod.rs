@@ -15,7 +15,7 @@ use super::parameters::Parameter;
 use super::prompt::Purpose;
 use super::request::Focus;
 use super::update::{
-    accuracy, compare, crosshair, dialogue, edit, files, look, map, measured, movement, preloads, stages,
+    accuracy, compare, crosshair, dialogue, edit, files, look, map, measured, movement, stages,
 };
 use Run::{Character, Do, Edit};
 use tui_input::InputRequest;
@@ -48,16 +48,6 @@ pub(super) fn run(command: Command, app: &mut App) {
 
 pub fn bindings() -> Bindings {
     Bindings::of(TABLE.iter().map(|entry| &entry.row))
-}
-
-/// The row whose item of the footer is in a column of the screen.
-pub fn footer_row(app: &App, column: u16) -> Option<&'static Row> {
-    let mut next = 0;
-    footer(app).into_iter().find_map(|(keys, row)| {
-        let end = next + keys.chars().count() + 1 + row.label.chars().count();
-        let item = std::mem::replace(&mut next, end + 2)..end;
-        (item.contains(&column.into()) && end <= app.view.size.0.into()).then_some(row)
-    })
 }
 
 /// Keys and rows of the footer, the most important first; adjacent rows with the same label are one item.
@@ -192,7 +182,6 @@ static TABLE: &[Entry] = &[
 
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
-    row("&", EXPLORE, "toggle-side-by-side", Do(compare::toggle_side_by_side), "", "show the newest ghost beside the scene: profiles above each other, differences, F_a of both", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
     row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.measured.is_some()),
 
@@ -204,25 +193,21 @@ static TABLE: &[Entry] = &[
     row("b", EXPLORE, "longest-patch", Do(|app| app.view.look.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
     row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.look.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
     row("f", EXPLORE, "first-touch", Do(|app| app.view.look.focus = Focus::Summit), "", "show the point of first touch", LOOK),
-    row("D", EXPLORE, "toggle-lengths", Do(|app| app.toggle(Pane::Lengths)), "", "show the distribution of patch lengths in place of the close-up", LOOK),
-    row("+ =", EXPLORE, "zoom-in", Do(|app| look::zoom(app, 1)), "", "zoom in: profile or preloads if selected, else close-up", LOOK),
+    row("+ =", EXPLORE, "zoom-in", Do(|app| look::zoom(app, 1)), "", "zoom in: the profile if selected, else the close-up", LOOK),
     row("-", OTHER_PANES, "zoom-out", Do(|app| look::zoom(app, -1)), "", "zoom out", LOOK),
-    row("(", EXPLORE, "pan-left", Do(|app| look::pan(app, -1)), "", "pan left along the profile, or to smaller preloads in their pane", LOOK),
-    row(")", EXPLORE, "pan-right", Do(|app| look::pan(app, 1)), "", "pan right, or to larger preloads", LOOK),
-    row("w", EXPLORE, "toggle-follow", Do(look::toggle_follow), "", "keep the profile centred on the patch of the close-up", LOOK),
-    row("Z", EXPLORE, "reset-zoom", Do(look::reset_zoom), "", "show the whole profile, or the usual preloads in their pane", LOOK),
+    row("(", EXPLORE, "pan-left", Do(|app| look::pan(app, -1)), "", "pan left along the profile", LOOK),
+    row(")", EXPLORE, "pan-right", Do(|app| look::pan(app, 1)), "", "pan right along the profile", LOOK),
+    row("Z", EXPLORE, "reset-zoom", Do(look::reset_zoom), "", "show the whole profile", LOOK),
     row("A", EXPLORE, "toggle-accuracy", Do(|app| app.toggle(Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
     row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
     row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
-    row("X", EXPLORE, "toggle-preload-scale", Do(preloads::toggle_scale), "log/linear", "plot adhesion against preload on logarithmic axes, or on linear ones", LOOK).rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
-    row("O", EXPLORE, "next-reversal-map", Do(|app| app.toggle(if app.is_shown(Pane::Everett) || app.is_shown(Pane::Density) { Pane::Density } else { Pane::Everett })), "", "show the Everett function of reversal curves, then their density, in place of profile and close-up", LOOK),
+    row("X", EXPLORE, "toggle-preload-scale", Do(look::toggle_preload_scale), "log/linear", "plot adhesion against preload on logarithmic axes, or on linear ones", LOOK).rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
     row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show changes of F_a by ±10 % of each number, in place of profile and close-up", LOOK),
     row("Tab", EXPLORE, "next-pane", Do(look::next_pane), "pane", "select the next pane", LOOK).rank(2),
     row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Effect::Redraw)), "", "draw the whole screen again", LOOK),
     row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
-    row("Ctrl+s", EXPLORE, "remember-appearance", Do(look::remember_appearance), "", "keep the present colours and markers in the configuration file", LOOK),
     row("T", EXPLORE, "next-theme", Do(look::next_theme), "", "change the colours", LOOK),
-    row("M", EXPLORE, "next-marker", Do(look::next_marker), "", "change the markers: braille, octants, half blocks, ASCII", LOOK),
+    row("M", EXPLORE, "next-marker", Do(look::next_marker), "", "draw plots in braille, or the whole screen in ASCII", LOOK),
 
     row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair, which reads the curves of the selected pane", CROSS),
     row("← h", CROSSHAIR, "crosshair-left", Do(|app| crosshair::move_by(app, -1, false)), "", "move the crosshair left", CROSS),
@@ -233,16 +218,15 @@ static TABLE: &[Entry] = &[
     row("End G", CROSSHAIR, "crosshair-end", Do(|app| crosshair::go_to_end(app, true)), "", "move the crosshair to the right end", CROSS),
     row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
-    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ or e_el/γ, in place of profile and close-up", MAP).rank(2),
+    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ, in place of profile and close-up", MAP).rank(2),
     row("← h", MAP_PANE, "move-left", Do(|app| map::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
     row("→ l", MAP_PANE, "move-right", Do(|app| map::step(app, 1, 0)), "move", "move the scene to the value on the right: increase H", MAP).merges(),
-    row("↓ j", MAP_PANE, "move-down", Do(|app| map::step(app, 0, -1)), "", "move the scene to the value below: decrease κ or e_el/γ", MAP).merges(),
-    row("↑ k", MAP_PANE, "move-up", Do(|app| map::step(app, 0, 1)), "", "move the scene to the value above: increase κ or e_el/γ", MAP).merges(),
+    row("↓ j", MAP_PANE, "move-down", Do(|app| map::step(app, 0, -1)), "", "move the scene to the value below: decrease κ", MAP).merges(),
+    row("↑ k", MAP_PANE, "move-up", Do(|app| map::step(app, 0, 1)), "", "move the scene to the value above: increase κ", MAP).merges(),
     row("Shift+← H", MAP_PANE, "move-left-coarse", Do(|app| map::step(app, -4, 0)), "", "move by four values to the left", MAP).merges(),
     row("Shift+→ L", MAP_PANE, "move-right-coarse", Do(|app| map::step(app, 4, 0)), "", "move by four values to the right", MAP).merges(),
-    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| map::step(app, 0, -4)), "", "move by four values down: half the κ, a quarter of e_el/γ", MAP).merges(),
-    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| map::step(app, 0, 4)), "", "move by four values up: twice the κ, four times e_el/γ", MAP).merges(),
-    row("e", MAP_PANE, "next-map-parameter", Do(map::next_parameter), "e_el/γ", "map over e_el/γ in place of κ, or over κ again", MAP),
+    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| map::step(app, 0, -4)), "", "move by four values down: half the κ", MAP).merges(),
+    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| map::step(app, 0, 4)), "", "move by four values up: twice the κ", MAP).merges(),
     row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the opened study, or the live map", MAP),
     row("P PageDown", MAP_PANE, "next-slice", Do(|app| map::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),

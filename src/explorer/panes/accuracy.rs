@@ -4,15 +4,14 @@ use super::{Exported, PaneRow};
 use crate::accuracy::{CostTable, Estimate, Knob, Progress, measure};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
-use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::theme::{Appearance, Meaning};
-use crate::explorer::view::stages;
-use crate::explorer::view::text::{filled, wrapped};
+use crate::explorer::view::text::{Part, filled};
 use crate::export::{CostReport, work_precision};
-use crate::scene::{Edges, Numerics, Solver, format_quantity, format_rounded};
+use crate::scene::{Edges, Numerics, Solver, format_rounded};
+use crate::simulation::{Plan, Stage};
 use crate::text::{grouped, per_cent};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -23,13 +22,12 @@ use std::time::Duration;
 pub static ROW: PaneRow = PaneRow {
     panel,
     report,
-    keys: Some(Context::Crosshair),
     studies: |_, computed| vec![study(computed)],
     help: &[(
         "Accuracy",
         "A: relative error against the time of a run, with springs and edges between them or at them, and with steps of \
-         the stepwise solver; ◆ is the scene. Below it error and time of the scene, the time of a ten times smaller error, \
-         the cost of 1 % and 0.1 %, and the computing stages",
+         the stepwise solver; ◆ is the scene. Below it error and time of the scene, the cost of 1 % and 0.1 %, and the \
+         computing stages",
     )],
     ..PaneRow::EMPTY
 };
@@ -73,30 +71,28 @@ const LOWEST: f64 = 1e-8;
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Accuracy: error over time, log–log".to_owned();
     let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
+    let parts = std::iter::once(sentence(app, table)).chain(stages(app));
+    let foot = parts.flat_map(|parts| filled(parts, "  ", size.width.into())).collect();
     let chart = table.and_then(|table| Some((table, work_precision("", table).charts.pop()?)));
     let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
-        let foot = texts(app, None, size);
         return Panel { foot, ..Panel::of_text(title, &nothing_yet(app)) };
     };
     let head = entries(table, &chart, size.width, app.view.appearance);
-    let chart = with_scene(chart, app, table);
-    Panel { head, foot: texts(app, Some(table), size), ..Panel::of_chart(title, chart) }
+    Panel { head, foot, ..Panel::of_chart(title, with_scene(chart, app, table)) }
 }
 
 fn nothing_yet(app: &App) -> String {
-    if app.is_computing() {
-        return "the scene is computed first…".to_owned();
-    }
-    match (app.studies.failure::<Costs>(), app.studies.is_done::<Costs>()) {
+    match app.studies.failure::<Costs>() {
+        _ if app.is_computing() => "the scene is still being computed…".to_owned(),
         _ if !app.is_current() => "the scene has no curve to estimate an error of".to_owned(),
-        (Some(why), _) => format!("nothing is measured: {why}"),
-        (None, true) => {
+        Some(why) => format!("nothing is measured: {why}"),
+        None if app.studies.is_done::<Costs>() => {
             "nothing to show: no force in this scene whose error depends on springs or steps".to_owned()
         }
-        (None, _) if !app.view.shows_times => {
+        None if !app.view.shows_times => {
             "times are not measured here: they differ from run to run".to_owned()
         }
-        (None, _) => "measuring: each setting from coarse to fine, as often as 10 s allow…".to_owned(),
+        None => "measuring: each setting from coarse to fine, as often as 10 s allow…".to_owned(),
     }
 }
 
@@ -164,115 +160,74 @@ fn entries(table: &CostTable, chart: &Chart, width: u16, look: Appearance) -> Ve
     filled(parts, "  ", usize::from(width))
 }
 
-/// Lines below the plot, the most important first.
-fn texts(app: &App, table: Option<&CostTable>, area: Size) -> Vec<Line<'static>> {
+/// Error and time of the scene, springs and time of the fastest setting for each target, and the setting being tried.
+fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
     let theme = app.view.appearance.theme;
-    let mut lines = Vec::new();
-    let mut say = |line: Line<'static>| lines.extend(wrapped(&line, area.width));
+    let mut parts = Vec::new();
     if app.is_current() {
-        now(app, table).into_iter().for_each(&mut say);
-    }
-    if let Some(table) = table {
-        for bound in TARGETS {
-            let percent = format!("{} %", 100.0 * bound);
-            if let Some(answer) = answer(table, bound, app.studies.is_done::<Costs>()) {
-                let percent = Text::styled(format!("{percent}: "), theme.style(Meaning::Title));
-                say(Line::from(vec![percent, Text::raw(answer)]));
-            }
-        }
-    }
-    if let Some(Costs { trying: Some(trying), .. }) = app.studies.value() {
-        say(Line::styled(format!("trying {trying}…"), theme.style(Meaning::Key)));
-    }
-    let rows = if area.height >= 12 { 2 } else { 1 };
-    lines.extend(stages::strip(app, area.width, rows));
-    if let Some(table) = table.filter(|_| area.height >= 24) {
-        let from = if table.reference.closed_form {
-            "Errors of F_a are counted from its closed form".to_owned()
-        } else {
-            format!(
-                "Errors are counted from {} springs, edges between them",
-                grouped(table.reference.springs)
-            )
+        let error = match app.studies.value::<Estimate>() {
+            None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
+            None => "error …".to_owned(),
+            Some(Estimate { near_step: true, .. }) => "near a step of F_a(F_n)".to_owned(),
+            Some(estimate) => format!("error {}", per_cent(estimate.error)),
         };
-        let steps = table.rows_of(Knob::Step).next().map_or_else(String::new, |row| {
-            format!("; of steps, from the exact solver on {} springs", grouped(row.springs))
-        });
-        let note = format!("{from}{steps}. ○: error below that of the reference.");
-        lines.extend(wrapped(&Line::styled(note, theme.style(Meaning::Quiet)), area.width));
+        let present = table.and_then(|table| present(&app.edit.document.scene().numerics, table));
+        let time = present.map_or_else(String::new, |(seconds, _)| format!(" in {}", time_of(seconds)));
+        let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
+        parts.push(vec![sign, Text::raw(format!("{error}{time}"))]);
     }
-    lines
-}
-
-/// Error and time of the scene and the time of an error ten times smaller; below, the settings of both.
-fn now(app: &App, table: Option<&CostTable>) -> [Line<'static>; 2] {
-    let numerics = app.edit.document.scene().numerics;
-    let setting = match setting_of(&numerics) {
-        (Knob::Step, step) => {
-            format!("{} springs, step {}", grouped(numerics.points), format_quantity(step, "m"))
-        }
-        (knob, _) => springs_of(knob, numerics.points),
-    };
-    let estimate = app.studies.value::<Estimate>();
-    let error = match estimate {
-        None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
-        None if app.view.shows_times => "error …".to_owned(),
-        None => String::new(),
-        Some(Estimate { near_step: true, .. }) => "near a step of F_a(F_n)".to_owned(),
-        Some(estimate) => format!("error {}", per_cent(estimate.error)),
-    };
-    let time = table.and_then(|table| Some(format!(" in {}", time_of(present(&numerics, table)?.0))));
-    let bound = estimate.filter(|estimate| !estimate.near_step).map(|estimate| estimate.error / 10.0);
-    let better = table.zip(bound).and_then(|(table, bound)| {
-        // The error of whole springs may be small by accident.
-        let knob = if numerics.edges == Edges::Grid { Knob::GridSprings } else { Knob::SubCellSprings };
-        let timed = table.first_row_within(knob, bound).and_then(|row| Some((row.seconds?.minimum, row)));
-        let found = timed.map(|(seconds, row)| {
-            let springs = springs_of(row.knob, row.springs);
-            (format!("; ten times better in {}", time_of(seconds)), format!("; ten times better: {springs}"))
-        });
-        found.or_else(|| {
-            app.studies
-                .is_done::<Costs>()
-                .then(|| ("; ten times better: not found".to_owned(), String::new()))
-        })
+    let answers = table.into_iter().flat_map(|table| {
+        TARGETS.map(|target| Some((target, answer(table, target, app.studies.is_done::<Costs>())?)))
     });
-    let (better, springs) = better.unwrap_or_default();
-    let sign = Text::styled("◆ ", app.view.appearance.theme.style(Meaning::Cursor));
-    let error = Text::raw(format!("{error}{}{better}", time.unwrap_or_default()));
-    [Line::from(vec![sign, error]), Line::raw(format!("{setting}{springs}"))]
+    parts.extend(answers.flatten().map(|(target, answer)| {
+        let target = Text::styled(format!("{} %: ", 100.0 * target), theme.style(Meaning::Title));
+        vec![target, Text::raw(answer)]
+    }));
+    if let Some(Costs { trying: Some(trying), .. }) = app.studies.value() {
+        parts.push(vec![Text::styled(format!("trying {trying}…"), theme.style(Meaning::Key))]);
+    }
+    parts
 }
 
 fn time_of(seconds: f64) -> String {
     format_rounded(seconds, 2, "s")
 }
 
-fn springs_of(knob: Knob, springs: u64) -> String {
-    let springs = grouped(springs);
-    if knob == Knob::GridSprings {
-        format!("{springs} whole springs")
-    } else {
-        format!("{springs} springs, edges between")
+/// Springs and time of the fastest setting within a bound; `None` while there is none yet.
+fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
+    let rows = [Knob::SubCellSprings, Knob::GridSprings].map(|knob| table.first_row_within(knob, bound));
+    let timed = rows.into_iter().flatten().filter_map(|row| Some((row.seconds?.minimum, row)));
+    match timed.min_by(|one, other| one.0.total_cmp(&other.0)) {
+        Some((seconds, row)) => {
+            let whole = if row.knob == Knob::GridSprings { "whole " } else { "" };
+            Some(format!("{} {whole}springs, {}", grouped(row.springs), time_of(seconds)))
+        }
+        None => is_finished.then(|| "not reached".to_owned()),
     }
 }
 
-/// Requirements of a bound; `None` while they are unknown.
-fn answer(table: &CostTable, bound: f64, finished: bool) -> Option<String> {
-    let knobs = [(Knob::SubCellSprings, "edges between springs"), (Knob::GridSprings, "whole springs")];
-    let rows = knobs.into_iter().filter_map(|(knob, edges)| {
-        let finest = table.rows_of(knob).next_back();
-        match table.first_row_within(knob, bound) {
-            Some(row) => {
-                let time =
-                    row.seconds.map_or_else(String::new, |time| format!(", {}", time_of(time.minimum)));
-                Some(format!("{edges}: {}{time}", grouped(row.springs)))
-            }
-            None if finished => {
-                finest.map(|finest| format!("{edges}: not up to {}", grouped(finest.springs)))
-            }
-            None => None,
+/// Names and times of the computing stages of the scene. Profile and curve always run.
+fn stages(app: &App) -> Option<Vec<Part>> {
+    let computed = app.current()?;
+    let (plan, timings, theme) =
+        (Plan::of(&computed.scene), &computed.outcome.timings, app.view.appearance.theme);
+    let runs = |stages: &[Stage]| stages.iter().any(|stage| plan.runs(*stage));
+    let is_stepwise = runs(&[Stage::Relaxation]);
+    let passes = runs(&[Stage::LoadingPass, Stage::UnloadingPass, Stage::Relaxation]);
+    let all = [
+        ("ran", true, timings.total()),
+        ("profile", true, timings.line),
+        ("tree", runs(&[Stage::Tree]), timings.tree),
+        (if is_stepwise { "steps" } else { "passes" }, passes, timings.passes),
+        ("curve", true, timings.curve),
+        ("F_a(0)", runs(&[Stage::ZeroLoadAdhesion]), timings.zero_load),
+    ];
+    let part = |(name, ran, seconds): (&'static str, bool, f64)| match ran {
+        true if app.view.shows_times => {
+            vec![Text::raw(format!("{name} ")), Text::styled(time_of(seconds), theme.style(Meaning::Title))]
         }
-    });
-    let rows: Vec<_> = rows.collect();
-    (!rows.is_empty()).then(|| rows.join("; "))
+        true => vec![Text::raw(name)],
+        false => vec![Text::styled(format!("{name} skipped"), theme.style(Meaning::Quiet))],
+    };
+    Some(all.map(part).to_vec())
 }

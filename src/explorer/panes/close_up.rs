@@ -1,10 +1,9 @@
 //! The close-up of contact patches, with their boundary points as the paper's white circles, and a strip of the whole
 //! contact.
 
-use super::{PaneRow, Place, section};
+use super::{PaneRow, section};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
-use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section};
 use crate::explorer::theme::{Meaning, Theme};
@@ -14,14 +13,12 @@ use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
 pub static ROW: PaneRow = PaneRow {
-    place: Place::CloseUp,
     panel,
     figure: |app, _| {
         let chart = of_springs(app, LinePart::drawn)?;
         Some(section::figure(app.edit.document.title(), app.snapshot.as_deref()?, chart))
     },
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
-    keys: Some(Context::Crosshair),
     help: &[(
         "Contact patches",
         "close-up of a contact patch; ○ marks its edges. Below it the whole contact, [ ] around the close-up",

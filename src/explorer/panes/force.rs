@@ -1,15 +1,13 @@
 //! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
 use super::row::outcome;
-use super::{Exported, PaneRow, Place};
+use super::{Exported, PaneRow};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction};
 use crate::draw::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
 use crate::explorer::app::{App, Ghost, Measured, letter};
 use crate::explorer::caption::caption;
-use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
-use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::theme::Meaning;
 use crate::explorer::update::measured;
 use crate::explorer::view::text::filled;
@@ -25,8 +23,6 @@ pub static ROW: PaneRow = PaneRow {
         None => Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     },
     report: |app| fit(app).or_else(|| outcome(app)),
-    place: Place::Own,
-    keys: Some(Context::Crosshair),
     help: &[(
         "Curve",
         "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
@@ -139,15 +135,8 @@ const MEASURED: &str = "measured";
 /// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
-    // A ghost beside the scene is named with the curves; the others have their letters.
-    let beside = app.beside().map(|_| app.ghosts.len() - 1);
-    for layer in &mut chart.layers {
-        layer.name = match layer.ink {
-            Ink::Text => Label::default(),
-            Ink::Compared(number) if beside == Some(number) => letter(number).into(),
-            Ink::Compared(_) => Label::default(),
-            _ => continue,
-        };
+    for layer in chart.layers.iter_mut().filter(|layer| matches!(layer.ink, Ink::Text | Ink::Compared(_))) {
+        layer.name = Label::default();
     }
     Some(chart)
 }
@@ -161,7 +150,7 @@ fn chart(app: &App) -> Option<Chart> {
         name: Some(Label::plain(&format!("{}: {}", letter(number), differences(app, ghost)))),
         ink: Some(Ink::Compared(number)),
         stroke: Some(Stroke::Sparse),
-        ..unmarked(&ghost.computed.outcome)
+        ..unmarked(&ghost.outcome)
     });
     let tried = app.tried_outcome().map(|outcome| ForceLoop {
         name: Some("preview".into()),
@@ -239,16 +228,15 @@ fn differences(app: &App, ghost: &Ghost) -> String {
 
 /// Point of the letter of a ghost: its pull-off, or its end.
 fn marked(ghost: &Ghost) -> Option<CurvePoint> {
-    let legs = &ghost.computed.outcome.history.legs;
+    let legs = &ghost.outcome.history.legs;
     let at = marks(legs).into_iter().rev().find(|(mark, _)| *mark != Mark::JumpOut).map(|(_, point)| point);
     at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
 }
 
 /// Adhesion force of a ghost, and its difference from that of the present scene: `F_a 12 µN (+3 µN)`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
-    let of = |computed: &SolvedScene| computed.outcome.figures.adhesion_force;
-    let force = of(&ghost.computed)?;
-    let present = app.current().and_then(|one| of(one));
+    let force = ghost.outcome.figures.adhesion_force?;
+    let present = app.current().and_then(|one| one.outcome.figures.adhesion_force);
     let difference = present.map_or_else(String::new, |present| {
         let sign = if force > present { "+" } else { "" };
         format!(" ({sign}{})", format_rounded(force - present, 3, "N"))

@@ -3,16 +3,15 @@
 use super::{Exported, PaneRow};
 use crate::draw::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use crate::explorer::app::App;
-use crate::explorer::keys::Context;
-use crate::explorer::map::Live;
+use crate::explorer::map::{Live, OpenStudy};
 use crate::explorer::panel::{Panel, in_theme, names, shades};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
 use crate::explorer::view::text::{Part, filled, wrapped};
 use crate::export::{study_curves, study_figure, study_map};
-use crate::scene::{format_range, format_rounded};
-use crate::study::{Axis, Cell, Grid, LiveMap, Place, Quantity, Statistics, live_plan};
+use crate::scene::{RoughnessParameter, format_range, format_rounded};
+use crate::study::{Axis, Cell, Grid, LiveMap, MAP_LINES, Place, Quantity, Statistics, live_plan};
 use crate::text::grouped;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -21,7 +20,6 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| app.grid().map(|grid| figure(app, grid)),
     report: cells,
-    keys: Some(Context::Map),
     studies: |app, computed| match app.map.shown_study() {
         Some(_) => Vec::new(),
         None => study(app, computed).into_iter().collect(),
@@ -29,7 +27,7 @@ pub static ROW: PaneRow = PaneRow {
     help: &[
         (
             "Map",
-            "m: regime under other H and κ (e: e_el/γ), of most of a few random profiles with few springs; █ adhesion at first \
+            "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
              touch (by V: after zero net force), ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, \
              moved by the arrows",
         ),
@@ -65,7 +63,7 @@ fn cells(app: &App) -> Exported<'_> {
 fn panel(app: &App, size: Size) -> Panel {
     let title = title(app);
     let Some(grid) = app.grid() else { return Panel::of_text(title, &nothing_yet(app)) };
-    let foot = below(app, size.width);
+    let foot = below(app, grid, size.width);
     let Some(mut chart) = map(grid, app.mapped()) else {
         let Some(chart) = curves(app, grid).into_iter().next() else {
             return Panel::of_text(title, "the study has no quantity to draw over its axis");
@@ -127,39 +125,35 @@ fn figure(app: &App, grid: &Grid) -> Figure {
 
 /// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
 fn title(app: &App) -> String {
-    let plan = live_plan(app.edit.document.scene(), app.map.parameter);
     let Some((across, up)) = app.map_axes() else { return "Map".to_owned() };
-    let axes: Vec<&str> =
-        [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name).collect();
-    let over = axes.join(", ");
-    let mapped = app.grid().map(|grid| name_of(grid, app.mapped()));
-    let quantity = mapped.unwrap_or_else(|| "regime".to_owned());
-    let study = app.map.shown_study().map(|study| (&study.study_map, study.study_map.plan().lines));
-    match (study, plan) {
-        (Some((study_map, count)), _) => {
-            format!("Study {}: {quantity} over {over}, {}", study_map.name(), profiles(count))
+    let over = [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name);
+    let over = over.collect::<Vec<_>>().join(", ");
+    let mapped = app.grid().map_or_else(|| "regime".to_owned(), |grid| name_of(grid, app.mapped()));
+    let (name, lines) = match app.map.shown_study() {
+        Some(OpenStudy { study_map, .. }) => {
+            (format!("Study {}: {mapped}", study_map.name()), study_map.plan().lines)
         }
-        (None, Ok(plan)) => format!("Map of {quantity} over {over}, {}", profiles(plan.lines)),
-        (None, Err(_)) => "Map".to_owned(),
-    }
-}
-
-fn profiles(count: u64) -> String {
-    if count == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(count)) }
+        None => {
+            let lines = app.studies.value::<Live>().map_or(MAP_LINES, |live| live.map.plan().lines);
+            (format!("Map of {mapped}"), lines)
+        }
+    };
+    let profiles = if lines == 1 { "1 profile".to_owned() } else { format!("{} profiles", grouped(lines)) };
+    format!("{name} over {over}, {profiles}")
 }
 
 fn nothing_yet(app: &App) -> String {
-    if let Err(why) = live_plan(app.edit.document.scene(), app.map.parameter) {
+    if let Err(why) = live_plan(app.edit.document.scene(), RoughnessParameter::Kappa) {
         return why.to_owned();
     }
-    if let Some(why) = app.studies.failure::<Live>() {
-        return format!("no map: {why}");
-    }
-    match (app.is_computing(), app.is_current()) {
-        (true, _) => "the scene is computed first…".to_owned(),
-        (false, false) => "the scene cannot be computed, so there is no map around it".to_owned(),
-        _ if !app.view.shows_times => "a demo computes no map of a scene with this many springs".to_owned(),
-        _ => "computing the map, from coarse to fine…".to_owned(),
+    match app.studies.failure::<Live>() {
+        Some(why) => format!("no map: {why}"),
+        None if app.is_computing() => "the scene is still being computed…".to_owned(),
+        None if !app.is_current() => "the scene cannot be computed, so there is no map around it".to_owned(),
+        None if !app.view.shows_times => {
+            "a demo computes no map of a scene with this many springs".to_owned()
+        }
+        None => "computing the map, from coarse to fine…".to_owned(),
     }
 }
 
@@ -213,54 +207,35 @@ fn on_axes(grid: &Grid, (across, up): Place) -> String {
     parts.join(", ")
 }
 
-/// Lines below the map, the most important first.
-fn below(app: &App, width: u16) -> Vec<Line<'static>> {
-    let Some(grid) = app.grid() else { return Vec::new() };
-    let (study, scene) = (app.map.shown_study(), app.edit.document.scene());
-    let mut lines = Vec::new();
-    let mut say = |text: String, meaning: Meaning| {
-        let line = Line::styled(text, app.view.appearance.theme.style(meaning));
-        lines.extend(wrapped(&line, width));
+/// The place of the scene with the values of the nearest cell, and what keeps the map from being whole or from being that
+/// of the scene.
+fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
+    let study = app.map.shown_study();
+    let is_of_scene = study.is_none_or(|study| study.study_map.is_of(study.slice, app.edit.document.scene()));
+    let mark = match app.place() {
+        Some(place) => {
+            let outside = if grid.contains(place) { "" } else { ", outside the map" };
+            let cell = grid
+                .nearest(place)
+                .map_or_else(|| "not computed".to_owned(), |near| cell_values(app, grid, place, near));
+            format!("◆ {}{outside}: {cell}", on_axes(grid, place))
+        }
+        None => "no mark: the scene lacks a quantity of the axes".to_owned(),
     };
-    let plan = live_plan(scene, app.map.parameter);
-    if let Some(place) = app.place() {
-        let outside = if grid.contains(place) { "" } else { ", outside the map" };
-        let outcome = app.current().map(|computed| &computed.outcome);
-        let regime = outcome.and_then(|of| Some(of.regime?.by_protocols(of.regime_after_zero_force)));
-        let regime = regime.map_or_else(String::new, |regime| format!(": {regime}"));
-        say(format!("◆ {}{outside}{regime}", on_axes(grid, place)), Meaning::Text);
-        if let Some((cell, column, row)) = grid.nearest(place) {
-            say(cell_values(app, grid, place, (cell, column, row)), Meaning::Text);
-        } else if study.is_some() {
-            say("the study was merged without this cell".to_owned(), Meaning::Text);
+    let missing = match (study, app.studies.failure::<Live>()) {
+        _ if !is_of_scene => Some(
+            "the scene is no longer that of the study: it differs in more than the quantities of the axes"
+                .to_owned(),
+        ),
+        (None, Some(why)) => Some(format!("map incomplete: {why}")),
+        (None, None) if app.studies.value::<Live>().is_some_and(|live| !live.map.is_whole()) => {
+            Some("computing further cells…".to_owned())
         }
-    } else if study.is_some() {
-        let why = plan.as_ref().err().map(|why| why.replacen("no map", "no mark", 1));
-        let no_mark = || "no mark: the scene lacks a quantity of the axes".to_owned();
-        say(why.unwrap_or_else(no_mark), Meaning::Quiet);
-    }
-    if study.is_some_and(|study| !study.study_map.is_of(study.slice, scene)) {
-        let why =
-            "the scene is no longer that of the study: it differs in more than the quantities of the axes";
-        say(why.to_owned(), Meaning::Key);
-    }
-    if let (None, Some(Live { map, .. })) = (study, app.studies.value()) {
-        let size = |level| {
-            let rows = map.cells(level);
-            format!("{} × {} cells", rows.first().map_or(0, Vec::len), rows.len())
-        };
-        match (map.level(), app.studies.failure::<Live>()) {
-            (_, Some(why)) => say(format!("map incomplete: {why}"), Meaning::Error),
-            (Some(_), None) if map.is_whole() => {}
-            (Some(level), None) => say(format!("{} so far…", size(level)), Meaning::Key),
-            (None, None) => say("the coarse map first…".to_owned(), Meaning::Key),
-        }
-    }
-    if let (None, Ok(plan)) = (study, plan) {
-        let springs = grouped(plan.scene.numerics.points);
-        say(format!("Each cell: {} of {springs} springs.", profiles(plan.lines)), Meaning::Quiet);
-    }
-    lines
+        _ => None,
+    };
+    let key = app.view.appearance.theme.style(Meaning::Key);
+    let lines = [Some(Line::raw(mark)), missing.map(|missing| Line::styled(missing, key))];
+    lines.into_iter().flatten().flat_map(|line| wrapped(&line, width)).collect()
 }
 
 fn deciding(regime: Quantity) -> [Quantity; 2] {
@@ -285,25 +260,26 @@ fn cell_values(
     mark: Place,
     (cell, column, row): (&Result<Cell, String>, usize, usize),
 ) -> String {
-    let whose = if app.map.shown_study().is_some() { "study" } else { "map" };
     let place = (grid.across.values[column], grid.up.as_ref().map(|up| up.values[row]));
-    let (at, marked) = (on_axes(grid, place), on_axes(grid, mark));
-    let at = if at == marked { whose.to_owned() } else { format!("{whose} at {at}") };
+    let at = on_axes(grid, place);
+    let at = if at == on_axes(grid, mark) { String::new() } else { format!("at {at} ") };
     let cell = match cell {
         Ok(cell) => cell,
-        Err(why) => return format!("{at}: {why}"),
+        Err(why) => return format!("{at}{why}"),
     };
     // Quantities of a regime are shown together, so that the map keeps its place.
     let mapped = app.mapped();
     let regime = Quantity::REGIMES.into_iter().find(|regime| deciding(*regime).contains(&mapped));
     let mapped = regime.unwrap_or(mapped);
     let regimes = cell.regimes_of(mapped);
-    let regime = regimes.most().map(|(regime, count)| match regimes.profiles() as u64 {
-        1 => format!("{} {}", regime.name(), mapped.protocol()),
-        lines => {
-            let count = grouped(count as u64);
-            format!("{} {} ({count} of {} profiles)", regime.name(), mapped.protocol(), grouped(lines))
-        }
+    let regime = regimes.most().map(|(regime, count)| {
+        let lines = regimes.profiles() as u64;
+        let share = if lines == 1 {
+            String::new()
+        } else {
+            format!(" ({} of {} profiles)", grouped(count as u64), grouped(lines))
+        };
+        format!("{} {}{share}", regime.name(), mapped.protocol())
     });
     let shown = shown_quantities(mapped, grid);
     let known = grid.layers.iter().zip(&cell.statistics).filter(|(layer, _)| shown.contains(&layer.quantity));
@@ -311,7 +287,7 @@ fn cell_values(
         let quantity = layer.quantity;
         Some(format!("{} {}", name_of(grid, quantity), value((*all)?, quantity.unit())))
     });
-    format!("{at}: {}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
+    format!("{at}{}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
 }
 
 /// A mean, with median and range of profiles that differ.

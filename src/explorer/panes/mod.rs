@@ -1,16 +1,13 @@
 //! The table of panes: one row each. A pane is one file with one function of the app, which returns its panel.
 
 mod accuracy;
-mod beside;
 mod close_up;
 mod force;
-mod lengths;
 mod map;
 mod parameters;
 mod preload_curve;
 mod preloads;
 mod profile;
-mod reversals;
 mod row;
 mod section;
 mod sensitivity;
@@ -25,7 +22,7 @@ pub use row::{Exported, OPEN_COMMAND, PaneRow};
 use super::app::App;
 use super::keys::Context;
 use super::layout::{Layout, inside};
-pub use super::pane::{Pane, Place};
+pub use super::pane::Pane;
 use super::panel::{self, Panel, Under};
 use crate::draw::Figure;
 use ratatui::layout::{Position, Size};
@@ -39,12 +36,9 @@ impl Pane {
             Pane::Force => &force::ROW,
             Pane::Profile => &profile::ROW,
             Pane::CloseUp => &close_up::ROW,
-            Pane::Lengths => &lengths::ROW,
-            Pane::Beside => &beside::ROW,
             Pane::Accuracy => &accuracy::ROW,
             Pane::Spectrum => &spectrum::ROW,
             Pane::Preloads => &preloads::ROW,
-            Pane::Everett | Pane::Density => &reversals::EVERETT,
             Pane::Sensitivity => &sensitivity::ROW,
             Pane::Map => &map::ROW,
             Pane::Parameters => &parameters::ROW,
@@ -55,10 +49,9 @@ impl Pane {
     pub fn panel(self, app: &App, size: Size) -> Panel {
         let mut panel = (self.row().panel)(app, size);
         // The crosshair of profile and close-up is at a spring.
-        let is_chart =
-            self == app.view.pane && self.row().keys == Some(Context::Crosshair) && app.section().is_none();
+        let is_chart = self == app.view.pane && self.keys() == Context::Crosshair && app.section().is_none();
         if let Some(position) = app.view.crosshair.filter(|_| is_chart) {
-            let width = if self.row().place == Place::Large { size.width } else { u16::MAX };
+            let width = if self.is_large() { size.width } else { u16::MAX };
             panel.read_at(position, app.view.appearance, width);
         }
         panel

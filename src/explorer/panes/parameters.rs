@@ -1,9 +1,8 @@
 //! The list of parameters and the meaning of the selected one.
 
+use super::PaneRow;
 use super::row::outcome;
-use super::{PaneRow, Place};
 use crate::explorer::app::{App, Message};
-use crate::explorer::keys::Context;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting};
@@ -17,10 +16,8 @@ use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
 pub static ROW: PaneRow = PaneRow {
-    place: Place::Own,
     panel,
     report: outcome,
-    keys: Some(Context::Parameters),
     help: &[(
         "Parameters",
         "fields of the scene by use, in groups; ● marks an effect that is on, ○ one that is off, = a derived value",
@@ -107,9 +104,9 @@ fn has_focus(app: &App) -> bool {
 
 /// Marks before a name: the first row of a group, an effect that is on or off; other rows are indented.
 fn lead(app: &App, parameter: &Parameter) -> String {
-    let (is_head, is_switch) = (parameter.is_head(), matches!(parameter.setting, Setting::Switch(_)));
+    let is_head = parameter.is_head();
     let is_on = |effect: Effect| effect.is_on(app.edit.document.scene());
-    let effect = parameter.effect.filter(|_| is_head || is_switch);
+    let effect = parameter.effect.filter(|_| is_head);
     let mark = effect.map_or(" ", |effect| if is_on(effect) { "●" } else { "○" });
     format!("{}{mark}", if is_head { "─" } else { " " })
 }
@@ -209,9 +206,8 @@ fn explanation(app: &App, index: usize) -> Line<'static> {
     }
     let Some(parameter) = app.edit.parameters.get(index) else { return Line::default() };
     let text = match parameter.setting {
-        Setting::Switch(effect) => format!("{}: observed or not; t switches it", effect.name()),
         _ if parameter.path == "loading" => format!(
-            "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number alone is a force in N. ← → choose a protocol, Shift the number of its loops or reversals",
+            "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number alone is a force in N",
             parameter.field.meaning
         ),
         Setting::Heading => parameter.field.meaning.to_owned(),

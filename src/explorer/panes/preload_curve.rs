@@ -2,7 +2,6 @@
 
 use crate::analysis::Figures;
 use crate::draw::{AxisScale, Span};
-use crate::explorer::app::PreloadAxis;
 use crate::explorer::snapshot::SolvedScene;
 use crate::scene::{Move, Solver};
 use crate::simulation::Simulation;
@@ -21,7 +20,6 @@ pub const PROFILES: usize = 16;
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    asked: PreloadAxis,
     /// The preloads.
     pub axis: Axis,
     /// The profile of the scene.
@@ -38,14 +36,14 @@ impl PreloadCurve {
     /// The reason why the scene has no such curve, a profile or contact that fails, or a stop.
     pub fn compute(
         computed: &SolvedScene,
-        asked: PreloadAxis,
+        scale: AxisScale,
         begun: Option<PreloadCurve>,
         simulation: &mut Simulation,
         stop: &dyn Fn() -> bool,
         report: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<PreloadCurve, String> {
-        let begun = begun.filter(|begun| begun.asked == asked && begun.staircase.is_whole());
-        let mut curve = begun.map_or_else(|| Self::begin(computed, asked, simulation, stop), Ok)?;
+        let begun = begun.filter(|begun| begun.axis.scale() == scale && begun.staircase.is_whole());
+        let mut curve = begun.map_or_else(|| Self::begin(computed, scale, simulation, stop), Ok)?;
         if !curve.staircase.is_whole() {
             let (scene, axis) = (&computed.scene, curve.axis.clone());
             let found = Staircase::find(scene, &axis, simulation, stop, &mut |part| {
@@ -65,7 +63,7 @@ impl PreloadCurve {
     /// The curve of a computed scene, still empty.
     fn begin(
         computed: &SolvedScene,
-        asked: PreloadAxis,
+        scale: AxisScale,
         simulation: &mut Simulation,
         stop: &dyn Fn() -> bool,
     ) -> Result<Self, String> {
@@ -86,21 +84,18 @@ impl PreloadCurve {
         });
         touched.map_err(|error| error.to_string())?;
         let last = (PRELOADS - 1) as f64;
-        let scale = asked.scale;
-        let usual = match scale {
+        let Span { low, high } = match scale {
             AxisScale::Linear => Span { low: touch, high: touch + (preload - touch) * last / PLACES.0 },
             AxisScale::Logarithmic => {
                 let low = scale.coordinate(preload) - DECADES * PLACES.1 / last;
                 Span { low, high: low + DECADES }
             }
         };
-        let Span { low, high } = asked.span.unwrap_or(usual);
-        let from = if scale == AxisScale::Linear { low.max(touch) } else { scale.number(low) };
-        let axis = Axis::of_preloads((from, scale.number(high)), PRELOADS, scale)?;
+        let axis = Axis::of_preloads((scale.number(low), scale.number(high)), PRELOADS, scale)?;
         let lines = scene.seed().map_or(1, |_| PROFILES as u64);
         let results = Results::begin(scene, &Results::OF_PRELOADS, lines, Some(&axis));
         let results = results.map_err(|_| "there is not enough memory for the curve")?;
-        Ok(PreloadCurve { asked, axis, staircase: Staircase::default(), results })
+        Ok(PreloadCurve { axis, staircase: Staircase::default(), results })
     }
 
     /// Returns true once all profiles are computed.
@@ -111,12 +106,6 @@ impl PreloadCurve {
     /// Number of computed random profiles.
     pub fn profiles(&self) -> usize {
         self.results.records_of(0).count()
-    }
-
-    /// Range of the preloads, in coordinates of their scale.
-    pub fn span(&self) -> Option<Span> {
-        let at = |force: &f64| self.axis.scale().coordinate(*force);
-        Some(Span { low: at(self.axis.values.first()?), high: at(self.axis.values.last()?) })
     }
 
     /// The adhesion force over the computed profiles at a preload of the axis, N; `None` for fewer than two.
@@ -134,7 +123,7 @@ mod tests {
     use std::cell::Cell;
     use std::sync::Arc;
 
-    const LINEAR: PreloadAxis = PreloadAxis { scale: AxisScale::Linear, span: None };
+    const LINEAR: AxisScale = AxisScale::Linear;
 
     fn computed(name: &str) -> SolvedScene {
         let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 2048).unwrap();
@@ -142,9 +131,9 @@ mod tests {
         SolvedScene { generation: 1, scene: Arc::new(scene), outcome, reach: Default::default() }
     }
 
-    fn curve(computed: &SolvedScene, asked: PreloadAxis) -> Result<PreloadCurve, String> {
+    fn curve(computed: &SolvedScene, scale: AxisScale) -> Result<PreloadCurve, String> {
         let simulation = &mut Simulation::default();
-        PreloadCurve::compute(computed, asked, None, simulation, &|| false, &mut |_| ())
+        PreloadCurve::compute(computed, scale, None, simulation, &|| false, &mut |_| ())
     }
 
     #[test]
@@ -177,7 +166,7 @@ mod tests {
         assert_eq!(whole.at(preload).map(|all| all.count), Some(PROFILES));
         assert_eq!((whole.at(0.7 * preload), whole.axis.values[0]), (None, whole.staircase.touch.0));
         // Another axis is another curve.
-        let ratios = curve(&computed, PreloadAxis { scale: AxisScale::Logarithmic, span: None }).unwrap();
+        let ratios = curve(&computed, AxisScale::Logarithmic).unwrap();
         let (first, last) = (ratios.axis.values[0], ratios.axis.values[PRELOADS - 1]);
         assert!((last / first / 1e6 - 1.0).abs() < 1e-9 && ratios.at(preload).is_some());
     }

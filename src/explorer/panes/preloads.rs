@@ -4,7 +4,6 @@
 use super::{Exported, PROFILES, PaneRow, PreloadCurve};
 use crate::draw::{AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
-use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::studies::Study;
 use crate::explorer::theme::Meaning;
@@ -21,14 +20,13 @@ pub static ROW: PaneRow = PaneRow {
         Some(preload_figure(app.edit.document.title(), chart, beside))
     },
     report,
-    keys: Some(Context::Crosshair),
     studies: |app, computed| {
         let (begun, computed) = (app.studies.value::<PreloadCurve>().cloned(), Arc::clone(computed));
-        let asked = app.view.preloads;
-        let key = format!("{} {asked:?}", computed.generation);
+        let scale = app.view.preloads;
+        let key = format!("{} {scale:?}", computed.generation);
         vec![Study::new(key, false, move |simulation, stop, report| {
             let report: &mut dyn FnMut(&PreloadCurve) = &mut |curve| report(curve.clone());
-            PreloadCurve::compute(&computed, asked, begun, simulation, stop, report)
+            PreloadCurve::compute(&computed, scale, begun, simulation, stop, report)
         })]
     },
     help: &[(
@@ -36,7 +34,7 @@ pub static ROW: PaneRow = PaneRow {
         "i: adhesion force over preload, of this profile as the staircase that it is, and over random profiles median, \
          quartiles, mean and range; ◇ after a turn at first touch, ○ where the force is back at zero; the line and ◆ are \
          the present preload. On the right the share of profiles up to each force, at the crosshair or the present \
-         preload. + - ( ) change the range, X the scale",
+         preload. X changes the scale",
     )],
     ..PaneRow::EMPTY
 };

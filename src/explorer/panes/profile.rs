@@ -1,9 +1,8 @@
 //! The profile: the rigid profile, the elastic surface above it, their contact, and the distribution of heights.
 
-use super::{PaneRow, Place, section};
+use super::{PaneRow, section};
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
 use crate::explorer::app::App;
-use crate::explorer::keys::Context;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Appearance;
@@ -24,8 +23,6 @@ pub static ROW: PaneRow = PaneRow {
         Some(section::figure(app.edit.document.title(), app.snapshot.as_deref()?, chart))
     },
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
-    place: Place::Own,
-    keys: Some(Context::Crosshair),
     help: &[(
         "Profile",
         "rigid profile below, elastic surface above; ■ marks contact. On the right the density of heights, and dotted the \
@@ -42,19 +39,15 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
 
 fn title(app: &App) -> String {
     let length = format_quantity(app.edit.document.scene().length, "m");
-    if app.beside().is_some() {
-        return format!("Profile z(x) of this scene, x to {length}");
-    }
-    let follows = if app.view.profile.follow { " · follows" } else { "" };
     let Some(snapshot) = app.snapshot.as_ref() else { return format!("Profile z(x), x to {length}") };
     let shown = &snapshot.profile;
     if app.view.profile.share >= 1.0 {
-        return format!("Profile z(x), x to {length}{follows}");
+        return format!("Profile z(x), x to {length}");
     }
     let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
     let to = from + shown.springs as f64 * snapshot.line.spacing;
     let [from, to] = [from, to].map(|x| format_quantity(x, "m"));
-    format!("Profile z(x), x from {from} to {to} of {length}{follows}")
+    format!("Profile z(x), x from {from} to {to} of {length}")
 }
 
 /// Profile and distribution of heights of a scene at one state, heights within `z`.

@@ -2,8 +2,6 @@
 
 use crate::draw::Figure;
 use crate::explorer::app::{App, ManualState};
-use crate::explorer::keys::Context;
-use crate::explorer::pane::Place;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
@@ -16,8 +14,6 @@ use std::sync::Arc;
 pub type Exported<'a> = Option<(Cow<'static, str>, Box<dyn Report + 'a>)>;
 
 pub struct PaneRow {
-    /// Place in a window with room for all.
-    pub place: Place,
     /// Content for an area of this size within the frame.
     pub panel: fn(&App, Size) -> Panel,
     /// Content as a figure for a file, where this is more than the chart of the panel.
@@ -25,8 +21,6 @@ pub struct PaneRow {
     /// The command and the report that a table or a JSON file states, where this is more than the curves of the figure;
     /// `None` while the result is missing.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
-    /// Keys of the selected pane; those of the crosshair, while this is shown.
-    pub keys: Option<Context>,
     /// Studies of a computed scene whose values the shown pane needs.
     pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
     /// Paragraphs of the help: a name and the meaning of the signs in the pane.
@@ -34,13 +28,11 @@ pub struct PaneRow {
 }
 
 impl PaneRow {
-    /// An empty pane in the place of profile and close-up.
+    /// An empty pane.
     pub const EMPTY: PaneRow = PaneRow {
-        place: Place::Large,
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
         report: |_| None,
-        keys: None,
         studies: |_, _| Vec::new(),
         help: &[],
     };

@@ -1,4 +1,4 @@
-//! Part of the profile on its axes: rigid profile, elastic surface and contact, for profile, close-up and the scene beside.
+//! Part of the profile on its axes: rigid profile, elastic surface and contact of the profile pane and the close-up.
 
 use super::row::{Exported, OPEN_COMMAND};
 use crate::draw::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
@@ -63,18 +63,15 @@ pub fn table(app: &App, chart: Chart) -> Exported<'static> {
     app.is_current().then(|| (OPEN_COMMAND.into(), Box::new(Figure::of_chart("", chart)) as Box<dyn Report>))
 }
 
-/// Axis of heights: the profile, and the surface over the whole loop unless far above. Two scenes side by side share it.
+/// Axis of heights: the profile, and the surface over the whole loop unless far above.
 pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
-    let ends = |snapshot: &ContactSnapshot| {
-        let (low, high) = snapshot.profile.heights;
-        let far = high + 0.5 * (high - low);
-        let now = snapshot.point.indentation;
-        let indentations = app.indentations().map_or([now; 2], |(low, high)| [low, high]);
-        let level = |indentation: f64| (snapshot.profile.level + now - indentation).min(far);
-        [low, high, level(now), level(indentations[0]), level(indentations[1])]
-    };
-    let beside = app.beside().and_then(|ghost| ghost.snapshot.as_deref());
-    Span::around(ends(snapshot).into_iter().chain(beside.into_iter().flat_map(ends)), 0.05)
+    let (low, high) = snapshot.profile.heights;
+    let far = high + 0.5 * (high - low);
+    let now = snapshot.point.indentation;
+    let indentations = app.indentations().map_or([now; 2], |(low, high)| [low, high]);
+    let level = |indentation: f64| (snapshot.profile.level + now - indentation).min(far);
+    let ends = [low, high, level(now), level(indentations[0]), level(indentations[1])];
+    Span::around(ends.into_iter(), 0.05)
 }
 
 /// Position of the middle of a spring, m.

@@ -2,7 +2,6 @@
 
 use super::PaneRow;
 use crate::explorer::app::App;
-use crate::explorer::keys::Context;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
@@ -22,7 +21,6 @@ use std::sync::Arc;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
-    keys: Some(Context::Crosshair),
     studies: |app, computed| {
         let solved = Arc::clone(computed);
         let spectra = Study::new(computed.generation, false, move |simulation, _, _| {

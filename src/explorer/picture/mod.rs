@@ -8,7 +8,6 @@ pub use svg::svg;
 
 use ratatui::buffer::{Buffer, Cell, CellWidth};
 use ratatui::layout::Rect;
-use ratatui::style::Color;
 
 struct Glyph<'a> {
     /// Column, from 0 at the left edge of the screen.
@@ -63,8 +62,6 @@ pub fn text(buffer: &Buffer) -> String {
         let Some(row) = rows.get_mut(usize::from(glyph.row)) else { break };
         match glyph.symbol() {
             " " => row.extend(std::iter::repeat_n(' ', usize::from(glyph.width))),
-            // The other half is filled by the colour of the background, which a text does not have.
-            "▀" | "▄" if glyph.cell.bg != Color::Reset => row.push('█'),
             symbol => row.push_str(symbol),
         }
     }
@@ -87,14 +84,6 @@ mod tests {
         let mut buffer = Buffer::empty(Rect::new(3, 2, 8, 1));
         buffer.set_string(3, 2, "漢字e\u{301}x", Style::new());
         assert_eq!(text(&buffer), "漢字e\u{301}x\n");
-    }
-
-    #[test]
-    fn halves_in_two_colours_are_whole() {
-        let mut buffer = Buffer::with_lines(["▀▄▀"]);
-        buffer[(0, 0)].set_bg(Color::Red);
-        buffer[(1, 0)].set_bg(Color::Red);
-        assert_eq!(text(&buffer), "██▀\n");
     }
 
     #[test]

@@ -1,47 +1,19 @@
 //! Loops kept for comparison.
 
 use super::edit;
-use crate::explorer::app::{App, Ghost, Pane};
-use crate::scene::Document;
+use crate::explorer::app::{App, Ghost, letter};
 use std::sync::Arc;
 
 /// Most kept curves: each has a colour of its own.
 const MOST_GHOSTS: usize = 4;
 
 pub fn clear(app: &mut App) {
-    app.hide(Pane::Beside);
     app.ghosts.clear();
 }
 
-/// Shows the newest ghost beside the scene, or hides it; without a ghost the present scene becomes one.
-pub fn toggle_side_by_side(app: &mut App) {
-    if app.is_shown(Pane::Beside) {
-        return app.hide(Pane::Beside);
-    }
-    if app.ghosts.is_empty() {
-        pin(app);
-    }
-    if !app.ghosts.is_empty() {
-        app.show(Pane::Beside);
-    }
-}
-
-/// Keeps the computed scene as a ghost and opens another scene beside it.
-pub fn open_beside(app: &mut App, document: Document) {
-    pin(app);
-    app.show(Pane::Beside);
-    edit::open(app, document);
-    app.message = None;
-    // There is no edit to undo: both scenes are as opened.
-    app.edit.past.clear();
-}
-
 fn ghost(app: &App) -> Option<Ghost> {
-    Some(Ghost {
-        document: app.edit.document.clone(),
-        computed: Arc::clone(app.current()?),
-        snapshot: app.snapshot.clone(),
-    })
+    let outcome = Arc::new(app.current()?.outcome.clone());
+    Some(Ghost { document: app.edit.document.clone(), outcome })
 }
 
 pub fn pin(app: &mut App) {
@@ -54,7 +26,7 @@ pub fn pin(app: &mut App) {
         app.ghosts.remove(0);
     }
     app.ghosts.push(ghost);
-    let name = app.newest_letter();
+    let name = letter(app.ghosts.len() - 1);
     let rest = if is_full { "the oldest ghost has been removed" } else { "x swaps it with the scene" };
     app.set_done(format!("kept as ghost {name}; {rest}"));
 }

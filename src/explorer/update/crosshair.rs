@@ -12,9 +12,9 @@ pub fn toggle(app: &mut App) {
     if app.view.crosshair.take().is_some() {
         return;
     }
-    match app.view.pane.row().keys {
-        Some(Context::Crosshair) => {}
-        Some(Context::Parameters) => app.view.pane = Pane::Force,
+    match app.view.pane.keys() {
+        Context::Crosshair => {}
+        Context::Parameters => app.view.pane = Pane::Force,
         _ => return app.set_done("the selected pane has no curves for the crosshair to read"),
     }
     let (low, high) = ends(app);

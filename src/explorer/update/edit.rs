@@ -51,7 +51,6 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
             let way = way_of_changing(parameter);
             app.set_done(way);
         }
-        Setting::Switch(_) => return switch(app),
         Setting::Heading => app.set_done(way_of_changing(parameter)),
         Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
             let text = editable(app, parameter);
@@ -85,7 +84,6 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
 /// The way to change a parameter without a number.
 fn way_of_changing(parameter: &Parameter) -> String {
     let way = match (parameter.setting, parameter.field.step) {
-        (Setting::Switch(_), _) => "a switch: t changes it",
         (Setting::Heading, _) => "a group: its fields are in the rows below",
         (_, Step::Choice) => "a choice: ← → change it",
         _ => "not a number: Enter types it",
@@ -103,13 +101,9 @@ pub fn show_parameters(app: &mut App) {
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     show_parameters(app);
     let Some(parameter) = app.edit.parameter() else { return };
-    match parameter.setting {
-        Setting::Switch(_) => return switch(app),
-        Setting::Heading => return refuse(app, way_of_changing(parameter)),
-        Setting::Field if matches!(parameter.field.range, Range::Text { .. }) => {
-            return refuse(app, way_of_changing(parameter));
-        }
-        Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {}
+    let is_text = matches!(parameter.field.range, Range::Text { .. }) || parameter.path == "loading";
+    if parameter.setting == Setting::Heading || is_text {
+        return refuse(app, way_of_changing(parameter));
     }
     if let Some(given) = parameter.follows_from(app.edit.document.scene()) {
         let name = parameter.name();
@@ -207,7 +201,7 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
     let adhesion = document.scene().adhesion.unwrap_or_default();
     let changed = match parameter.setting {
-        Setting::Field | Setting::Switch(_) | Setting::Heading => {
+        Setting::Field | Setting::Heading => {
             // Modes and wavelengths replace each other.
             let other = match parameter.path.as_str() {
                 "roughness.modes" => Some("roughness.wavelengths"),
@@ -269,10 +263,6 @@ pub fn preview(app: &mut App) {
 /// Switches the effect of the selected row on or off.
 pub fn toggle_effect(app: &mut App) {
     show_parameters(app);
-    switch(app);
-}
-
-fn switch(app: &mut App) {
     let Some(effect) = app.edit.parameter().and_then(|parameter| parameter.effect) else {
         return refuse(app, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
     };

@@ -1,10 +1,11 @@
 //! Changes of the view: panes, close-up, parts of the line, quantities, colours.
 
-use super::{Effect, preloads};
+use super::Effect;
+use crate::draw::AxisScale;
 use crate::explorer::app::{App, CloseUpTarget, Pane};
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::ContactSnapshot;
-use crate::explorer::theme::{Choice, Marker};
+use crate::explorer::theme::Choice;
 use std::sync::Arc;
 
 /// Fewest springs that fill a pane.
@@ -16,22 +17,10 @@ pub fn go_to_fragment(app: &mut App, question: fn(Option<usize>) -> Focus) {
     app.view.look.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
-/// Shows the whole profile, and the close-up in its initial size; the usual preloads where their pane is selected.
+/// Shows the whole profile, and the close-up in its initial size.
 pub fn reset_zoom(app: &mut App) {
-    if app.view.pane == Pane::Preloads {
-        return preloads::show(app, app.view.preloads.scale, None);
-    }
     app.view.profile = LineView::WHOLE;
     app.view.look.springs = CloseUpTarget::springs_shown(&app.edit.document);
-}
-
-/// Keeps the profile centred on the close-up, or not.
-pub fn toggle_follow(app: &mut App) {
-    app.view.profile.follow = !app.view.profile.follow;
-    // There is nothing to follow in the whole line.
-    if app.view.profile.follow && app.view.profile.share >= 1.0 {
-        app.view.profile.share = 0.25;
-    }
 }
 
 pub fn next_pane(app: &mut App) {
@@ -46,33 +35,27 @@ pub fn next_theme(app: &mut App) {
 }
 
 pub fn next_marker(app: &mut App) {
-    let mut marker = app.view.appearance.marker.next();
-    if marker == Marker::Octant && app.view.lacks_octants {
-        marker = marker.next();
-    }
-    app.view.appearance.marker = marker;
-    app.set_done(format!("markers: {}", marker.name()));
+    app.view.appearance.marker = app.view.appearance.marker.next();
+    app.set_done(format!("markers: {}", app.view.appearance.marker.name()));
     // A terminal may have given the former markers another width than the program.
     app.effects.push(Effect::Redraw);
 }
 
-pub fn remember_appearance(app: &mut App) {
-    let Some(path) = app.config.path.clone() else {
-        app.set_error("there is no configuration file: asperity was started with --no-config");
-        return;
+/// Changes between preloads at equal distances and at equal ratios.
+pub fn toggle_preload_scale(app: &mut App) {
+    app.view.preloads = match app.view.preloads {
+        AxisScale::Linear => AxisScale::Logarithmic,
+        AxisScale::Logarithmic => AxisScale::Linear,
     };
-    app.effects.push(Effect::Remember { path, appearance: app.view.appearance });
+    app.effects.push(Effect::Study);
 }
 
 fn springs(app: &App) -> usize {
     app.solved.as_ref().map_or(1, |computed| computed.outcome.line.points).max(1)
 }
 
-/// Zooms the profile or the preloads, where they are the chosen pane, or the close-up; positive steps are closer.
+/// Zooms the profile where it is the selected pane, else the close-up; positive steps are closer.
 pub fn zoom(app: &mut App, steps: i32) {
-    if app.view.pane == Pane::Preloads {
-        return preloads::change(app, if steps > 0 { 0.5 } else { 2.0 }, 0.0);
-    }
     let most = springs(app);
     if app.view.pane == Pane::Profile {
         let least = (FEWEST_SPRINGS as f64 / most as f64).min(1.0);
@@ -105,7 +88,7 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
         let LineView { share, .. } = app.view.profile;
         let centre = profile.centre + away * (profile.share - share);
         let centre = centre.clamp(share / 2.0, 1.0 - share / 2.0);
-        app.view.profile = LineView { centre, share, follow: false };
+        app.view.profile = LineView { centre, share };
     } else if let Some(snapshot) = &app.snapshot {
         let section = &snapshot.close_up.section;
         let middle = section.first as f64 + section.springs as f64 / 2.0;
@@ -114,17 +97,13 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     }
 }
 
-/// Moves along the line, or along the preloads, by quarters of the visible part.
+/// Moves along the profile by quarters of the visible part.
 pub fn pan(app: &mut App, quarters: i32) {
     let quarters = f64::from(quarters) / 4.0;
-    if app.view.pane == Pane::Preloads {
-        return preloads::change(app, 1.0, quarters);
-    }
     if app.view.pane == Pane::Profile {
         let half = app.view.profile.share / 2.0;
         let centre = app.view.profile.centre + quarters * app.view.profile.share;
         app.view.profile.centre = centre.clamp(half, 1.0 - half);
-        app.view.profile.follow = false;
     } else if let Some(snapshot) = &app.snapshot {
         let section = &snapshot.close_up.section;
         let middle = section.first + section.springs / 2;

@@ -1,21 +1,26 @@
 //! Commands of the map and of the scene as its mark.
 
 use super::{Effect, edit};
-use crate::explorer::app::App;
-use crate::explorer::map::Live;
+use crate::explorer::app::{App, Pane};
 use crate::explorer::opening::Opening;
 use crate::scene::{Document, RoughnessParameter, SceneErrors};
-use crate::study::{Axis, Place, live_plan, moved};
+use crate::study::{Axis, Place, StudyMap, live_plan, moved};
 use std::sync::Arc;
 
 /// Explores a scene or a study opened by its path.
 pub fn open(app: &mut App, opening: Opening) {
-    let Opening { document, study_map, beside, .. } = opening;
-    app.opens_beside = beside;
+    let Opening { document, study_map, .. } = opening;
     edit::open(app, document);
     if let Some(study_map) = study_map {
-        app.show_study(study_map);
+        show_study(app, study_map);
     }
+}
+
+/// Shows the map of a study, the first of them.
+fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
+    app.map.open_study(study_map, 0);
+    app.map.of_study = true;
+    app.show(Pane::Map);
 }
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
@@ -27,21 +32,6 @@ pub fn toggle_study(app: &mut App) {
         return;
     }
     app.map.of_study = !app.map.of_study;
-    app.effects.push(Effect::Study);
-}
-
-/// Maps over the other parameter of roughness.
-pub fn next_parameter(app: &mut App) {
-    if app.map.shown_study().is_some() {
-        app.set_error("a study has its own axes; W shows the map that is computed here");
-        return;
-    }
-    app.map.parameter = match app.map.parameter {
-        RoughnessParameter::Kappa => RoughnessParameter::ElasticEnergyRatio,
-        RoughnessParameter::ElasticEnergyRatio => RoughnessParameter::Kappa,
-    };
-    app.map.moving = false;
-    app.studies.forget::<Live>();
     app.effects.push(Effect::Study);
 }
 
@@ -78,10 +68,10 @@ pub fn step_slice(app: &mut App, steps: i32) {
 /// Moves the mark by columns and rows of the map.
 pub fn step(app: &mut App, columns: i32, rows: i32) {
     let Some((at_across, at_up)) = app.place() else {
-        let why = match live_plan(app.edit.document.scene(), app.map.parameter) {
+        let why = match live_plan(app.edit.document.scene(), RoughnessParameter::Kappa) {
             Err(why) => why.to_owned(),
             Ok(_) if app.map.shown_study().is_some() => NO_PLACE.to_owned(),
-            Ok(_) => "not before the scene is computed: its κ and e_el/γ follow from its profile".to_owned(),
+            Ok(_) => "not before the scene is computed: its κ follows from its profile".to_owned(),
         };
         app.set_error(why);
         return;

@@ -12,7 +12,6 @@ pub(super) mod map;
 pub(super) mod measured;
 mod mouse;
 pub(super) mod movement;
-pub(super) mod preloads;
 pub(super) mod stages;
 pub(super) mod typed;
 
@@ -61,14 +60,7 @@ fn apply(app: &mut App, action: Action) {
             app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
             app.effects.push(Effect::List);
         }
-        Action::Remembered(Err(why)) => app.set_error(why),
-        Action::Remembered(Ok(path)) => {
-            app.set_done(format!("colours and markers are kept in {}", path.display()));
-        }
-        Action::Mouse(mouse) => {
-            mouse::act(app, mouse);
-            run_chosen(app);
-        }
+        Action::Mouse(mouse) => mouse::act(app, mouse),
     }
 }
 
@@ -91,11 +83,6 @@ fn run(app: &mut App, command: Command) {
         app.map.moving = moving;
     }
     keys::run(command, app);
-    run_chosen(app);
-}
-
-/// Runs a command chosen in the list of commands or in the footer.
-fn run_chosen(app: &mut App) {
     if let Some(chosen) = app.chosen.take() {
         run(app, chosen);
     }
@@ -110,9 +97,6 @@ fn reported(app: &mut App, report: Report) {
             app.solved = Some(computed);
             if let Some(snapshot) = snapshot {
                 movement::shown(app, snapshot);
-            }
-            if let Some(document) = app.opens_beside.take() {
-                return compare::open_beside(app, document);
             }
             app.effects.push(Effect::Study);
         }
@@ -149,15 +133,17 @@ fn awaited(app: &App) -> Awaited {
     (app.edit.generation, snapshot_request(app), moves)
 }
 
+/// Columns of dots in a cell of a pane.
+const DOTS: usize = 2;
+
 pub fn snapshot_request(app: &App) -> SnapshotRequest {
     let layout = Layout::of(app);
-    let dots = app.view.appearance.marker.columns();
     SnapshotRequest {
         drive: app.drive(),
         done: app.play.done,
-        profile_columns: dots * layout.profile_cells(),
+        profile_columns: DOTS * layout.profile_cells(),
         profile: app.view.profile,
-        close_up_columns: dots * layout.close_up_cells(),
+        close_up_columns: DOTS * layout.close_up_cells(),
         strip_cells: layout.close_up_cells(),
         focus: app.view.look.focus,
         close_up_springs: app.view.look.springs,

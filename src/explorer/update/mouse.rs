@@ -3,24 +3,12 @@
 use super::{crosshair, dialogue, edit, look, map, movement};
 use crate::explorer::action::{Gesture, Mouse};
 use crate::explorer::app::{App, Pane};
-use crate::explorer::keys::{Command, footer_row};
-use crate::explorer::layout::Layout;
 use crate::explorer::panel::Under;
 use crate::explorer::panes::{indentation_at, under};
 use crate::explorer::request::ManualMove;
 use ratatui::layout::Position;
 
 pub fn act(app: &mut App, mouse: Mouse) {
-    if mouse.gesture == Gesture::Press
-        && Layout::of(app).footer.is_some_and(|footer| footer.y == mouse.row)
-        && app.view.demo.is_none()
-    {
-        // A long text hides the keys.
-        if app.message.is_none() {
-            app.chosen = footer_row(app, mouse.column).map(|row| Command { row, character: None });
-        }
-        return;
-    }
     if app.prompt.is_some() {
         if let Gesture::Wheel(turns) = mouse.gesture {
             dialogue::select(app, -turns);

@@ -1,8 +1,8 @@
-//! Edits of the loading: its stages one by one, protocols, and the path of manual loading.
+//! Edits of the loading: its stages one by one, and the path of manual loading.
 
 use super::edit;
 use crate::explorer::app::{App, Player};
-use crate::scene::{self, Document, Move, Run, STAGE_KINDS, SceneErrors, StageKind, kind_and_number, runs};
+use crate::scene::{self, Document, Move, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
 use crate::text::round_to;
 
 /// Stages, those of the present loading with their places in it.
@@ -117,38 +117,13 @@ fn pressing_force(app: &App) -> f64 {
     given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
 }
 
-/// Steps the selected value; for the row of the loading its protocol, or with a large step the number of loops or
-/// reversals; for a stage in words its kind.
+/// Steps the selected value; on a stage without a number, its kind.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else { return };
     match parameter.leg {
         Some(_) if parameter.field.unit.is_empty() => change_kind(app, steps > 0),
-        None if parameter.path == "loading" => step_protocol(app, steps, coarse),
         _ => edit::step_value(app, steps, coarse),
     }
-}
-
-fn step_protocol(app: &mut App, steps: i32, coarse: bool) {
-    edit::show_parameters(app);
-    let force = pressing_force(app);
-    let [low, high] = [round_to(force / 2.0, 12), force].map(Move::ToForce);
-    let protocols =
-        [Run::Stage(Move::ToTouch), Run::Stage(high), Run::Loops(3, low, high), Run::Reversals(8, high)];
-    let counted = |count: usize| count.saturating_add_signed(steps as isize).max(2);
-    let (here, changed) = match runs(&app.edit.document.scene().loading).first() {
-        Some(Run::Loops(count, low, high)) => (2, Some(Run::Loops(counted(*count), *low, *high))),
-        Some(Run::Reversals(count, high)) => (3, Some(Run::Reversals(counted(*count), *high))),
-        Some(Run::Stage(Move::ToForce(_))) => (1, None),
-        _ => (0, None),
-    };
-    let run = if coarse { changed } else { Some(protocols[(here + steps).rem_euclid(4) as usize]) };
-    let Some(run) = run else {
-        return app.set_error("only loops and reversals have a number; ← → change the protocol");
-    };
-    let end = Some(Move::ToSeparation).filter(|_| !matches!(run, Run::Reversals(..)));
-    let stages = replaced(&app.edit.document, run.stages().into_iter().chain(end));
-    let changed = app.edit.document.with_stages(&stages);
-    edit::take_over(app, changed)
 }
 
 /// Replaces the stages of a scene by a loading; a stage that does not change keeps its text.

@@ -5,9 +5,9 @@ use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::experiment::Fit;
-use crate::explorer::action::{EXPORTS, Traffic};
+use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
-use crate::explorer::keys::footer as footer_keys;
+use crate::explorer::keys::{Row, footer as footer_keys};
 use crate::explorer::panes::PreloadCurve;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
@@ -299,11 +299,7 @@ fn counted(number: u64, thing: &str) -> String {
     format!("{} {thing}{plural}", grouped(number))
 }
 
-const TRAFFIC_FROM: u16 = 80;
-/// Least columns for the frames as well: the keys come first.
-const TRAFFIC_WITH_FRAMES: u16 = 100;
-
-/// The valid keys, and the traffic of the connection at the right end: the line above is full.
+/// The valid keys.
 pub fn footer(app: &App, width: u16) -> Line<'static> {
     let theme = app.view.appearance.theme;
     if let Some(note) = app.view.demo {
@@ -312,23 +308,11 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     if let Some(prompt) = app.prompt.as_ref().filter(|prompt| !prompt.paths.is_empty()) {
         return candidates(&prompt.paths, width, theme);
     }
-    let traffic = app.view.traffic.filter(|_| width >= TRAFFIC_FROM).map(|Traffic { frames, bytes }| {
-        let bytes = format_rounded(bytes as f64, 2, "B/s");
-        if width < TRAFFIC_WITH_FRAMES { bytes } else { format!("{bytes}, at most {frames} frames/s") }
-    });
-    let traffic = traffic.unwrap_or_default();
-    let columns = Span::raw(traffic.as_str()).width();
-    let items = footer_keys(app).into_iter();
-    let items = items.map(|(keys, row)| {
+    let item = |(keys, row): (String, &Row)| {
         vec![Span::styled(keys, theme.style(Meaning::Key)), Span::raw(format!(" {}", row.label))]
-    });
-    let room = usize::from(width) - if columns > 0 { columns + 2 } else { 0 };
-    let mut line = filled(items.collect(), "  ", room).into_iter().next().unwrap_or_default();
-    if columns > 0 {
-        line.push_span(" ".repeat(usize::from(width) - line.width() - columns));
-        line.push_span(Span::styled(traffic, theme.style(Meaning::Quiet)));
-    }
-    line
+    };
+    let items = footer_keys(app).into_iter().map(item).collect();
+    filled(items, "  ", width.into()).into_iter().next().unwrap_or_default()
 }
 
 /// Names of paths, without their folders.

@@ -3,7 +3,6 @@
 mod chrome;
 mod help;
 mod lists;
-pub mod stages;
 pub mod text;
 
 pub use help::help_end;
@@ -13,10 +12,9 @@ use super::layout::{Layout, inside};
 use super::panel;
 use super::picture::to_ascii;
 use super::prompt::Purpose;
-use super::theme::{Marker, Theme};
+use super::theme::Marker;
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::style::Modifier;
 
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
     // The window may have another size than the state by now.
@@ -40,16 +38,12 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     if let Some((prompt, Purpose::Command(entries))) = list {
         lists::draw_commands(panes, look, prompt, entries, buffer);
     }
-    crate::draw::dry(buffer);
     // A long text takes the place of the keys as well.
     let rows = 1 + u16::from(layout.footer.is_some());
     let status = chrome::status(app, area.width, rows);
     panel::draw_lines(&status, Rect { height: rows, ..layout.status }.intersection(area), buffer);
     if let Some(area) = layout.footer.filter(|_| status.len() == 1) {
         panel::draw_lines(&[chrome::footer(app, area.width)], area, buffer);
-    }
-    if look.theme == Theme::HighContrast {
-        buffer.set_style(area, Modifier::BOLD);
     }
     if look.marker == Marker::Ascii {
         to_ascii(buffer);

@@ -2,9 +2,8 @@
 
 use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough, smooth};
-use super::{SIZES, default_scene, everywhere, mid_retraction, pressed};
-
-use asperity::explorer::keys::{Context, bindings};
+use super::{SIZES, default_scene, mid_retraction, pressed};
+use asperity::explorer::keys::bindings;
 use asperity::scene::format_quantity;
 
 #[test]
@@ -44,69 +43,6 @@ fn the_headline_is_that_of_the_computed_curve() {
         driver.resize(SIZES[0]);
         assert!(driver.text().contains(outcome.regime.unwrap().name()), "{}", driver.text());
     }
-}
-
-/// The keys of the footer, each with its word.
-fn footer(driver: &Driver) -> Vec<String> {
-    driver.footer().split("  ").map(|one| one.trim().to_owned()).filter(|one| !one.is_empty()).collect()
-}
-
-#[test]
-fn the_footer_shows_keys_of_the_table_that_are_valid_now() {
-    for mut driver in everywhere() {
-        let mode = driver.app.keys();
-        let bindings = bindings();
-        let labels: Vec<&str> =
-            bindings.valid_in(mode).map(|one| one.row.label).filter(|label| !label.is_empty()).collect();
-        let is_valid = |one: &String| {
-            let ends = labels.iter().filter(|label| one.ends_with(&format!(" {label}")));
-            let label = ends.max_by_key(|label| label.len());
-            let Some(label) = label else { return false };
-            let rows = bindings.valid_in(mode).filter(|one| one.row.label == *label);
-            let names: Vec<String> =
-                rows.flat_map(|row| row.keys.iter().map(|key| key.name.clone())).collect();
-            one[..one.len() - label.len()].split_whitespace().all(|key| names.iter().any(|name| name == key))
-        };
-        for size in [(300, 40), (120, 40), (80, 24), (40, 12), (20, 6)] {
-            driver.resize(size);
-            // A long text takes the place of the keys.
-            if driver.refusal().is_some() || driver.app.message.is_some() {
-                continue;
-            }
-            let shown = footer(&driver);
-            assert!(!shown.is_empty(), "{mode:?} {size:?}");
-            assert!(shown.iter().all(is_valid), "{shown:?} {labels:?}");
-            if matches!(mode, Context::Explore | Context::Map | Context::Parameters) {
-                assert!(shown.iter().any(|one| one.contains("help")), "{size:?}: {shown:?}");
-                assert!(shown.iter().any(|one| one.contains("quit")), "{size:?}: {shown:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn the_status_line_has_the_mechanics_of_the_contact() {
-    let mut driver = mid_retraction(smooth());
-    driver.resize((160, 40));
-    let computed = driver.app.solved.clone().unwrap();
-    let snapshot = driver.snapshot().clone();
-    // A circle of the contact's radius: that of one patch, and of no more than half the diameter.
-    let radius = 0.5 * snapshot.point.contact_length;
-    assert!((snapshot.contact_radius / radius - 1.0).abs() < 1e-12, "{} {radius}", snapshot.contact_radius);
-    let pressure = snapshot.point.force / (std::f64::consts::PI * radius * radius);
-    let rounded = |value: f64| -> f64 { format!("{value:.1e}").parse().unwrap() };
-    let energy = computed.outcome.figures.dissipated_energy.unwrap();
-    let edges_in_place = computed.outcome.governing.effective_modulus * snapshot.point.contact_length;
-    for text in [
-        format!("p_m {}", format_quantity(rounded(pressure), "Pa")),
-        format!("ΔW {}", format_quantity(rounded(energy), "J")),
-        format!("E*l {}", format_quantity(rounded(edges_in_place), "N/m")),
-    ] {
-        assert!(driver.status().contains(&text), "{text}: {}", driver.status());
-    }
-    driver.press("d {");
-    assert!(driver.status().contains("springs changed"), "{}", driver.status());
-    assert!(driver.status().contains("released "), "{}", driver.status());
 }
 
 /// A stage to zero force ends there but for rounding.

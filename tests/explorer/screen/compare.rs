@@ -4,8 +4,8 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
-use asperity::explorer::app::{Message, Pane};
-use asperity::scene::{Document, format_quantity};
+use asperity::explorer::app::{Ghost, Message};
+use asperity::scene::Document;
 
 /// The scenes of the ghosts, the newest last.
 fn kept(driver: &Driver) -> Vec<Document> {
@@ -111,73 +111,14 @@ fn what_cannot_be_kept_or_exchanged_says_why() {
     assert!(driver.app.ghosts.is_empty(), "a scene that failed has no loop");
 }
 
-/// The rows of the pane that holds the close-up or the scene beside.
-fn lower_pane(driver: &Driver) -> Vec<String> {
-    driver.pane(driver.app.view.lower)
-}
-
-/// Numbers on the scale beside a plot.
-fn scale(rows: &[String]) -> Vec<String> {
-    let number = |row: &String| Some(row.split_once(" ┤")?.0.trim_start_matches('│').trim().to_owned());
-    rows.iter().filter_map(number).collect()
-}
-
 #[test]
-fn two_scenes_are_shown_side_by_side() {
-    for size in [(120, 40), (80, 24)] {
-        let mut driver = pressed("&");
-        driver.resize(size);
-        assert_eq!(driver.app.ghosts.len(), 1, "the present scene is the one to compare with");
-        let text = lower_pane(&driver).join("\n");
-        assert!(text.contains("A → this scene: the same scene") && text.contains("ratio 1 "), "{text}");
-        driver.press("L");
-        let now = driver.snapshot().clone();
-        let before = driver.app.ghosts[0].snapshot.clone().unwrap();
-        let ghost = driver.app.ghosts[0].computed.outcome.clone();
-        assert_eq!(before.line, ghost.line);
-        assert_ne!(before.profile.columns, now.profile.columns);
-        let pane = lower_pane(&driver);
-        let [before, now] = [&ghost, driver.outcome()].map(|outcome| outcome.figures.adhesion_force.unwrap());
-        let ratio: f64 = format!("{:.3e}", now / before).parse().unwrap();
-        let written = |force: f64| format_quantity(force, "N");
-        let forces = format!("F_a {} → {}, ratio {ratio}", written(before), written(now));
-        assert!(pane.iter().any(|row| row.contains(&forces)), "{forces}\n{}", pane.join("\n"));
-        assert!(pane.iter().any(|row| row.contains("A → this scene: H 0.7 → 0.8")), "{}", pane.join("\n"));
-        assert!(pane[0].contains("Profile z(x) of A: Rough line"), "{}", pane[0]);
-        // Both profiles have one scale, if the panes have one height.
-        let [upper, lower] = [scale(&driver.pane(Pane::Profile)), scale(&pane)];
-        assert!(!lower.is_empty(), "{}", driver.text());
-        if size.0 == 120 {
-            assert_eq!(upper.first(), lower.first(), "{}", driver.text());
-        }
-        driver.press("&");
-        assert!(driver.pane(Pane::CloseUp)[0].contains("Contact patches"));
-    }
-}
-
-#[test]
-fn two_scenes_that_are_opened_are_shown_side_by_side() {
-    let second = rough().set("adhesion.kappa", "4").unwrap().set("title", "\"Stickier\"").unwrap();
-    let opening = Opening { beside: Some(second.clone()), ..Opening::from(rough()) };
-    let mut driver = Driver::start(opening);
-    let scenes: Vec<_> = kept(&driver).iter().map(|document| document.scene().clone()).collect();
-    assert_eq!(scenes, [rough().scene().clone()]);
-    assert_eq!(driver.app.edit.document.scene(), second.scene());
+fn a_scene_is_opened_with_the_loop_of_another_one() {
+    let other = rough().set("adhesion.kappa", "4").unwrap();
+    let outcome = Driver::start(other.clone()).outcome().clone().into();
+    let ghost = Some(Ghost { document: other.clone(), outcome });
+    let mut driver = Driver::start(Opening { ghost, ..Opening::from(rough()) });
     assert!(!driver.app.edit.is_unsaved() && driver.app.edit.past.is_empty());
-    let text = driver.text();
-    assert!(text.contains("Stickier") && text.contains("A → this scene: κ 8 → 4"), "{text}");
-    // After the exchange, the other scene is beside.
+    assert!(driver.text().contains("A: F_a ") && driver.text().contains("· κ 4"), "{}", driver.text());
     driver.press("x");
-    assert!(is_up_to_date(&driver.app));
-    assert!(driver.text().contains("A → this scene: κ 4 → 8"), "{}", driver.text());
-    // Another pane in its place hides the ghost.
-    for keys in ["A", "m", "m", "D"] {
-        driver.press(keys);
-        driver.screen();
-    }
-    assert!(!driver.app.is_shown(Pane::Beside));
-    driver.press("&");
-    assert!(driver.app.is_shown(Pane::Beside));
-    driver.press("C");
-    assert!(!driver.app.is_shown(Pane::Beside));
+    assert_eq!((driver.app.edit.document.text(), kept(&driver)), (other.text(), vec![rough()]));
 }

@@ -110,6 +110,6 @@ fn the_crosshair_stays_on_the_curves_of_its_chart() {
         let edge = edge(&driver, Pane::Force);
         assert!(edge.contains("loading "), "{end}: {edge}");
     }
-    driver.press("* O *");
+    driver.press("* Y *");
     assert!(driver.text().contains("no curves for the crosshair"), "{}", driver.text());
 }

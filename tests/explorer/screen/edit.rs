@@ -144,7 +144,7 @@ fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
 #[test]
 fn the_selection_stays_on_its_field_when_rows_come_and_go() {
     let mut driver = pressed("");
-    driver.select("numerics.samples");
+    driver.select("numerics.points");
     let path = |driver: &Driver| driver.app.edit.parameter().unwrap().field.path;
     let rows = |driver: &Driver| driver.app.edit.parameters.len();
     let before = rows(&driver);
@@ -155,13 +155,13 @@ fn the_selection_stays_on_its_field_when_rows_come_and_go() {
         assert_ne!(rows(&driver), count, "{field}");
         assert_eq!(path(&driver), field);
     }
-    driver.select("numerics.samples");
+    driver.select("numerics.points");
     driver.press("u");
-    assert_eq!(path(&driver), "numerics.samples");
+    assert_eq!(path(&driver), "numerics.points");
     driver.press("u u");
-    assert_eq!((path(&driver), rows(&driver)), ("numerics.samples", before));
+    assert_eq!((path(&driver), rows(&driver)), ("numerics.points", before));
     driver.press("o 1 Enter");
-    assert_eq!(path(&driver), "numerics.samples");
+    assert_eq!(path(&driver), "numerics.points");
 }
 
 #[test]

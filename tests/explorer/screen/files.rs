@@ -138,7 +138,7 @@ fn profile_and_close_up_come_from_the_springs_at_any_size_of_the_window() {
 
 #[test]
 fn the_text_is_the_screen_without_the_prompt() {
-    for marker in [Marker::Braille, Marker::HalfBlock, Marker::Ascii] {
+    for marker in [Marker::Braille, Marker::Ascii] {
         let mut driver = pressed("c L d { j");
         driver.app.view.appearance.marker = marker;
         driver.perform(vec![Effect::Ask]);
@@ -157,9 +157,7 @@ fn every_pane_is_exported_as_a_figure() {
         ("", Pane::Parameters, ["loading", "unloading", "preload", "pull-off"].as_slice()),
         ("", Pane::Profile, &["surface", "profile", "contact", " (nm)"]),
         ("", Pane::CloseUp, &["surface", "patch end"]),
-        ("D", Pane::Lengths, &["δx"]),
         ("Q", Pane::Spectrum, &["wave number"]),
-        ("c L &", Pane::Beside, &["surface", "profile", "contact"]),
         ("c L", Pane::Force, &["A: ", "loading"]),
     ] {
         let mut driver = pressed(keys);
@@ -185,7 +183,12 @@ fn every_pane_is_exported_as_a_figure() {
             "preload,adhesion_force,profiles,mean,",
         ),
         (super::accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
-        (super::reversals::reversed(rough()), Pane::Density, "asperity reversals", "everett,density"),
+        (
+            super::sensitivity::computed_sensitivity(rough()),
+            Pane::Sensitivity,
+            "asperity sensitivity",
+            "change",
+        ),
         (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,kappa,lines,regime,"),
     ];
     for (mut driver, pane, command, column) in tables {

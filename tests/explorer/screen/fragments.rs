@@ -1,4 +1,4 @@
-//! The close-up of fragments, and their lengths.
+//! The close-up of contact patches.
 
 use super::common::driver::Driver;
 use super::common::scenes::rough;
@@ -100,32 +100,4 @@ fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
         let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);
         assert_eq!(highest, driver.snapshot().profile.heights.1);
     }
-}
-
-#[test]
-fn the_distribution_of_lengths_counts_every_fragment() {
-    let mut driver = pressed("");
-    driver.press("D");
-    for keys in ["", ". . . .", "d { {", "Space"] {
-        driver.press(keys);
-        let all = fragments(&mut driver);
-        let snapshot = driver.snapshot().clone();
-        let bins = snapshot.lengths.clone();
-        let counted: u64 = bins.values().sum();
-        assert_eq!((counted, all.len() as u64), (snapshot.point.fragments, snapshot.point.fragments));
-        for (&square, &count) in &bins {
-            let range = 2_f64.powi(square as i32)..2_f64.powi(square as i32 + 1);
-            let inside = |patch: &&Patch| range.contains(&(patch.springs().len() as f64).powi(2));
-            assert_eq!(all.iter().filter(inside).count() as u64, count, "{square}, {all:?}");
-        }
-        let text = driver.text();
-        assert!(text.contains(&format!("{counted} in all")), "{counted}: {text}");
-        assert!(text.matches('○').count() > bins.len().min(2), "{text}");
-    }
-    driver.press("D");
-    assert!(driver.text().contains("edge stretch"), "{}", driver.text());
-    let mut driver = pressed("D S");
-    assert!(driver.text().contains("nothing is in contact"), "{}", driver.text());
-    driver.press("d D");
-    assert!(!driver.text().contains("nothing is in contact"), "{}", driver.text());
 }

@@ -45,33 +45,6 @@ fn the_profile_is_looked_at_from_near_and_moved_along() {
     assert_eq!(seen(&driver), (0, 1024));
 }
 
-#[test]
-fn the_profile_follows_the_close_up() {
-    let mut driver = pressed("w");
-    assert!(driver.text().contains("· follows"), "{}", driver.text());
-    let mut firsts = Vec::new();
-    for _ in 0..6 {
-        driver.press("n");
-        let close_up = driver.snapshot().close_up.section.clone();
-        let (first, springs) = seen(&driver);
-        let middle = close_up.first + close_up.springs / 2;
-        assert!((first..first + springs).contains(&middle), "{middle} not in {first} + {springs}");
-        assert_eq!(springs, 256);
-        firsts.push(first);
-    }
-    firsts.dedup();
-    assert!(firsts.len() > 1, "it never moves: {firsts:?}");
-    // Manual loading keeps the body in its place.
-    driver.press("Tab (");
-    let put = seen(&driver);
-    driver.press("n n n");
-    assert_eq!(seen(&driver), put);
-    assert!(!driver.text().contains("· follows"));
-    driver.press("w Z");
-    assert_eq!(seen(&driver), (0, 1024));
-    assert!(!driver.text().contains("· follows"));
-}
-
 /// The text of the pane of the curve on the whole screen.
 fn curve(driver: &mut Driver) -> String {
     driver.press("z");

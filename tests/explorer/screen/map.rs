@@ -13,11 +13,10 @@ use asperity::study::{Level, LiveMap, MAP_LINES, live_plan};
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
 fn set(map: &mut LiveMap, cell: u64) {
-    let (parameter, hurst) = match map.plan().values(cell)[..] {
-        [parameter, hurst] => (parameter, hurst),
+    let (kappa, hurst) = match map.plan().values(cell)[..] {
+        [kappa, hurst] => (kappa, hurst),
         _ => panic!("the map has no H"),
     };
-    let kappa = if map.plan().axes[0].path == "adhesion.kappa" { parameter } else { parameter.sqrt() };
     let regime = match kappa * (0.5 + hurst) {
         ..2.0 => 0,
         2.0..12.0 => 1,
@@ -36,7 +35,7 @@ fn set(map: &mut LiveMap, cell: u64) {
 /// Fills levels of the map of the scene, if it has one.
 fn fill(driver: &mut Driver, levels: &[Level]) {
     let (scene, chart) = (driver.app.edit.document.scene(), &driver.app.map);
-    let Ok(plan) = live_plan(scene, chart.parameter) else { return };
+    let Ok(plan) = live_plan(scene, RoughnessParameter::Kappa) else { return };
     let key = chart.key(scene).unwrap();
     let mut map = LiveMap::new(plan).unwrap();
     for cell in levels.iter().flat_map(|level| map.cells(*level).concat()).collect::<Vec<_>>() {
@@ -62,33 +61,6 @@ pub fn mapped(document: Document) -> Driver {
 fn place(driver: &Driver) -> (f64, f64) {
     let (hurst, kappa) = driver.app.place().unwrap();
     (kappa.unwrap(), hurst)
-}
-
-#[test]
-fn e_maps_over_the_elastic_energy() {
-    let mut driver = mapped(rough());
-    let over_kappa = place(&driver);
-    driver.press("e");
-    fill(&mut driver, &Level::ALL);
-    for size in [(120, 40), (80, 24)] {
-        driver.resize(size);
-        assert!(driver.text().contains("over H, e_el/γ, 4"), "{}", driver.text());
-        assert!(driver.text().contains("◆ H 0.7, e_el/γ "), "{}", driver.text());
-    }
-    let ratio = driver.app.governing().unwrap().elastic_energy_ratio.unwrap();
-    assert_eq!(place(&driver), (ratio, over_kappa.1));
-    // The mark moves to values of the map, and the scene with it.
-    driver.press("k");
-    let (moved, _) = place(&driver);
-    let plan = live_plan(rough().scene(), RoughnessParameter::ElasticEnergyRatio).unwrap();
-    let values = &plan.axes[0].values;
-    assert!(moved > ratio && values.iter().any(|value| (moved / value - 1.0).abs() < 1e-9), "{moved}");
-    let kappa = driver.app.governing().unwrap().kappa.unwrap();
-    assert!((kappa / over_kappa.0 - (moved / ratio).sqrt()).abs() < 1e-9, "{kappa}");
-    driver.press("e");
-    fill(&mut driver, &Level::ALL);
-    assert!(driver.text().contains("over H, κ, 4 prof"), "{}", driver.text());
-    assert!((place(&driver).0 / kappa - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -176,7 +148,7 @@ fn the_regime_has_two_protocols() {
     driver.press("V V V V");
     let text = driver.text();
     for said in
-        ["Map of regime (F=0)", "map: pressure-insensitive after zero net force (3 of 4", "F_a(F=0)/F_a,max"]
+        ["Map of regime (F=0)", "pressure-insensitive after zero net force (3 of 4", "F_a(F=0)/F_a,max"]
     {
         assert!(text.contains(said), "{said}\n{text}");
     }

@@ -43,10 +43,6 @@ fn a_press_chooses_the_pane_and_the_row() {
         assert!(chosen > 5, "{chosen}");
     }
     assert!(driver.mouse(500, 500, Gesture::Press).is_empty(), "nothing is there");
-    // A key of the footer is pressed by its word.
-    let column = driver.footer().chars().collect::<String>().find("m map").unwrap() as u16;
-    driver.mouse(column + 3, 39, Gesture::Press);
-    assert!(driver.app.is_shown(Pane::Map), "{}", driver.text());
 }
 
 #[test]

@@ -47,7 +47,6 @@ fn a_command_is_found_by_words_and_runs_as_its_key_does() {
         ("swap", "x"),
         ("separation", "S"),
         ("no such thing", ""),
-        ("patch lengths", "D"),
     ] {
         let (mut by_list, mut by_key) = (pressed("l"), pressed("l"));
         query(&mut by_list, typed);

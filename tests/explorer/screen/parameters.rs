@@ -64,7 +64,6 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
         ("nu", "material.poisson_ratio"),
         ("poisson", "material.poisson_ratio"),
         ("force stage", "loading.0.0"),
-        ("samples", "numerics.samples"),
     ] {
         let mut driver = pressed("/");
         driver.type_text(typed);

@@ -3,7 +3,6 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use asperity::explorer::action::Action;
-use asperity::explorer::app::Pane;
 use asperity::explorer::panes::{PROFILES, PreloadCurve};
 use asperity::explorer::update::studies;
 use asperity::scene::Document;
@@ -70,48 +69,18 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
 }
 
 #[test]
-fn keys_change_the_range_and_the_scale_of_the_preloads() {
+fn a_key_changes_the_scale_of_the_preloads() {
     let mut driver = shown(rough(), 2);
-    let range = |driver: &Driver| {
+    let mut range = |keys: &str| {
+        driver.press(keys);
+        compute(&mut driver, 1);
         let curve = driver.app.studies.value::<PreloadCurve>().unwrap();
         (curve.axis.values[0], curve.axis.values[curve.axis.values.len() - 1])
     };
-    let usual = range(&driver);
-    let preload = driver.app.solved.as_ref().unwrap().outcome.figures.preload.unwrap();
-    assert!(usual.0 < 0.0 && usual.1 > 1.9 * preload, "{usual:?}");
-    let most = driver.app.solved.as_ref().unwrap().reach.force;
-    let mut after = |keys: &str| {
-        driver.press(keys);
-        compute(&mut driver, 1);
-        range(&driver)
-    };
-    let near = |found: (f64, f64), expected: (f64, f64)| {
-        let apart = [found.0 - expected.0, found.1 - expected.1];
-        assert!(apart.iter().all(|apart| apart.abs() < 1e-9 * preload), "{found:?} for {expected:?}");
-    };
-    // The preload of the scene keeps its place.
-    let closer = after("+");
-    near(closer, (preload - 0.5 * (preload - usual.0), preload + 0.5 * (usual.1 - preload)));
-    let quarter = 0.25 * (closer.1 - closer.0);
-    near(after(")"), (closer.0 + quarter, closer.1 + quarter));
-    near(after("( ("), (closer.0 - quarter, closer.1 - quarter));
-    near(after("Z"), usual);
-    // No preload is below the force at first touch.
-    let far = after("( ( (");
-    near((far.0, 0.0), (usual.0, 0.0));
-    let (from, to) = after("X");
-    assert!(from > 0.0 && (to / from / 1e6 - 1.0).abs() < 1e-9);
-    // The axis ends far beyond full contact.
-    let (wider, end) = after("- -");
-    assert!(wider < from && (end / most.max(to) - 1.0).abs() < 1e-9, "{wider} {end} {most}");
-    near(after("X"), usual);
-    let (_, end) = after("- - - - - - - - - - -");
-    assert!((end / most - 1.0).abs() < 1e-9, "{end} {most}");
-    near(after("Z"), usual);
-    // In another pane the keys have their other meaning.
-    driver.app.view.pane = Pane::Force;
-    driver.press("+ ( Z");
-    assert_eq!(range(&driver), usual);
+    let usual = range("");
+    let (from, to) = range("X");
+    assert!(usual.0 < 0.0 && from > 0.0 && (to / from / 1e6 - 1.0).abs() < 1e-9, "{usual:?} {from} {to}");
+    assert_eq!(range("X"), usual);
 }
 
 #[test]

@@ -1,13 +1,99 @@
-//! The same statements in windows of five sizes: every cut has a sign, and requested parts are visible.
+//! One walk over every mode and pane in windows of five sizes, in all themes and markers; and what has to be visible in each
+//! window.
 
 use super::accuracy::measured;
-use super::common::driver::Driver;
+use super::common::driver::{APPEARANCE, Driver};
 use super::common::scenes::rough;
+use super::common::script::rows;
 use super::map::mapped;
 use super::preloads::computed_preloads;
-use super::{SIZES, pressed};
+use super::{SIZES, everywhere, pressed};
 use asperity::explorer::app::Pane;
 use asperity::explorer::layout::{Layout, is_framed};
+use asperity::explorer::theme::{Choice, Marker, Theme};
+use clap::ValueEnum;
+use ratatui::style::Color;
+
+/// Colours that cannot be read on the background of a theme.
+fn unreadable(theme: Theme) -> &'static [Color] {
+    use Color::{Black, Blue, DarkGray, Gray, LightCyan, LightGreen, LightYellow, White, Yellow};
+    match theme {
+        // Neither white nor black can be read on every background.
+        Theme::Neutral | Theme::Plain => &[White, Black, Gray, Yellow, LightYellow],
+        Theme::Dark => &[Black, DarkGray, Blue],
+        Theme::Light => &[White, Gray, Yellow, LightYellow, LightGreen, LightCyan],
+    }
+}
+
+#[test]
+fn every_screen_is_readable_in_all_windows_themes_and_markers() {
+    for mut driver in everywhere() {
+        let before = driver.screen();
+        for size in SIZES.into_iter().chain([(300, 40), (20, 6), (1, 1), (0, 0)]) {
+            driver.resize(size);
+            let text = driver.text();
+            for theme in Theme::value_variants() {
+                driver.app.view.appearance.theme = *theme;
+                let screen = driver.screen();
+                assert_eq!(rows(&screen).join("\n"), text, "{theme:?}");
+                for colour in screen.content.iter().flat_map(|cell| [cell.fg, cell.bg, cell.underline_color])
+                {
+                    let is_free = matches!(colour, Color::Rgb(..) | Color::Indexed(_));
+                    let is_plain = *theme != Theme::Plain || colour == Color::Reset;
+                    assert!(
+                        is_plain && !is_free && !unreadable(*theme).contains(&colour),
+                        "{theme:?} {colour}"
+                    );
+                }
+            }
+            driver.app.view.appearance.marker = Marker::Ascii;
+            let is_printable =
+                |symbol: &str| symbol.len() == 1 && matches!(symbol.as_bytes()[0], b' '..=b'~');
+            let screen = driver.screen();
+            assert!(
+                screen.content.iter().all(|cell| is_printable(cell.symbol())),
+                "{size:?}\n{}",
+                driver.text()
+            );
+            driver.app.view.appearance = APPEARANCE;
+        }
+        driver.resize((120, 40));
+        assert_eq!(driver.screen(), before, "a window that grows back shows what it showed");
+    }
+}
+
+#[test]
+fn keys_change_colours_and_markers_and_say_so() {
+    let mut driver = pressed("");
+    for theme in [Theme::Dark, Theme::Light, Theme::Plain, Theme::Neutral] {
+        driver.press("T");
+        assert_eq!(driver.app.view.appearance.theme, theme);
+        assert!(driver.status().contains(&theme.name()), "{}", driver.status());
+    }
+    for marker in [Marker::Ascii, Marker::Braille] {
+        driver.press("M");
+        assert_eq!(driver.app.view.appearance.marker, marker);
+        assert!(driver.status().contains(&marker.name()), "{}", driver.status());
+    }
+}
+
+#[test]
+fn no_number_of_the_status_is_cut() {
+    let mut driver = pressed("d {");
+    driver.resize((200, 40));
+    let whole = driver.status();
+    for columns in 12..200 {
+        driver.resize((columns, 40));
+        let status = driver.status();
+        // Each fact is shown in full.
+        let facts = |status: &str| -> Vec<String> {
+            status.replace("manual: ", "").replace("  ◆ ", " · ").split(" · ").map(str::to_owned).collect()
+        };
+        let all = facts(&whole);
+        let has_error = all[0].starts_with(&facts(&status)[0]);
+        assert!(has_error && facts(&status)[1..].iter().all(|fact| all.contains(fact)), "{status}|{whole}");
+    }
+}
 
 /// A window with room for every message.
 const WIDE: (u16, u16) = (400, 40);
@@ -45,10 +131,7 @@ fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
         Pane::Map => mapped(rough()),
         Pane::Accuracy => measured(rough()),
         Pane::Preloads => computed_preloads(rough()),
-        Pane::Everett | Pane::Density => super::reversals::reversed(rough()),
-        Pane::Lengths => pressed("D"),
         Pane::Spectrum => pressed("Q"),
-        Pane::Beside => pressed("c & Tab Tab"),
         _ => pressed(""),
     };
     driver.app.view.pane = pane;
@@ -65,12 +148,8 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
             (Pane::Force, "d (", "F ("),
             (Pane::Profile, "x (", "z ("),
             (Pane::CloseUp, "x (", "z ("),
-            (Pane::Beside, "x (", "z ("),
-            (Pane::Lengths, "δx (", "○ n"),
             (Pane::Spectrum, "q (", "C ("),
             (Pane::Preloads, "F_n (", "F_a ("),
-            (Pane::Everett, "d (", "d_r ("),
-            (Pane::Density, "d (", "d_r ("),
             (Pane::Accuracy, "t (", "error"),
             (Pane::Map, " H", "κ"),
         ] {
@@ -90,18 +169,11 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
 #[test]
 fn a_digit_on_a_choice_says_how_choices_are_changed() {
     for size in [SIZES[0], SIZES[4]] {
-        let switch = |driver: &Driver| {
-            let switches = driver.app.edit.parameters.iter().find(|one| one.path.starts_with("observe."));
-            switches.map(|one| (one.path.clone(), format!("{} is a switch: t changes it", one.name())))
-        };
-        let (switch, says_of_switch) = switch(&pressed("")).unwrap();
         for (path, expected) in [
             ("adhesion", "adhesion is a choice: ← → change it"),
-            ("numerics.edges", "edges is a choice: ← → change it"),
             ("material", "material is not a number: Enter types it"),
             ("loading", "loading is not a number: Enter types it"),
             ("numerics", "numerics is a group: its fields are in the rows below"),
-            (&switch, &says_of_switch),
         ] {
             let mut driver = pressed("");
             driver.app.edit.selected =
@@ -123,11 +195,10 @@ fn a_digit_on_a_choice_says_how_choices_are_changed() {
 fn a_key_of_a_pane_shows_the_pane() {
     for size in SIZES {
         for (keys, pane) in [
-            ("D", Pane::Lengths),
-            ("&", Pane::Beside),
             ("Q", Pane::Spectrum),
             ("i", Pane::Preloads),
             ("A", Pane::Accuracy),
+            ("Y", Pane::Sensitivity),
             ("m", Pane::Map),
         ] {
             let mut driver = pressed("");

@@ -1,4 +1,4 @@
-//! The loading by hand and by list: stages and protocols by keys and as text, the path of manual loading kept.
+//! The loading by hand and by list: stages by keys and as text, the path of manual loading kept.
 
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
@@ -122,7 +122,7 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
     let (one, two) = ("[ToForce(2.0e-5)]", "[ToForce(2.0e-5), ToSeparation]");
     for (stages, stage, keys, why) in [
         (one, 1, "Backspace", "loading = []: allowed: a list of 1 to 100000"),
-        (one, 0, "L", "only loops and reversals have a number"),
+        (one, 0, "L", "loading is not a number: Enter types it"),
         (two, 2, "K", "cannot pull before contact"),
     ] {
         let mut driver = loaded(stages, stage);
@@ -167,43 +167,6 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
     driver.press("Esc");
     driver.enter(&format!("20 µN, {least}, separation"));
     assert!(is_up_to_date(&driver.app), "{}", driver.status());
-}
-
-#[test]
-fn the_row_of_the_loading_is_a_choice_of_protocol() {
-    let mut driver = loaded("[ToForce(2.0e-5), ToSeparation]", 0);
-    let shown = |driver: &Driver| driver.app.edit.parameter().unwrap().shown.clone();
-    for (keys, text) in [
-        ("", "20 µN, separation"),
-        ("l", "3 loops 10 µN to 20 µN, separation"),
-        ("L L", "5 loops 10 µN to 20 µN, separation"),
-        ("H H H H", "2 loops 10 µN to 20 µN, separation"),
-        ("l", "8 reversals to 20 µN"),
-        ("H", "7 reversals to 20 µN"),
-        ("l", "touch, separation"),
-        ("l", "20 µN, separation"),
-        ("h h", "8 reversals to 20 µN"),
-    ] {
-        driver.press(keys);
-        assert_eq!(shown(&driver), text, "{keys}");
-        assert!(is_up_to_date(&driver.app), "{keys}: {}", driver.status());
-    }
-    // A text replaces the protocol, and each text that is shown is the same loading.
-    for typed in ["4 loops 0 N to 10 µN, separation", "5 reversals to 40 nm", "touch, separation"] {
-        driver.enter(typed);
-        assert_eq!(shown(&driver), typed);
-        let before = driver.app.edit.document.clone();
-        driver.enter(&format!("[{typed}]"));
-        assert_eq!(driver.app.edit.document.scene(), before.scene());
-    }
-    // A scene that only touches takes a force of its own size.
-    for scene in [smooth(), without_adhesion()] {
-        let mut driver = Driver::start(changed(&scene, &[("loading", "[ToTouch, ToSeparation]")]));
-        select(&mut driver, 0);
-        driver.press("l");
-        let Move::ToForce(force) = driver.app.edit.document.scene().loading[0] else { panic!("a press") };
-        assert!(force > 0.0 && is_up_to_date(&driver.app), "{force}");
-    }
 }
 
 #[test]

@@ -1,0 +1,34 @@
+//! The pane of sensitivities.
+
+use super::common::driver::Driver;
+use super::common::scenes::{changed, rough};
+use asperity::explorer::app::Pane;
+use asperity::explorer::studies::Study;
+use asperity::explorer::update::Effect;
+use asperity::scene::Document;
+use asperity::simulation::Simulation;
+use asperity::study::Sensitivity;
+
+/// The explorer with the sensitivities computed, and shown.
+pub fn computed_sensitivity(document: Document) -> Driver {
+    let few = changed(&document, &[("numerics.points", "512"), ("roughness.modes", "(8, 128)")]);
+    let mut driver = Driver::open_with(few, Simulation::run, Study::is::<Sensitivity>);
+    driver.perform(vec![Effect::Ask]);
+    driver.press("Space Y");
+    driver
+}
+
+#[test]
+fn bars_show_the_changes_and_the_table_has_them_all() {
+    let mut driver = computed_sensitivity(rough());
+    assert!(driver.app.is_shown(Pane::Sensitivity));
+    driver.press("z");
+    let text = driver.text();
+    for words in ["Sensitivity to ±10 %", "Hurst exponent", "F_a", "ΔW"] {
+        assert!(text.contains(words), "{words}\n{text}");
+    }
+    driver.press("z R");
+    assert!(driver.app.studies.value::<Sensitivity>().is_some(), "another profile has its own");
+    driver.press("Y");
+    assert!(driver.app.is_shown(Pane::Profile));
+}
