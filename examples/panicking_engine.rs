@@ -4,8 +4,8 @@
 
 use asperity::contact::ContactError;
 use asperity::explorer::app::App;
+use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
-use asperity::explorer::keys::bindings;
 use asperity::explorer::{Options, open as explore, view};
 use asperity::scene::{CheckedScene, DEFAULT, Scene, open};
 use asperity::simulation::{AfterLeg, Outcome, RunError, Simulation};

@@ -1,6 +1,6 @@
 //! Everything that can happen to the explorer, and the work outside of its state that follows.
 
-use super::keys::Command;
+use super::keys::bindings::Command;
 use super::opening::Opening;
 use super::snapshot::Report;
 use super::studies::Finding;

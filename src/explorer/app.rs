@@ -2,27 +2,28 @@
 
 use super::action::Effect;
 use super::config::Config;
-pub use super::editor::Editor;
+use super::editor::Editor;
 use super::editor::scene_of;
-use super::keys::{Command, Context};
+use super::ghost::Ghost;
+use super::keys::bindings::{Command, Context};
 use super::map::Live;
-pub use super::map::{MapState, OpenStudy};
-pub use super::measured::Measured;
-use super::opening::Opening;
-pub use super::pane::Pane;
+use super::map::MapState;
+use super::measured::Measured;
+use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
-pub use super::player::Player;
+use super::player::Player;
 use super::player::{indentations, start_of};
 use super::prompt::{Prompt, Purpose};
-use super::request::{Focus, LineView, ManualMove, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, Drive, Preview, Section, SolvedScene};
+use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
+use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::studies::Findings;
 use super::theme::Appearance;
 use crate::analysis::{Governing, marks};
 use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::export::LoopQuantities;
-use crate::scene::{Change, Document, Move, Observer, Scene, ron_float};
+use crate::export::section::Section;
+use crate::scene::{Document, Move, Observer, Scene, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Grid, Place, Quantity};
 use std::sync::Arc;
@@ -67,27 +68,6 @@ pub struct CurveLook {
     pub normalised: bool,
     /// True if the dissipated energy is shaded.
     pub loss: bool,
-}
-
-/// A computed scene kept for comparison.
-#[derive(Clone, Debug)]
-pub struct Ghost {
-    pub document: Document,
-    pub outcome: Arc<Outcome>,
-}
-
-impl Ghost {
-    /// Differences from a scene, each in words.
-    pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
-        let changes = self.document.changes_to(present);
-        let parts: Vec<String> = changes.iter().map(words).collect();
-        if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
-    }
-}
-
-pub fn letter(number: usize) -> &'static str {
-    const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
-    LETTERS[number % LETTERS.len()]
 }
 
 /// A line for the user, below the panes.
@@ -154,16 +134,10 @@ pub struct App {
 }
 
 impl App {
-    /// The explorer just opened on a scene or a study.
-    pub fn new(
-        opening: impl Into<Opening>,
-        size: (u16, u16),
-        appearance: Appearance,
-        config: Config,
-    ) -> Self {
-        let Opening { document, study_map, ghost, measured } = opening.into();
+    /// The explorer just opened on a scene.
+    pub fn new(document: Document, size: (u16, u16), appearance: Appearance, config: Config) -> Self {
         let springs = CloseUpTarget::springs_shown(&document);
-        let mut app = App {
+        App {
             edit: Editor::new(document),
             play: Player::START,
             manual: None,
@@ -186,7 +160,7 @@ impl App {
             progress: Some(0),
             studies: Findings::default(),
             map: MapState::default(),
-            ghosts: ghost.into_iter().collect(),
+            ghosts: Vec::new(),
             measured: None,
             tried: None,
             prompt: None,
@@ -196,29 +170,7 @@ impl App {
             finished: false,
             effects: Vec::new(),
             asked: None,
-        };
-        if let Some(study_map) = study_map {
-            app.map.open_study(study_map, 0);
-            app.map.of_study = true;
-            app.show(Pane::Map);
         }
-        if let Some(measured) = measured {
-            app.show_measured(measured);
-        }
-        app
-    }
-
-    /// Shows a measured curve. The scene takes its loading, as an edit that can be undone.
-    fn show_measured(&mut self, measured: Measured) {
-        match measured.curve.load(&self.edit.document, measured.offset) {
-            Ok(loaded) => {
-                self.edit.adopt(loaded);
-                self.set_done("the scene has the loading of the measured curve; u returns to its own");
-            }
-            Err(errors) => self.set_error(errors.to_string()),
-        }
-        self.view.curve.quantities = LoopQuantities::ForceDisplacement;
-        self.measured = Some(measured);
     }
 
     pub(super) fn set_done(&mut self, text: impl Into<String>) {

@@ -5,10 +5,11 @@ use crate::io::{into_text, open_regular, read_limited};
 use crate::scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::fs::{File, TryLockError};
+use std::io::Write;
 use std::path::{Path, PathBuf, absolute};
 use std::time::{SystemTime, UNIX_EPOCH};
+use std::{fs, io};
 
 /// Largest size of a file, bytes: many scenes of a few hundred bytes each.
 const LONGEST: usize = 1 << 24;

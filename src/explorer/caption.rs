@@ -2,7 +2,7 @@
 //! separation.
 
 use super::app::App;
-use super::snapshot::Drive;
+use super::request::Drive;
 use crate::analysis::Branch;
 use crate::contact::{CurvePoint, Direction, LegRecord};
 

@@ -1,6 +1,6 @@
 //! Configuration file of the explorer: appearance, animation, default scene and keys. The explorer never writes it.
 
-use super::keys::Bindings;
+use super::keys::bindings::Bindings;
 use super::theme::{Marker, Theme};
 use crate::io::read_regular_text;
 use crate::scene::{DEFAULT, Text, explain, line_column, read_ron};
@@ -117,7 +117,7 @@ impl Config {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explorer::keys::bindings;
+    use crate::explorer::commands::table::bindings;
 
     fn parse(text: &str) -> Result<Config, String> {
         Config::parse(text, Path::new("config.ron"), bindings())

@@ -1,6 +1,7 @@
 //! Places of the panes: all four in a large window, fewer in a small one.
 
-use super::app::{App, Pane};
+use super::app::App;
+use super::pane::Pane;
 use ratatui::layout::Rect;
 
 /// Columns of the histogram beside the profile, its frame line included.

@@ -1,10 +1,10 @@
 //! The body under manual loading, with its path for the curve.
 
-use super::reach::{Reach, out_of_reach};
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
 use crate::contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
 use crate::scene::Move;
+use crate::simulation::reach::{Reach, out_of_reach};
 use crate::text::round_to;
 
 /// Points of the curve along the way of one order.

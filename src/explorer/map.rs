@@ -38,6 +38,12 @@ impl Default for MapState {
 }
 
 impl OpenStudy {
+    /// A study with this one of its maps.
+    pub fn new(study_map: Arc<StudyMap>, slice: u64) -> Self {
+        let grid = Arc::new(study_map.grid(slice));
+        OpenStudy { study_map, slice, grid }
+    }
+
     /// Number of the map `steps` after this one; the first follows the last.
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
@@ -54,11 +60,6 @@ impl Live {
 impl MapState {
     pub fn shown_study(&self) -> Option<&OpenStudy> {
         self.study.as_ref().filter(|_| self.of_study)
-    }
-
-    pub fn open_study(&mut self, study_map: Arc<StudyMap>, slice: u64) {
-        let grid = Arc::new(study_map.grid(slice));
-        self.study = Some(OpenStudy { study_map, slice, grid });
     }
 
     pub(super) fn plan(&self, scene: &Scene) -> Option<Plan> {

@@ -1,7 +1,8 @@
 //! A measured force curve beside the scene, in its place over the displacement.
 
+use super::studies::Findings;
 use crate::contact::CurvePoint;
-use crate::experiment::{CurveOptions, MeasuredCurve};
+use crate::experiment::{CurveOptions, Fit, Free, MeasuredCurve};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -28,4 +29,23 @@ impl Measured {
         };
         self.curve.displacement.iter().zip(&self.curve.force).map(point).collect()
     }
+}
+
+/// Search of parameters that describe the curve.
+#[derive(Clone, Debug)]
+pub struct Fitting {
+    pub free: Vec<Free>,
+    /// Number of computed curves.
+    pub evaluations: usize,
+    pub found: Option<Result<Arc<Fit>, String>>,
+}
+
+/// The fit of the present scene, of the place of the curve alone or of further parameters.
+pub fn fitted(studies: &Findings) -> Option<&Fit> {
+    studies.value::<Arc<Fit>>().map(|fit| &**fit)
+}
+
+/// Reason why the scene cannot be compared with the curve.
+pub fn failure(studies: &Findings) -> Option<&str> {
+    studies.failure::<Arc<Fit>>()
 }

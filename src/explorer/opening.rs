@@ -1,6 +1,7 @@
 //! Arguments of the explorer: a scene, or a finished study around one.
 
-use super::app::{Ghost, Measured};
+use super::ghost::Ghost;
+use super::measured::Measured;
 use crate::scene::{Document, SceneErrors, open, open_argument};
 use crate::study::{Folder, StudyError, StudyMap};
 use std::path::Path;

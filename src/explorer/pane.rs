@@ -1,6 +1,6 @@
 //! The panes: their places and keys.
 
-use super::keys::Context;
+use super::keys::bindings::Context;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum Pane {

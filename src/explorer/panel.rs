@@ -2,8 +2,8 @@
 //! under a cell.
 
 use super::layout::{inside, is_framed, split_profile};
+use super::text::{Part, filled, fitted, wrapped};
 use super::theme::{Appearance, Meaning};
-use super::view::text::{Part, filled, fitted, wrapped};
 use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, key, legend};
 use crate::scene::{format_range, format_rounded};
 use ratatui::buffer::{Buffer, Cell};

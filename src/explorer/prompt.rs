@@ -1,7 +1,7 @@
 //! Prompts: a line being typed for a purpose, with a list of what fits; questions, and the help.
 
 use super::action::OutputFile;
-use super::keys::{Binding, Context};
+use super::keys::bindings::{Binding, Context, Row};
 use super::pane::Pane;
 use super::parameters::Parameter;
 use super::search::find;
@@ -16,7 +16,7 @@ pub struct Prompt {
     pub line: TextLine,
     /// Indices of the rows of the list that fit the line, the best first.
     pub found: Vec<usize>,
-    /// Place of the selected row among them; lines scrolled down in the help.
+    /// Place of the selected row among them.
     pub selected: usize,
     /// Paths that begin as typed, as far as several were asked for.
     pub paths: Vec<String>,
@@ -40,10 +40,37 @@ pub enum Purpose {
     Parameter {
         before: Pane,
     },
-    Command(Vec<Binding>),
+    /// The help or the list of commands: a list whose entries are searched once `is_typed`.
+    Topics {
+        name: &'static str,
+        topics: Vec<Topic>,
+        is_typed: bool,
+    },
     Overwrite(OutputFile),
     Leave,
-    Help,
+}
+
+/// Entry of the help or of the list of commands.
+#[derive(Clone, Debug)]
+pub struct Topic {
+    pub section: &'static str,
+    /// Keys, or the name of a pane.
+    pub name: String,
+    pub text: String,
+    pub row: Option<&'static Row>,
+}
+
+impl Topic {
+    pub fn of(binding: &Binding) -> Self {
+        let Binding { row, .. } = binding;
+        Topic { section: row.section, name: binding.names(), text: row.help.to_owned(), row: Some(row) }
+    }
+
+    /// Texts of a search: each key, description, section.
+    fn texts(&self) -> Vec<String> {
+        let words = [self.name.clone(), self.text.clone(), self.section.to_owned()];
+        self.name.split(' ').map(str::to_owned).chain(words).collect()
+    }
 }
 
 impl Prompt {
@@ -61,10 +88,10 @@ impl Prompt {
     /// Returns the context of keys: a list, a line or a question.
     pub fn context(&self) -> Context {
         match self.purpose {
-            Purpose::Scene(_) | Purpose::Parameter { .. } | Purpose::Command(_) => Context::List,
+            Purpose::Topics { is_typed: false, .. } => Context::Help,
+            Purpose::Scene(_) | Purpose::Parameter { .. } | Purpose::Topics { .. } => Context::List,
             Purpose::Overwrite(_) => Context::Overwrite,
             Purpose::Leave => Context::Leave,
-            Purpose::Help => Context::Help,
             _ => Context::Line,
         }
     }
@@ -78,7 +105,7 @@ impl Prompt {
             Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
             Purpose::Scene(entries) => find(entries.iter().enumerate().map(scene_texts), query),
             Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
-            Purpose::Command(commands) => find(commands.iter().map(Binding::texts), query),
+            Purpose::Topics { topics, .. } => find(topics.iter().map(Topic::texts), query),
             _ => Vec::new(),
         };
     }

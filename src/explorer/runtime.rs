@@ -1,15 +1,16 @@
 //! The interpreter of effects: one for the session, for demos and for tests. Solver and studies run on threads of their
 //! own, or at once: the same actions then lead to the same screens.
 
-use super::action::Action;
+use super::action::{Action, Effect};
 use super::app::App;
+use super::commands::accuracy::studies;
 use super::completion::complete;
-use super::keys::Context;
+use super::keys::bindings::Context;
 use super::opening::Opening;
 use super::request::Request;
 use super::solver::{Solve, Solver, SolverThread};
 use super::studies::{Study, StudyThread};
-use super::update::{Effect, request, studies, update};
+use super::update::{request, update};
 use super::writing;
 use crate::scene::{own_folder, scenes};
 use crate::simulation::Simulation;

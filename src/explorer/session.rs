@@ -1,19 +1,19 @@
 //! A session: the explorer in a terminal, with threads for input, signals, solver and studies.
 
-use super::action::Action;
+use super::action::{Action, Effect};
 use super::app::App;
-use super::autosave::{self, Autosave, Kept};
+use super::autosave::{Autosave, Kept};
+use super::commands::opening::begin;
 use super::config::Config;
-use super::input;
 use super::opening::Opening;
 use super::runtime::{Engine, Runtime};
 use super::signals::{SystemSignal, watch_for_signals};
 use super::snapshot::SolvedScene;
 use super::solver::{Solve, SolverThread};
 use super::studies::StudyThread;
-use super::terminal::{self, FrameWriter, TerminalGuard};
+use super::terminal::{FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
-use super::update::Effect;
+use super::{autosave, input, terminal};
 use crate::scene::Document;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
@@ -21,7 +21,8 @@ use crossterm::queue;
 use ratatui::backend::CrosstermBackend;
 use ratatui::layout::{Position, Rect};
 use ratatui::{Frame, Terminal};
-use std::io::{self, Stdout};
+use std::io;
+use std::io::Stdout;
 use std::mem::{ManuallyDrop, take};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -87,12 +88,7 @@ enum Message {
 }
 
 /// Opens the explorer on a scene or a finished study, with a solver and a view, and returns its final state.
-pub fn open(
-    opening: impl Into<Opening>,
-    options: Options,
-    solve: Solve,
-    draw: Draw,
-) -> io::Result<SessionEnd> {
+pub fn open(opening: Opening, options: Options, solve: Solve, draw: Draw) -> io::Result<SessionEnd> {
     let size = terminal::window()?;
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (sender, inbox) = channel();
@@ -119,7 +115,7 @@ pub fn open(
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
         marker: options.marker.or(options.config.markers).unwrap_or(environment.marker),
     };
-    let mut app = App::new(opening, (size.width, size.height), appearance, options.config);
+    let mut app = begin(opening, (size.width, size.height), appearance, options.config);
     let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
     let frame_rate = app.config.frame_rate;
     if let Some(warning) = options.warning {

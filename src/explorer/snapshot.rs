@@ -1,13 +1,12 @@
 //! Results of the worker: immutable, stamped with the generation of their scene, and
 //! already reduced to the resolution of a pane.
 
-use super::reach::Reach;
-pub use super::request::Drive;
-use super::request::{Focus, LineView, SnapshotRequest};
+use super::request::{Drive, Focus, LineView, SnapshotRequest};
 use crate::contact::{CurvePoint, Patch, PatchState, Springs};
-pub use crate::export::section::{Column, Section};
+use crate::export::section::Section;
 use crate::export::section::{Contact, LineColumns, Part};
 use crate::scene::{CheckedScene, Move};
+use crate::simulation::reach::Reach;
 use crate::simulation::{LineFacts, Outcome};
 use std::sync::{Arc, Weak};
 

@@ -4,12 +4,12 @@
 use super::close_up::close_up;
 use super::manual_body::ManualBody;
 use super::player::{Player, indentations};
-use super::reach::Reach;
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, SpringsInContact, profile_part, strip};
 use crate::contact::{ContactError, CurvePoint, Direction, Leg};
 use crate::export::section::{Contact, LineColumns};
 use crate::scene::{CheckedScene, Move, Observer, Solver as SceneSolver};
+use crate::simulation::reach::Reach;
 use crate::simulation::{AfterLeg, Outcome, RunError, Simulation};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};

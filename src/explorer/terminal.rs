@@ -9,7 +9,8 @@ use crossterm::terminal::{
 };
 use crossterm::{execute, queue};
 use ratatui::layout::Size;
-use std::io::{self, Write};
+use std::io;
+use std::io::Write;
 
 /// Most cells of a window, of about 100 bytes each.
 const MOST_CELLS: u32 = 4_000_000;

@@ -2,19 +2,24 @@
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
-use super::panes::{OPEN_COMMAND, Pane};
-use super::picture::{svg, text};
+use super::commands::stages::with_path;
+use super::pane::Pane;
+use super::panes;
+use super::panes::row::OPEN_COMMAND;
+use super::picture::svg::svg;
+use super::picture::text;
 use super::theme::Theme;
-use super::update::stages::with_path;
 use super::view;
 use crate::draw::{Figure, Palette};
-use crate::export::{self, Format, Report, scene_provenance};
+use crate::export;
+use crate::export::{Format, Report, scene_provenance};
 use crate::io::{WriteError, write_new_file};
 use crate::scene::command_line;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
-use std::io::{self, Write};
+use std::io;
+use std::io::Write;
 use std::path::{Path, is_separator};
 
 /// Writes a regular file, relative to a folder: a pipe would block. A scene gets the extension `.ron` unless its name has
@@ -50,7 +55,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
                 let figure = figure(app).filter(|figure| app.is_current() && figure.table().is_some())?;
                 Some((OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>))
             };
-            let report = (app.view.pane.row().report)(app).or_else(curves);
+            let report = (panes::row(app.view.pane).report)(app).or_else(curves);
             let (command, report) = report.ok_or_else(missing)?;
             let kept = if command == OPEN_COMMAND { with_path(app).and_then(Result::ok) } else { None };
             let document = kept.as_ref().unwrap_or(&app.edit.document);
@@ -69,7 +74,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
 /// The selected pane as a figure; the force curve while the parameters are selected.
 fn figure(app: &App) -> Option<Figure> {
     let pane = if app.view.pane == Pane::Parameters { Pane::Force } else { app.view.pane };
-    pane.figure(app)
+    panes::figure(app, pane)
 }
 
 /// The screen as an SVG document, on a background that suits its colours.

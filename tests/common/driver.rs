@@ -3,16 +3,16 @@
 
 use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
-use asperity::explorer::app::App;
+use asperity::explorer::action::Effect;
+use asperity::explorer::commands::opening::begin;
+use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
-use asperity::explorer::keys::bindings;
-use asperity::explorer::panes::SceneSpectra;
 use asperity::explorer::runtime::{Engine, Runtime};
 use asperity::explorer::snapshot::Preview;
 use asperity::explorer::solver::Solve;
 use asperity::explorer::studies::Study;
 use asperity::explorer::theme::{Appearance, Marker, Theme};
-use asperity::explorer::update::Effect;
+use asperity::export::SceneSpectra;
 use asperity::simulation::{Outcome, Simulation, Timings};
 use std::any::Any;
 use std::fs;
@@ -50,7 +50,7 @@ impl Driver {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("folder")).unwrap();
         let runtime = Runtime {
-            app: App::new(opening, (120, 40), APPEARANCE, Config::new(bindings())),
+            app: begin(opening.into(), (120, 40), APPEARANCE, Config::new(bindings())),
             engine: Engine::inline(solve, performs),
             asked: 0,
             folder: folder.path().to_owned(),

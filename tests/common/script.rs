@@ -3,12 +3,14 @@
 
 use super::driver::Driver;
 use asperity::contact::CurvePoint;
+use asperity::explorer::action::Effect;
 use asperity::explorer::action::{Action, Gesture, Mouse};
-use asperity::explorer::app::{App, Pane};
-use asperity::explorer::keys::Key;
+use asperity::explorer::app::App;
+use asperity::explorer::keys::key::Key;
 use asperity::explorer::layout::{Layout, inside};
+use asperity::explorer::pane::Pane;
 use asperity::explorer::snapshot::ContactSnapshot;
-use asperity::explorer::update::{Effect, update};
+use asperity::explorer::update::update;
 use asperity::explorer::{Opening, view};
 use asperity::simulation::Outcome;
 use ratatui::Terminal;

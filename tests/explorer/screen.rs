@@ -33,7 +33,7 @@ mod typing;
 use super::common::{self, driver::Driver, scenes::rough};
 use asperity::explorer::app::App;
 use asperity::scene::{Document, open};
-use ratatui::buffer::{Buffer, Cell};
+use ratatui::buffer::Cell;
 use ratatui::style::Modifier;
 
 /// Windows, columns and rows.

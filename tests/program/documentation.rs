@@ -5,9 +5,10 @@
 use super::generated::{check, compare, pages_in, read, root};
 use super::program::{asperity_in, table};
 use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
-use asperity::explorer::keys;
 use asperity::explorer::pane::Pane;
+use asperity::explorer::panes::row;
 use asperity::scene::{Document, FIELDS, LEG_FIELDS, LEG_FORCE, Range, presets};
 use asperity::simulation::Simulation;
 use asperity::study::{Changes, Plan, Quantity, Statistics};
@@ -59,8 +60,8 @@ fn escaped(text: &str) -> String {
 
 #[test]
 fn tables_are_those_of_the_program() {
-    check("docs/keys.md", "keys", &keys::bindings().markdown());
-    let panes = Pane::ALL.iter().flat_map(|pane| pane.row().help);
+    check("docs/keys.md", "keys", &bindings().markdown());
+    let panes = Pane::ALL.iter().flat_map(|pane| row(*pane).help);
     let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
     check("docs/keys.md", "panes", &markdown(["pane", "content"], panes));
     let plans = asperity::study::PLANS.iter().map(|plan| {
@@ -305,6 +306,6 @@ fn links_and_paths_lead_somewhere() {
 fn examples_of_files_are_allowed() {
     Document::parse(&block("docs/scene-file.md", "ron"), "docs/scene-file.md").unwrap();
     let config = block("docs/keys.md", "ron");
-    Config::parse(&config, Path::new("docs/keys.md"), keys::bindings()).unwrap();
+    Config::parse(&config, Path::new("docs/keys.md"), bindings()).unwrap();
     Plan::parse(&block("docs/studies.md", "ron"), "docs/studies.md", &Changes::default()).unwrap();
 }

@@ -1,19 +1,16 @@
 //! Demo of the explorer: always the same frames, for a terminal, a pipe or a recording.
 
-mod script;
-mod watch;
+pub mod script;
+pub mod watch;
 
-pub use script::{Cue, ONE_SCENE, TOUR};
-pub use watch::play;
-
-use super::action::Action;
-use super::app::App;
-use super::config::Config;
-use super::keys::bindings;
-use super::opening::Opening;
-use super::runtime::{Engine, Runtime};
-use super::theme::Appearance;
-use super::update::Effect;
+use self::script::Cue;
+use crate::explorer::action::{Action, Effect};
+use crate::explorer::app::App;
+use crate::explorer::commands::table::bindings;
+use crate::explorer::config::Config;
+use crate::explorer::opening::Opening;
+use crate::explorer::runtime::{Engine, Runtime};
+use crate::explorer::theme::Appearance;
 use crate::scene::{Document, open};
 use crate::simulation::Simulation;
 use std::collections::VecDeque;

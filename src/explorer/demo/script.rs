@@ -1,5 +1,7 @@
 //! Script of the demo.
 
+use Cue::{Do, Enter, Open, Repeat, Select, Wait};
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cue {
     Wait(f64),
@@ -14,8 +16,6 @@ pub enum Cue {
     /// Types a value for the selected parameter, character by character.
     Enter(&'static str),
 }
-
-use Cue::{Do, Enter, Open, Repeat, Select, Wait};
 
 /// Seconds of a loop of two legs and of a pause at its end.
 const LOOP: f64 = 12.5;
@@ -67,7 +67,8 @@ pub const ONE_SCENE: &[Cue] = &[Wait(LOOP)];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explorer::keys::{Context, bindings};
+    use crate::explorer::commands::table::bindings;
+    use crate::explorer::keys::bindings::Context;
 
     #[test]
     fn every_command_of_the_scripts_is_in_the_table_of_keys() {

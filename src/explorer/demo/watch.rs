@@ -1,9 +1,8 @@
 //! The demo in a terminal, in real time.
 
 use super::Demo;
-use crate::explorer::input;
 use crate::explorer::terminal::{FrameWriter, TerminalGuard, window};
-use crate::explorer::view;
+use crate::explorer::{input, view};
 use crossterm::event::{Event, KeyEventKind};
 use ratatui::Terminal;
 use ratatui::backend::CrosstermBackend;

@@ -58,10 +58,9 @@ impl fmt::Debug for Row {
 }
 
 /// Exploring, in any pane.
-pub(super) const EXPLORE: &[Context] =
-    &[Context::Explore, Context::Map, Context::Crosshair, Context::Parameters];
-pub(super) const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
-pub(super) const MANUAL: &str = "Manual loading";
+pub const EXPLORE: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair, Context::Parameters];
+pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
+pub const MANUAL: &str = "Manual loading";
 
 impl Row {
     /// Returns true if the configuration may replace the keys of the row: keys for typing, lists and questions are
@@ -93,12 +92,6 @@ impl Binding {
     pub fn names(&self) -> String {
         self.keys.iter().map(|key| key.name.as_str()).collect::<Vec<_>>().join(" ")
     }
-
-    /// Texts of a search: keys, description, section.
-    pub fn texts(&self) -> Vec<String> {
-        let words = [self.row.help, self.row.section].map(str::to_owned);
-        self.keys.iter().map(|key| key.name.clone()).chain(words).collect()
-    }
 }
 
 /// The keys in use: the table, with other keys where the configuration has them.
@@ -107,7 +100,7 @@ pub struct Bindings(Vec<Binding>);
 
 impl Bindings {
     /// These rows with their own keys.
-    pub(super) fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
+    pub fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
         let keys = |row: &Row| row.keys.split(' ').filter_map(Key::named).collect();
         Bindings(rows.map(|row| Binding { row, keys: keys(row) }).collect())
     }
@@ -126,8 +119,9 @@ impl Bindings {
         Some(Command { row: found.row, character })
     }
 
-    pub fn listed(&self) -> Vec<Binding> {
-        self.rows().filter(|binding| binding.row.is_listed()).cloned().collect()
+    /// The rows of the list of commands.
+    pub fn listed(&self) -> impl Iterator<Item = &Binding> {
+        self.rows().filter(|binding| binding.row.is_listed())
     }
 
     /// The command of a name in a context, with the character where the row takes one: `start-value 3`.
@@ -139,7 +133,7 @@ impl Bindings {
     }
 
     /// Keys and rows of the footer in a context, the most important first; adjacent rows with the same label are one item.
-    pub(super) fn footer(
+    pub fn footer(
         &self,
         context: Context,
         is_manual: bool,
@@ -211,7 +205,7 @@ impl Bindings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explorer::keys::bindings;
+    use crate::explorer::commands::table::bindings;
     use crossterm::event::{KeyCode, KeyModifiers};
 
     #[test]

@@ -1,14 +1,14 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
-use super::{Exported, PaneRow};
+use super::row::{Exported, PaneRow};
 use crate::accuracy::{CostTable, Estimate, Knob, Progress, measure};
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
+use crate::explorer::text::{Part, filled};
 use crate::explorer::theme::{Appearance, Meaning};
-use crate::explorer::view::text::{Part, filled};
 use crate::export::{CostReport, work_precision};
 use crate::scene::{Edges, Numerics, Solver, format_rounded};
 use crate::simulation::{Plan, Stage};

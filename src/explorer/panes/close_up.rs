@@ -1,13 +1,14 @@
 //! The close-up of contact patches, with their boundary points as the paper's white circles, and a strip of the whole
 //! contact.
 
-use super::{PaneRow, section};
+use super::row::PaneRow;
+use super::section;
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
-use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts, Section};
+use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts};
 use crate::explorer::theme::{Meaning, Theme};
-use crate::export::section::Part as LinePart;
+use crate::export::section::{Part as LinePart, Section};
 use crate::scene::format_quantity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};

@@ -1,16 +1,16 @@
 //! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
-use super::row::outcome;
-use super::{Exported, PaneRow};
+use super::row::{Exported, PaneRow, outcome};
 use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
 use crate::contact::{CurvePoint, Direction};
 use crate::draw::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
-use crate::explorer::app::{App, Ghost, Measured, letter};
+use crate::explorer::app::App;
 use crate::explorer::caption::caption;
+use crate::explorer::ghost::{Ghost, letter};
+use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
+use crate::explorer::text::filled;
 use crate::explorer::theme::Meaning;
-use crate::explorer::update::measured;
-use crate::explorer::view::text::filled;
 use crate::export::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart, sign};
 use crate::scene::{format_rounded, quoted};
 use ratatui::layout::Size;
@@ -34,7 +34,7 @@ pub static ROW: PaneRow = PaneRow {
 /// The measured curve, its model and the residuals, while there is a measured curve.
 fn fit_report(app: &App) -> Option<FitReport<'_>> {
     let Measured { name, curve, .. } = app.measured.as_ref()?;
-    Some(FitReport { title: name, curve, fit: measured::fitted(app).filter(|_| app.is_current())? })
+    Some(FitReport { title: name, curve, fit: fitted(&app.studies).filter(|_| app.is_current())? })
 }
 
 /// The same with the command that computes the fit.

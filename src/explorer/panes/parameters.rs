@@ -1,16 +1,15 @@
 //! The list of parameters and the meaning of the selected one.
 
-use super::PaneRow;
-use super::row::outcome;
+use super::row::{PaneRow, outcome};
 use crate::explorer::app::{App, Message};
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::{Prompt, Purpose};
+use crate::explorer::text::{filled, fitted, wrapped_within};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
-use crate::explorer::update::typed;
-use crate::explorer::view::text::{filled, fitted, wrapped_within};
+use crate::explorer::typed;
 use crate::scene::{Effect, format_quantity, unit_of};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};

@@ -1,13 +1,14 @@
 //! Adhesion against preload: the staircase of the profile, the spread over random profiles, adhesion without load, and the
 //! preload of the scene.
 
-use super::{Exported, PROFILES, PaneRow, PreloadCurve};
+use super::preload_curve::{PROFILES, PreloadCurve};
+use super::row::{Exported, PaneRow};
 use crate::draw::{AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::studies::Study;
+use crate::explorer::text::{filled, wrapped};
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::text::{filled, wrapped};
 use crate::export::{PreloadReport, distribution, preload_chart, preload_figure, warning};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};

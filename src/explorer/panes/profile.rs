@@ -1,6 +1,7 @@
 //! The profile: the rigid profile, the elastic surface above it, their contact, and the distribution of heights.
 
-use super::{PaneRow, section};
+use super::row::PaneRow;
+use super::section;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel, names};

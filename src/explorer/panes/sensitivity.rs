@@ -1,11 +1,11 @@
 //! Sensitivity of the results to the numbers of the scene: bars of the changes of the adhesion force, beside all changes.
 
-use super::{Exported, PaneRow};
+use super::row::{Exported, PaneRow};
 use crate::draw::Label;
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
-use crate::explorer::view::text::filled;
+use crate::explorer::text::filled;
 use crate::export::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
 use crate::study::Sensitivity;
 use ratatui::layout::Size;

@@ -1,12 +1,12 @@
 //! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
 
-use super::PaneRow;
+use super::row::PaneRow;
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
+use crate::explorer::text::{filled, wrapped};
 use crate::explorer::theme::Meaning;
-use crate::explorer::view::text::{filled, wrapped};
 use crate::export::{SceneSpectra, measured_adhesion_text};
 use crate::scene::{Roughness, Scene, Solver, format_quantity};
 use crate::simulation::RunError;

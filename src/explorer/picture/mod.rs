@@ -1,10 +1,7 @@
 //! Screens in forms for use outside of the terminal: plain text, ASCII and an SVG document.
 
-mod ascii;
-mod svg;
-
-pub use ascii::to_ascii;
-pub use svg::svg;
+pub mod ascii;
+pub mod svg;
 
 use ratatui::buffer::{Buffer, Cell, CellWidth};
 use ratatui::layout::Rect;

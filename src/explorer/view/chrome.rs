@@ -1,18 +1,22 @@
 //! The lines around the panes: title, status, footer.
 
-use super::text::{filled, wrapped_within};
 use crate::accuracy::Estimate;
 use crate::analysis::SteepWaves;
 use crate::contact::CurvePoint;
 use crate::experiment::Fit;
 use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
-use crate::explorer::keys::{Row, footer as footer_keys};
-use crate::explorer::panes::PreloadCurve;
+use crate::explorer::commands::accuracy::Choosing;
+use crate::explorer::commands::table::footer as footer_keys;
+use crate::explorer::keys::bindings::Row;
+use crate::explorer::measured;
+use crate::explorer::measured::Fitting;
+use crate::explorer::panes::preload_curve::PreloadCurve;
 use crate::explorer::prompt::{Prompt, Purpose};
 use crate::explorer::snapshot::ContactSnapshot;
+use crate::explorer::text::{filled, wrapped_within};
 use crate::explorer::theme::{Meaning, Theme};
-use crate::explorer::update::{Choosing, Fitting, measured, typed};
+use crate::explorer::typed;
 use crate::scene::{format_quantity, format_range, format_rounded};
 use crate::study::{MeasuredAdhesion, Statistics};
 use crate::text::grouped;
@@ -62,7 +66,9 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
                 format!("{} scenes have unsaved changes: {}. Leave?", several.len(), names.join(", "))
             }
         }),
-        (Some((prompt, purpose)), _) if !matches!(purpose, Purpose::Value | Purpose::Help) => {
+        (Some((prompt, purpose)), _)
+            if !matches!(purpose, Purpose::Value | Purpose::Topics { is_typed: false, .. }) =>
+        {
             prompted(app, prompt, width)
         }
         (_, Some(Message::Error(why) | Message::Refused(why))) => return refusal(why, rows),
@@ -94,7 +100,7 @@ fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
 fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
-        Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave | Purpose::Help => String::new(),
+        Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave => String::new(),
         Purpose::Force => format!("Go to the force ({}): ", typed::unit_of_force(app)),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
@@ -106,8 +112,7 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
             format!("Export to ({}): ", extensions.join(" "))
         }
         Purpose::Scene(_) => "Search: ".to_owned(),
-        Purpose::Parameter { .. } => "Find: ".to_owned(),
-        Purpose::Command(_) => ": ".to_owned(),
+        Purpose::Parameter { .. } | Purpose::Topics { .. } => "Find: ".to_owned(),
     }
 }
 
@@ -198,9 +203,9 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
     }
     if let Some(measured) = &app.measured {
         let times = |fit: &Fit| format!("{} × noise", format_quantity(fit.residual_over_noise, "1"));
-        let residual = match measured::failure(app) {
+        let residual = match measured::failure(&app.studies) {
             Some(why) => why.to_owned(),
-            None => measured::fitted(app).map_or_else(|| "…".to_owned(), times),
+            None => measured::fitted(&app.studies).map_or_else(|| "…".to_owned(), times),
         };
         facts.push(of_loop(format!("{}: residual {residual}", measured.name), Meaning::Title));
     }

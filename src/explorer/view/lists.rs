@@ -1,71 +1,95 @@
-//! Lists of a prompt: commands with their keys, over the panes; scenes, with the selected one on the right.
+//! Lists of a prompt in place of the panes: help and commands in sections; scenes, with the selected one on the right.
 
-use super::text::{fitted, wrapped};
-use crate::explorer::keys::Binding;
-use crate::explorer::panel::{self, Body, Panel};
-use crate::explorer::prompt::Prompt;
+use crate::explorer::layout::inside;
+use crate::explorer::panel;
+use crate::explorer::panel::{Body, Panel};
+use crate::explorer::prompt::{Prompt, Topic};
+use crate::explorer::text::{fitted, wrapped};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use crate::scene::{Entry, Source};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Clear, Widget};
 
-/// Widest list of commands: a description and its keys.
-const WIDEST: u16 = 100;
+/// Columns of names beside their texts in windows from a width on; in narrower ones names are above the texts.
+const NAMES: usize = 20;
+const BESIDE_FROM: u16 = 56;
+/// Columns before a text below its name.
+const INDENT: usize = 4;
 /// Least columns with the selected scene beside the list.
 const WITH_SCENE: u16 = 62;
 
-/// The rows that fit what is typed, of a list of this name and length.
-fn list(
-    prompt: &Prompt,
-    (name, length, none): (&str, usize, &str),
-    row: impl Fn(usize, bool) -> Option<Line<'static>>,
-) -> Panel {
+/// A list of this name and length with these rows.
+fn list(prompt: &Prompt, (name, length, none): (&str, usize, &str), (rows, selected): Rows) -> Panel {
     let title = format!("{name}, {} of {length}", prompt.found.len());
-    if prompt.found.is_empty() {
+    if rows.is_empty() {
         return Panel::of_text(title, none);
     }
-    let rows = prompt.found.iter().enumerate();
-    let rows = rows.filter_map(|(place, index)| row(*index, place == prompt.selected)).collect();
-    Panel { body: Body::Rows { rows, selected: prompt.selected }, ..Panel::of_text(title, "") }
+    Panel { body: Body::Rows { rows, selected }, ..Panel::of_text(title, "") }
 }
 
-pub fn draw_commands(
+/// Rows of a list, and the place of the selected one.
+type Rows = (Vec<Line<'static>>, usize);
+
+/// The help or the list of commands: names and texts that fit what is typed, in sections while nothing is typed.
+pub fn draw_topics(
     area: Rect,
     look: Appearance,
     prompt: &Prompt,
-    entries: &[Binding],
+    name: &str,
+    topics: &[Topic],
     buffer: &mut Buffer,
 ) {
-    let width = area.width.min(WIDEST);
-    // Enough rows for a frame with the title.
-    let height = area.height.min(prompt.found.len().max(4) as u16 + 2);
-    let area = Rect { x: area.x + (area.width - width) / 2, width, height, ..area };
-    let list = list(prompt, ("Commands", entries.len(), "no command fits"), |index, is_selected| {
-        Some(command(entries.get(index)?, is_selected, width.saturating_sub(2), look.theme))
-    });
-    Clear.render(area, buffer);
-    panel::draw(&list, area, false, look, buffer);
+    let (theme, width) = (look.theme, inside(area).width.saturating_sub(1));
+    let (mut rows, mut selected, mut section) = (Vec::new(), 0, "");
+    for (place, topic) in prompt.found.iter().filter_map(|index| topics.get(*index)).enumerate() {
+        if topic.section != section && prompt.line.text().is_empty() {
+            section = topic.section;
+            rows.push(Line::styled(section, theme.style(Meaning::Title)));
+        }
+        let is_selected = place == prompt.selected;
+        if is_selected {
+            selected = rows.len();
+        }
+        entry(&mut rows, topic, is_selected, width, theme);
+    }
+    panel::draw(
+        &list(prompt, (name, topics.len(), "nothing fits"), (rows, selected)),
+        area,
+        false,
+        look,
+        buffer,
+    );
 }
 
-/// A command, and its keys at the right end.
-fn command(entry: &Binding, is_selected: bool, width: u16, theme: Theme) -> Line<'static> {
-    let keys = Span::styled(entry.names(), theme.style(Meaning::Key));
+/// Adds the name and the text of a topic, in as many lines as needed.
+fn entry(rows: &mut Vec<Line<'static>>, topic: &Topic, is_selected: bool, width: u16, theme: Theme) {
+    let is_beside = width >= BESIDE_FROM;
+    let indent = if is_beside { NAMES } else { INDENT };
+    let name = Line::styled(
+        format!("{} {}", if is_selected { "›" } else { " " }, topic.name),
+        theme.style(Meaning::Key),
+    );
+    let mut name = Some(fitted(name, if is_beside { NAMES as u16 - 1 } else { width }));
+    if !is_beside {
+        rows.extend(name.take());
+    }
     let style = theme.style(if is_selected { Meaning::Selected } else { Meaning::Text });
-    let mark = if is_selected { "›" } else { " " };
-    let room = width.saturating_sub(keys.width() as u16 + 1);
-    let mut line = fitted(Line::from(Span::styled(format!("{mark} {}", entry.row.help), style)), room);
-    line.push_span(" ".repeat(usize::from(width).saturating_sub(line.width() + keys.width())));
-    line.push_span(keys);
-    line
+    for text in wrapped(&Line::styled(topic.text.clone(), style), width.saturating_sub(indent as u16)) {
+        let mut line = name.take().unwrap_or_default();
+        line.push_span(" ".repeat(indent.saturating_sub(line.width())));
+        line.spans.extend(text.spans);
+        rows.push(line);
+    }
 }
 
 pub fn draw_scenes(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
     let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
-    let list = list(prompt, ("Scenes", entries.len(), none), |index, is_selected| {
-        Some(scene((index, entries.get(index)?), is_selected, look.theme))
-    });
+    let row = |(place, index): (usize, &usize)| {
+        Some(scene((*index, entries.get(*index)?), place == prompt.selected, look.theme))
+    };
+    let rows = prompt.found.iter().enumerate().filter_map(row).collect();
+    let list = list(prompt, ("Scenes", entries.len(), none), (rows, prompt.selected));
     let beside = prompt.scene().filter(|_| area.width >= WITH_SCENE);
     let width = if beside.is_some() { area.width * 2 / 5 } else { area.width };
     panel::draw(&list, Rect { width, ..area }, false, look, buffer);

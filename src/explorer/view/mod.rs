@@ -1,18 +1,15 @@
 //! Draws the state of the explorer. Nothing here changes the state.
 
 mod chrome;
-mod help;
 mod lists;
-pub mod text;
 
-pub use help::help_end;
-
-use super::app::App;
-use super::layout::{Layout, inside};
-use super::panel;
-use super::picture::to_ascii;
-use super::prompt::Purpose;
-use super::theme::Marker;
+use crate::explorer::app::App;
+use crate::explorer::layout::{Layout, inside};
+use crate::explorer::panel;
+use crate::explorer::panes;
+use crate::explorer::picture::ascii::to_ascii;
+use crate::explorer::prompt::Purpose;
+use crate::explorer::theme::Marker;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 
@@ -26,17 +23,16 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     }
     let list = app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose));
     match list {
-        Some((prompt, Purpose::Help)) => help::draw(panes, app, prompt.selected as u16, buffer),
+        Some((prompt, Purpose::Topics { name, topics, .. })) => {
+            lists::draw_topics(panes, look, prompt, name, topics, buffer);
+        }
         Some((prompt, Purpose::Scene(entries))) => lists::draw_scenes(panes, look, prompt, entries, buffer),
         _ => {
             for &(pane, area) in &layout.panes {
-                let panel = pane.panel(app, inside(area).as_size());
+                let panel = panes::panel(app, pane, inside(area).as_size());
                 panel::draw(&panel, area, app.view.pane == pane, look, buffer);
             }
         }
-    }
-    if let Some((prompt, Purpose::Command(entries))) = list {
-        lists::draw_commands(panes, look, prompt, entries, buffer);
     }
     // A long text takes the place of the keys as well.
     let rows = 1 + u16::from(layout.footer.is_some());

@@ -6,9 +6,11 @@ use super::is_up_to_date;
 use asperity::accuracy::{
     Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
 };
-use asperity::explorer::app::{Message, Pane};
-use asperity::explorer::panes::Costs;
-use asperity::explorer::update::{Choosing, Effect};
+use asperity::explorer::action::Effect;
+use asperity::explorer::app::Message;
+use asperity::explorer::commands::accuracy::Choosing;
+use asperity::explorer::pane::Pane;
+use asperity::explorer::panes::accuracy::Costs;
 use asperity::scene::{Document, Edges};
 
 /// Springs of 4e-4 at best, as found by a search.

@@ -3,7 +3,7 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough, smooth};
 use super::{SIZES, default_scene, mid_retraction, pressed};
-use asperity::explorer::keys::bindings;
+use asperity::explorer::commands::table::bindings;
 use asperity::scene::format_quantity;
 
 #[test]

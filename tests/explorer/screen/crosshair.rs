@@ -4,8 +4,8 @@ use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough};
 use super::{default_scene, mid_retraction};
 use asperity::explorer::action::Gesture;
-use asperity::explorer::app::Pane;
-use asperity::explorer::keys::Context;
+use asperity::explorer::keys::bindings::Context;
+use asperity::explorer::pane::Pane;
 use asperity::explorer::snapshot::Probe;
 use asperity::scene::{format_quantity, parse_quantity};
 

@@ -1,7 +1,8 @@
 //! The demo: always the same frames, in any window, and no more bytes than a slow line carries.
 
 use super::common::driver::APPEARANCE;
-use asperity::explorer::demo::{Demo, TOUR};
+use asperity::explorer::demo::Demo;
+use asperity::explorer::demo::script::TOUR;
 use asperity::explorer::{picture, picture_of};
 use asperity::scene::{Document, open, presets};
 

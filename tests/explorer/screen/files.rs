@@ -5,10 +5,10 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
 
-use asperity::explorer::panes::Pane;
+use asperity::explorer::action::Effect;
+use asperity::explorer::pane::Pane;
 use asperity::explorer::picture;
 use asperity::explorer::theme::Marker;
-use asperity::explorer::update::Effect;
 use asperity::export::{Format, RunReport, scene_provenance, write};
 use asperity::scene::{Document, command_line, presets};
 use std::fs;

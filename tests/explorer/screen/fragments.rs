@@ -5,10 +5,10 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::contact::Patch;
 use asperity::explorer::action::Action;
-use asperity::explorer::app::Pane;
+use asperity::explorer::action::Effect;
+use asperity::explorer::pane::Pane;
 use asperity::explorer::snapshot::FragmentFacts;
 use asperity::explorer::snapshot::Report;
-use asperity::explorer::update::Effect;
 
 #[test]
 fn the_close_up_goes_round_all_fragments() {

@@ -3,16 +3,11 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{mid_retraction, pressed};
-use asperity::explorer::app::Pane;
-use asperity::explorer::snapshot::Section;
+use asperity::explorer::pane::Pane;
 use asperity::scene::format_quantity;
 
-fn profile(driver: &Driver) -> Section {
-    driver.snapshot().profile.clone()
-}
-
 fn seen(driver: &Driver) -> (usize, usize) {
-    let section = profile(driver);
+    let section = &driver.snapshot().profile;
     (section.first, section.springs)
 }
 

@@ -3,9 +3,9 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, mid_retraction, pressed};
+use asperity::explorer::action::Effect;
 use asperity::explorer::app::ManualState;
-use asperity::explorer::snapshot::Drive;
-use asperity::explorer::update::Effect;
+use asperity::explorer::request::Drive;
 
 fn manual(driver: &Driver) -> &ManualState {
     driver.app.manual.as_ref().expect("manual loading")

@@ -3,11 +3,12 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::is_up_to_date;
+use asperity::explorer::action::Effect;
 use asperity::explorer::action::{Action, Gesture, Mouse};
-use asperity::explorer::app::Pane;
-use asperity::explorer::keys::Context;
+use asperity::explorer::commands::accuracy::studies;
+use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::map::Live;
-use asperity::explorer::update::{Effect, studies};
+use asperity::explorer::pane::Pane;
 use asperity::scene::{Document, RoughnessParameter};
 use asperity::study::{Level, LiveMap, MAP_LINES, live_plan};
 

@@ -3,9 +3,10 @@
 use super::common::driver::Driver;
 use super::{default_scene, mid_retraction, pressed};
 use asperity::explorer::action::Gesture;
-use asperity::explorer::app::Pane;
+use asperity::explorer::pane::Pane;
 use asperity::explorer::panel::Under;
-use asperity::explorer::panes::{indentation_at, under};
+use asperity::explorer::panes::force::indentation_at;
+use asperity::explorer::panes::under;
 use ratatui::layout::Position;
 
 /// Number on the horizontal axis of the chart in a cell.

@@ -3,8 +3,9 @@
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{mid_retraction, pressed};
-use asperity::explorer::app::Pane;
-use asperity::explorer::keys::{Context, bindings};
+use asperity::explorer::commands::table::bindings;
+use asperity::explorer::keys::bindings::Context;
+use asperity::explorer::pane::Pane;
 use std::fs;
 
 /// Opens the list and types a query.

@@ -2,8 +2,9 @@
 
 use super::common::scenes::{changed, punch, rough, smooth, without_adhesion};
 use super::{SIZES, default_scene, mid_retraction, pressed};
-use asperity::explorer::app::{App, Pane};
-use asperity::explorer::keys::Context;
+use asperity::explorer::app::App;
+use asperity::explorer::keys::bindings::Context;
+use asperity::explorer::pane::Pane;
 use asperity::scene::Document;
 
 fn selected(app: &App) -> &str {

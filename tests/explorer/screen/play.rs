@@ -3,9 +3,9 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{is_up_to_date, pressed};
+use asperity::explorer::action::Effect;
+use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
-use asperity::explorer::keys::bindings;
-use asperity::explorer::update::Effect;
 use std::path::Path;
 
 #[test]

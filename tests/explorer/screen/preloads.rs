@@ -3,8 +3,8 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, without_adhesion};
 use asperity::explorer::action::Action;
-use asperity::explorer::panes::{PROFILES, PreloadCurve};
-use asperity::explorer::update::studies;
+use asperity::explorer::commands::accuracy::studies;
+use asperity::explorer::panes::preload_curve::{PROFILES, PreloadCurve};
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};

@@ -5,8 +5,8 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
 
-use asperity::explorer::keys::Context;
-use asperity::explorer::update::Effect;
+use asperity::explorer::action::Effect;
+use asperity::explorer::keys::bindings::Context;
 use asperity::scene::Document;
 
 #[test]

@@ -2,9 +2,9 @@
 
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
-use asperity::explorer::app::Pane;
+use asperity::explorer::action::Effect;
+use asperity::explorer::pane::Pane;
 use asperity::explorer::studies::Study;
-use asperity::explorer::update::Effect;
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use asperity::study::Sensitivity;

@@ -3,10 +3,10 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
-use asperity::explorer::app::Pane;
-use asperity::explorer::panes::SceneSpectra;
+use asperity::explorer::action::Effect;
+use asperity::explorer::pane::Pane;
 use asperity::explorer::studies::Study;
-use asperity::explorer::update::Effect;
+use asperity::export::SceneSpectra;
 use asperity::scene::Document;
 use asperity::simulation::Simulation;
 use asperity::study::MeasuredAdhesion;

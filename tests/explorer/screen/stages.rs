@@ -85,7 +85,7 @@ fn a_stage_of_another_kind_has_the_state_at_its_end() {
     assert_eq!(selected(&driver.app), Some(1));
     driver.enter("touch");
     assert_eq!(loading(&driver.app), "[ToTouch, ToSeparation]");
-    driver.app.view.pane = asperity::explorer::app::Pane::Parameters;
+    driver.app.view.pane = asperity::explorer::pane::Pane::Parameters;
     driver.press("2 Space n m Enter");
     assert_eq!(loading(&driver.app), "[ToIndentation(2.0e-9), ToSeparation]");
 }

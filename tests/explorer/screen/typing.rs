@@ -4,9 +4,10 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{SIZES, is_up_to_date, pressed, reversed};
 use asperity::explorer::action::Action;
-use asperity::explorer::keys::Context;
+use asperity::explorer::action::Effect;
+use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::layout::Layout;
-use asperity::explorer::update::{Effect, update};
+use asperity::explorer::update::update;
 use clap::ValueEnum;
 
 #[test]
@@ -144,7 +145,7 @@ fn a_number_alone_has_the_unit_of_its_row_and_the_row_says_so() {
 #[test]
 fn digits_begin_a_value_wherever_the_list_can_be_edited() {
     let mut driver = pressed("Tab Tab");
-    assert_eq!(driver.app.view.pane, asperity::explorer::app::Pane::Parameters);
+    assert_eq!(driver.app.view.pane, asperity::explorer::pane::Pane::Parameters);
     driver.press(". 6 5 Enter");
     assert_eq!(driver.app.edit.document.value("roughness.hurst"), Some(".65"), "{}", driver.text());
     driver.press("0");

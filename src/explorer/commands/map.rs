@@ -1,27 +1,12 @@
 //! Commands of the map and of the scene as its mark.
 
-use super::{Effect, edit};
-use crate::explorer::app::{App, Pane};
-use crate::explorer::opening::Opening;
+use super::edit;
+use crate::explorer::action::Effect;
+use crate::explorer::app::App;
+use crate::explorer::map::OpenStudy;
 use crate::scene::{Document, RoughnessParameter, SceneErrors};
-use crate::study::{Axis, Place, StudyMap, live_plan, moved};
+use crate::study::{Axis, Place, live_plan, moved};
 use std::sync::Arc;
-
-/// Explores a scene or a study opened by its path.
-pub fn open(app: &mut App, opening: Opening) {
-    let Opening { document, study_map, .. } = opening;
-    edit::open(app, document);
-    if let Some(study_map) = study_map {
-        show_study(app, study_map);
-    }
-}
-
-/// Shows the map of a study, the first of them.
-fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
-    app.map.open_study(study_map, 0);
-    app.map.of_study = true;
-    app.show(Pane::Map);
-}
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
@@ -54,7 +39,7 @@ pub fn step_slice(app: &mut App, steps: i32) {
     let goes_with = study.study_map.is_of(study.slice, app.edit.document.scene());
     let followed = goes_with.then(|| study.study_map.follow(next, &app.edit.document));
     let study_map = Arc::clone(&study.study_map);
-    app.map.open_study(study_map, next);
+    app.map.study = Some(OpenStudy::new(study_map, next));
     if let Some(followed) = followed {
         let was_unsaved = app.edit.is_unsaved();
         edit::take_over(app, followed);

@@ -1,16 +1,18 @@
 //! Studies of the present scene: the error of its outcome, springs for a tolerance, data of the shown pane, and the curve
 //! of a typed value.
 
-use super::{Effect, edit, measured};
+use super::{edit, measured};
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
+use crate::explorer::action::Effect;
 use crate::explorer::app::App;
 use crate::explorer::editor::scene_of;
+use crate::explorer::panes;
 use crate::explorer::prompt::Purpose;
-use crate::explorer::reach::out_of_reach;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::Study;
 use crate::scene::{CheckedScene, Document, Move};
 use crate::simulation::RunError;
+use crate::simulation::reach::out_of_reach;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -42,7 +44,9 @@ pub fn studies(app: &mut App) -> Vec<Study> {
                 known.ok_or_else(|| "the error cannot be estimated".to_owned())
             }));
             wanted.extend(measured::study(app));
-            wanted.extend(app.view.large.map_or_else(Vec::new, |pane| (pane.row().studies)(app, &computed)));
+            wanted.extend(
+                app.view.large.map_or_else(Vec::new, |pane| (panes::row(pane).studies)(app, &computed)),
+            );
         }
     }
     app.studies.begin(wanted)

@@ -1,7 +1,7 @@
 //! Output of the explorer: the scene, exports, the command to open the scene.
 
-use super::{Effect, edit};
-use crate::explorer::action::{Content, EXPORTS, OutputFile, WriteFailure};
+use super::edit;
+use crate::explorer::action::{Content, EXPORTS, Effect, OutputFile, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::editor::Editor;
 use crate::explorer::prompt::Purpose;

@@ -1,14 +1,17 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use super::{Effect, typed};
-use crate::explorer::app::{App, CloseUpTarget, Message, Pane, Player};
+use crate::explorer::action::Effect;
+use crate::explorer::app::{App, CloseUpTarget, Message};
 use crate::explorer::editor::scene_of;
 use crate::explorer::layout::Layout;
+use crate::explorer::pane::Pane;
 use crate::explorer::parameters::{Parameter, Setting, text_of};
+use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
+use crate::explorer::typed;
 use crate::scene::{
     Computed, Document, Move, Range, SceneErrors, Solver, Step, exact_quantity, kind_and_number,
     loading_text, parse_quantity, pressing_force, read_stage, ron_float,

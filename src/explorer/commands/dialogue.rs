@@ -1,13 +1,14 @@
 //! Prompts: what opens, edits, accepts and cancels them.
 
-use super::{Effect, accuracy, edit, files, measured, movement};
-use crate::explorer::action::OutputFile;
+use super::{accuracy, edit, files, measured, movement};
+use crate::explorer::action::{Effect, OutputFile};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
-use crate::explorer::keys::{Command, Context};
+use crate::explorer::keys::bindings::{Command, Context};
+use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
-use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::view::help_end;
+use crate::explorer::panes;
+use crate::explorer::prompt::{Prompt, Purpose, Topic};
 use crate::scene::{Entry, typed_path};
 use tui_input::InputRequest;
 
@@ -29,13 +30,49 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
     }
 }
 
-/// Moves the selection of a list, or scrolls the help by a line.
+/// Opens the help: the notice of the scene, for which a small window has no room, contents of the panes, and all keys.
+pub fn open_help(app: &mut App) {
+    let topic = |name: &str, text: &str| Topic {
+        section: "What you see",
+        name: name.to_owned(),
+        text: text.to_owned(),
+        row: None,
+    };
+    let notice = app.edit.document.scene().notice.split_whitespace().collect::<Vec<_>>().join(" ");
+    let notice = (!notice.is_empty()).then(|| topic("This scene", &notice));
+    let panes =
+        Pane::ALL.iter().flat_map(|pane| panes::row(*pane).help).map(|(name, text)| topic(name, text));
+    let keys = app.config.bindings.rows().map(Topic::of);
+    let topics = notice.into_iter().chain(panes).chain(keys).collect();
+    app.ask(Purpose::Topics { name: "Help", topics, is_typed: false }, "");
+}
+
+/// Opens the list of commands, to be searched.
+pub fn open_commands(app: &mut App) {
+    let topics = app.config.bindings.listed().map(Topic::of).collect();
+    app.ask(Purpose::Topics { name: "Commands", topics, is_typed: true }, "");
+}
+
+/// Searches the help for what is typed next.
+pub fn search_help(app: &mut App) {
+    if let Some(Purpose::Topics { is_typed, .. }) = app.prompt.as_mut().map(|prompt| &mut prompt.purpose) {
+        *is_typed = true;
+    }
+}
+
+/// Moves the selection of the list by rows.
 pub fn select(app: &mut App, rows: i32) {
-    let is_help = app.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Help));
-    let end = is_help.then(|| usize::from(help_end(app)));
-    let Some(prompt) = &mut app.prompt else { return };
-    let last = end.unwrap_or(prompt.found.len().saturating_sub(1));
-    prompt.selected = prompt.selected.min(last).saturating_add_signed(rows as isize).min(last);
+    if let Some(prompt) = &mut app.prompt {
+        let last = prompt.found.len().saturating_sub(1);
+        prompt.selected = prompt.selected.saturating_add_signed(rows as isize).min(last);
+    }
+}
+
+/// Moves the selection of the list, or that of the parameters, by pages: half the rows of a window, since an entry may take
+/// two of them.
+pub fn page(app: &mut App, pages: i32) {
+    let rows = pages * i32::from(Layout::of(app).body().height / 2).max(1);
+    if app.prompt.is_some() { select(app, rows) } else { edit::move_selection(app, rows) }
 }
 
 /// Accepts the line, the selected row, or the question. A refused line stays, with the reason.
@@ -69,14 +106,14 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
             app.edit.select(prompt.choice().ok_or_else(nothing)?);
             app.show(Pane::Parameters);
         }
-        Purpose::Command(commands) => {
-            let listed = prompt.choice().and_then(|index| commands.get(index)).ok_or_else(nothing)?;
-            choose(app, Command { row: listed.row, character: None });
+        Purpose::Topics { topics, .. } => {
+            let topic = prompt.choice().and_then(|index| topics.get(index)).ok_or_else(nothing)?;
+            topic.row.into_iter().for_each(|row| choose(app, Command { row, character: None }));
         }
         Purpose::Overwrite(file) => {
             app.effects.push(Effect::Write(OutputFile { overwrite: true, ..file.clone() }));
         }
-        Purpose::Leave | Purpose::Help => {}
+        Purpose::Leave => {}
     }
     Ok(())
 }

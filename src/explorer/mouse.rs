@@ -1,11 +1,13 @@
 //! The mouse: selects panes and rows, drags the body and scrolls. Keys can do all this too.
 
-use super::{crosshair, dialogue, edit, look, map, movement};
-use crate::explorer::action::{Gesture, Mouse};
-use crate::explorer::app::{App, Pane};
-use crate::explorer::panel::Under;
-use crate::explorer::panes::{indentation_at, under};
-use crate::explorer::request::ManualMove;
+use super::action::{Gesture, Mouse};
+use super::app::App;
+use super::commands::{crosshair, dialogue, edit, map, movement, view};
+use super::pane::Pane;
+use super::panel::Under;
+use super::panes::force::indentation_at;
+use super::panes::under;
+use super::request::ManualMove;
 use ratatui::layout::Position;
 
 pub fn act(app: &mut App, mouse: Mouse) {
@@ -36,7 +38,7 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
         }
         (Pane::Profile | Pane::CloseUp, under) => {
             app.view.pane = pane;
-            look::zoom_at(app, turns, if let Under::Data(x, _) = under { Some(x) } else { None });
+            view::zoom_at(app, turns, if let Under::Data(x, _) = under { Some(x) } else { None });
         }
         _ => {}
     }

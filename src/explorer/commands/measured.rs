@@ -1,8 +1,10 @@
 //! A measured force curve beside the scene: its first touch, the residual of the scene, and the fit of parameters.
 
-use super::{Effect, edit};
+use super::edit;
 use crate::experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
+use crate::explorer::action::Effect;
 use crate::explorer::app::App;
+use crate::explorer::measured::{Fitting, fitted};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use crate::scene::{format_quantity, one_unit};
@@ -10,15 +12,6 @@ use std::sync::Arc;
 
 /// Number of computed curves between two reports of a fit.
 const REPORTED: usize = 64;
-
-/// Search of parameters that describe the curve.
-#[derive(Clone, Debug)]
-pub struct Fitting {
-    free: Vec<Free>,
-    /// Number of computed curves.
-    pub evaluations: usize,
-    found: Option<Result<Arc<Fit>, String>>,
-}
 
 /// The study of the measured curve: the fit that was asked for, else the place of the curve and the residual.
 pub fn study(app: &App) -> Option<Study> {
@@ -80,20 +73,10 @@ pub fn found(app: &mut App) {
         }
     }
     let is_offset = |one: &&FittedParameter| one.parameter == Parameter::Offset;
-    let offset = fitted(app).and_then(|fit| Some(fit.parameters.iter().find(is_offset)?.value));
+    let offset = fitted(&app.studies).and_then(|fit| Some(fit.parameters.iter().find(is_offset)?.value));
     if let Some((measured, offset)) = app.measured.as_mut().zip(offset) {
         measured.offset = offset;
     }
-}
-
-/// The fit of the present scene, of the place of the curve alone or of further parameters.
-pub fn fitted(app: &App) -> Option<&Fit> {
-    app.studies.value::<Arc<Fit>>().map(|fit| &**fit)
-}
-
-/// Reason why the scene cannot be compared with the curve.
-pub fn failure(app: &App) -> Option<&str> {
-    app.studies.failure::<Arc<Fit>>()
 }
 
 /// The parameters found, with their intervals; a scene that does not describe the curve is stated first.

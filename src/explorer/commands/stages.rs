@@ -1,8 +1,10 @@
 //! Edits of the loading: its stages one by one, and the path of manual loading.
 
 use super::edit;
-use crate::explorer::app::{App, Player};
-use crate::scene::{self, Document, Move, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
+use crate::explorer::app::App;
+use crate::explorer::player::Player;
+use crate::scene;
+use crate::scene::{Document, Move, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
 use crate::text::round_to;
 
 /// Stages, those of the present loading with their places in it.

@@ -1,8 +1,9 @@
 //! Changes of the view: panes, close-up, parts of the line, quantities, colours.
 
-use super::Effect;
 use crate::draw::AxisScale;
-use crate::explorer::app::{App, CloseUpTarget, Pane};
+use crate::explorer::action::Effect;
+use crate::explorer::app::{App, CloseUpTarget};
+use crate::explorer::pane::Pane;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Choice;

@@ -1,29 +1,14 @@
 //! Effect of each action on the state. Nothing here touches terminal, files or worker: work outside
 //! the state is returned.
 
-pub(super) mod accuracy;
-pub(super) mod compare;
-pub(super) mod crosshair;
-pub(super) mod dialogue;
-pub(super) mod edit;
-pub(super) mod files;
-pub(super) mod look;
-pub(super) mod map;
-pub(super) mod measured;
-mod mouse;
-pub(super) mod movement;
-pub(super) mod stages;
-pub(super) mod typed;
-
-pub use super::action::Effect;
-pub use accuracy::{Choosing, studies};
-pub use measured::Fitting;
-
 use super::action::Action;
+use super::action::Effect;
 use super::app::{App, Awaited};
+use super::commands::{accuracy, dialogue, edit, files, measured, movement, opening, table};
 use super::editor::scene_of;
-use super::keys::{self, Command};
+use super::keys::bindings::Command;
 use super::layout::Layout;
+use super::mouse;
 use super::prompt::Purpose;
 use super::request::{Request, SnapshotRequest};
 use super::snapshot::Report;
@@ -55,7 +40,7 @@ fn apply(app: &mut App, action: Action) {
         Action::Written(file, result) => files::written(app, file, result),
         Action::Listed(entries) => dialogue::listed(app, entries),
         Action::Completed(paths) => dialogue::completed(app, paths),
-        Action::Opened(_, Ok(opening)) => map::open(app, *opening),
+        Action::Opened(_, Ok(opening)) => opening::open(app, *opening),
         Action::Opened(path, Err(why)) => {
             app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
             app.effects.push(Effect::List);
@@ -82,7 +67,7 @@ fn run(app: &mut App, command: Command) {
         app.begin();
         app.map.moving = moving;
     }
-    keys::run(command, app);
+    table::run(command, app);
     if let Some(chosen) = app.chosen.take() {
         run(app, chosen);
     }

@@ -1,7 +1,8 @@
 //! Loops kept for comparison.
 
 use super::edit;
-use crate::explorer::app::{App, Ghost, letter};
+use crate::explorer::app::App;
+use crate::explorer::ghost::{Ghost, letter};
 use std::sync::Arc;
 
 /// Most kept curves: each has a colour of its own.

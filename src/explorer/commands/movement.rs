@@ -1,11 +1,12 @@
 //! Movement of the body: animation of the scene's loading, or manual loading.
 
-use super::typed::unit_of_force;
 use crate::analysis::pull_off_point;
-use crate::explorer::app::{App, ManualState, Player};
+use crate::explorer::app::{App, ManualState};
+use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::ContactSnapshot;
+use crate::explorer::typed::unit_of_force;
 use crate::scene::{in_unit, parse_quantity};
 use std::sync::Arc;
 use std::time::Duration;

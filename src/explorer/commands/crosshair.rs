@@ -1,8 +1,10 @@
 //! The crosshair of the selected pane, to be read: on profile and close-up at one position along the line, on other charts
 //! at a share of the horizontal axis.
 
-use crate::explorer::app::{App, Pane};
-use crate::explorer::keys::Context;
+use crate::explorer::app::App;
+use crate::explorer::keys::bindings::Context;
+use crate::explorer::pane::Pane;
+use crate::explorer::panes;
 
 /// Small and large steps across a pane.
 const STEPS: (f64, f64) = (100.0, 10.0);
@@ -39,7 +41,7 @@ pub fn go_to_end(app: &mut App, right: bool) {
 pub fn point_at(app: &mut App, x: f64) {
     let share = match app.section().zip(app.snapshot.as_deref()) {
         Some((_, snapshot)) => (x / snapshot.line.spacing - snapshot.line.first as f64) / springs(app),
-        None => match app.view.pane.figure(app).and_then(|figure| figure.charts.into_iter().next()) {
+        None => match panes::figure(app, app.view.pane).and_then(|figure| figure.charts.into_iter().next()) {
             Some(chart) => chart.x.share(x),
             None => return,
         },
@@ -54,7 +56,7 @@ fn ends(app: &App) -> (f64, f64) {
     if let Some(section) = app.section() {
         return (share(section.first), share(section.first + section.springs));
     }
-    let chart = app.view.pane.figure(app).and_then(|figure| figure.charts.into_iter().next());
+    let chart = panes::figure(app, app.view.pane).and_then(|figure| figure.charts.into_iter().next());
     let shares = chart.iter().flat_map(|chart| {
         let named = chart.layers.iter().filter(|layer| !layer.name.is_empty());
         named.flat_map(|layer| layer.shape.points()).map(|point| chart.x.share(point.0).clamp(0.0, 1.0))

@@ -1,0 +1,15 @@
+//! The table of keys, and one file for the verbs of each kind.
+
+pub mod accuracy;
+mod compare;
+pub mod crosshair;
+pub mod dialogue;
+pub mod edit;
+pub mod files;
+pub mod map;
+pub mod measured;
+pub mod movement;
+pub mod opening;
+pub mod stages;
+pub mod table;
+pub mod view;

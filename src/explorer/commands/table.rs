@@ -1,0 +1,273 @@
+//! The one table of keys with their functions, for dispatch, footer, help, list of commands, configuration, demo and
+//! docs/keys.md.
+
+use super::{accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, view};
+use crate::explorer::action::Effect;
+use crate::explorer::app::App;
+use crate::explorer::keys::bindings::{ANY, Bindings, Command, Context, EXPLORE, MANUAL, Row};
+use crate::explorer::pane::Pane;
+use crate::explorer::parameters::Parameter;
+use crate::explorer::prompt::Purpose;
+use crate::explorer::request::Focus;
+use Run::{Character, Do, Edit};
+use tui_input::InputRequest;
+
+/// A row of the table, its function, and the condition for the footer.
+pub struct Entry {
+    row: Row,
+    run: Run,
+    is_shown: fn(&App) -> bool,
+}
+
+#[derive(Clone, Copy)]
+enum Run {
+    Do(fn(&mut App)),
+    /// The same, with the character of the key.
+    Character(fn(&mut App, char)),
+    Edit(InputRequest),
+}
+
+/// Changes the state by a command.
+pub fn run(command: Command, app: &mut App) {
+    let Some(entry) = TABLE.iter().find(|entry| std::ptr::eq(&entry.row, command.row)) else { return };
+    match (entry.run, command.character) {
+        (Do(change), _) => change(app),
+        (Character(change), Some(character)) => change(app, character),
+        (Character(_), None) => {}
+        (Edit(request), _) => edit::edit_line(app, |line| line.edit(request)),
+    }
+}
+
+pub fn bindings() -> Bindings {
+    Bindings::of(TABLE.iter().map(|entry| &entry.row))
+}
+
+/// Keys and rows of the footer, the most important first; adjacent rows with the same label are one item.
+pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
+    let is_hidden =
+        |row: &Row| TABLE.iter().any(|entry| std::ptr::eq(&entry.row, row) && !(entry.is_shown)(app));
+    app.config.bindings.footer(app.keys(), app.manual.is_some(), is_hidden)
+}
+
+/// Without map and crosshair, where the arrows act on these.
+const LIST: &[Context] = &[Context::Explore, Context::Parameters];
+/// Without the map.
+const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
+/// In the list of parameters these characters begin a value.
+const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
+const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
+const VALUES: &[Context] = &[Context::Parameters];
+const MAP_PANE: &[Context] = &[Context::Map];
+const CROSSHAIR: &[Context] = &[Context::Crosshair];
+const HELP: &[Context] = &[Context::Help];
+const TYPED: &[Context] = &[Context::Line, Context::List];
+const SEARCHED: &[Context] = &[Context::List];
+const LINE: &[Context] = &[Context::Line];
+/// Lists of a prompt, and the help.
+const LISTS: &[Context] = &[Context::List, Context::Help];
+const OVERWRITE: &[Context] = &[Context::Overwrite];
+const LEAVE: &[Context] = &[Context::Leave];
+
+const ANIMATION: &str = "Animation";
+const PARAMETERS: &str = "Parameters";
+const STAGES: &str = "Loading stages";
+const COMPARE: &str = "Comparison";
+const LOOK: &str = "View";
+const CROSS: &str = "Crosshair";
+const MAP: &str = "Map";
+const SCENE: &str = "Scene";
+const TEXT: &str = "Typing and lists";
+
+const fn row(
+    keys: &'static str,
+    contexts: &'static [Context],
+    name: &'static str,
+    run: Run,
+    label: &'static str,
+    help: &'static str,
+    section: &'static str,
+) -> Entry {
+    let takes_character = matches!(run, Character(_));
+    let (rank, is_listed, merges) = (3, true, false);
+    let row = Row { keys, contexts, name, label, help, section, rank, is_listed, merges, takes_character };
+    Entry { row, run, is_shown: always }
+}
+
+impl Entry {
+    const fn rank(mut self, rank: u8) -> Entry {
+        self.row.rank = rank;
+        self
+    }
+
+    const fn shown_if(mut self, is_shown: fn(&App) -> bool) -> Entry {
+        self.is_shown = is_shown;
+        self
+    }
+
+    const fn unlisted(mut self) -> Entry {
+        self.row.is_listed = false;
+        self
+    }
+
+    const fn merges(mut self) -> Entry {
+        self.row.merges = true;
+        self
+    }
+}
+
+fn always(_: &App) -> bool {
+    true
+}
+
+fn is_manual(app: &App) -> bool {
+    app.manual.is_some()
+}
+
+fn is_stage(app: &App) -> bool {
+    app.edit.parameter().is_some_and(|parameter| parameter.leg.is_some())
+}
+
+fn takes_number(app: &App) -> bool {
+    app.edit.parameter().is_some_and(Parameter::takes_number)
+}
+
+/// All keys. A test ensures one meaning of a key in each context.
+#[rustfmt::skip]
+static TABLE: &[Entry] = &[
+    row("space", EXPLORE, "toggle-play", Do(movement::toggle_play), "play", "play or pause", ANIMATION),
+    row(".", OTHER_PANES, "step-forwards", Do(|app| movement::step(app, 1)), "step", "one step forwards", ANIMATION),
+    row(",", EXPLORE, "step-backwards", Do(|app| movement::step(app, -1)), "", "one step backwards", ANIMATION),
+    row("r", EXPLORE, "restart", Do(movement::restart), "restart", "play from the beginning", ANIMATION),
+    row(">", EXPLORE, "next-stage", Do(|app| movement::go_to_leg(app, 1)), "", "jump to the start of the next loading stage", ANIMATION),
+    row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
+    row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the last unloading", ANIMATION),
+
+    row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL),
+    row("]", EXPLORE, "press", Do(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),
+    row("[", EXPLORE, "pull", Do(|app| movement::push(app, -1, false)), "press/pull", "pull by a small step", MANUAL).shown_if(is_manual),
+    row("}", EXPLORE, "press-coarse", Do(|app| movement::push(app, 1, true)), "large step", "press by a large step", MANUAL).shown_if(is_manual),
+    row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
+    row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).shown_if(is_manual),
+    row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
+    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the path of manual loading as the loading of the scene", MANUAL).shown_if(is_manual),
+
+    row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
+    row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
+    row("Home g", LIST, "first-parameter", Do(|app| edit::move_selection(app, i32::MIN)), "", "select the first parameter", PARAMETERS),
+    row("End G", LIST, "last-parameter", Do(|app| edit::move_selection(app, i32::MAX)), "", "select the last parameter", PARAMETERS),
+    row("PageUp", LIST, "previous-parameters", Do(|app| dialogue::page(app, -1)), "", "go up a page of the parameters", PARAMETERS),
+    row("PageDown", LIST, "next-parameters", Do(|app| dialogue::page(app, 1)), "", "go down a page of the parameters", PARAMETERS),
+    row("← h", LIST, "decrease", Do(|app| stages::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
+    row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
+    row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
+    row("Shift+→ L", LIST, "increase-coarse", Do(|app| stages::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
+    row("Enter e", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
+    row("0–9", LIST, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number for the selected parameter; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
+    row("- .", VALUES, "start-sign", Character(|app, first| edit::edit_value(app, Some(first))), "", "the same, while the pane of parameters is selected", PARAMETERS).unlisted(),
+    row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
+    row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
+    row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS),
+    row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS),
+    row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),
+    row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
+
+    row("Insert P", LIST, "add-stage", Do(stages::add), "add", "add a stage after the selected one", STAGES).rank(1).shown_if(is_stage),
+    row("Delete Backspace", LIST, "delete-stage", Do(stages::delete), "delete", "delete the selected stage", STAGES).rank(1).shown_if(is_stage),
+    row("Shift+↑ K", LIST, "move-stage-up", Do(|app| stages::shift(app, -1)), "move", "move the selected stage up", STAGES).rank(1).shown_if(is_stage),
+    row("Shift+↓ J", LIST, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
+    row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the stage: force, indentation, displacement, touch, zero force or separation", STAGES).rank(1).shown_if(is_stage),
+
+    row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
+    row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
+    row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
+    row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.measured.is_some()),
+
+    row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or patches", LOOK),
+    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
+    row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
+    row("n", EXPLORE, "next-patch", Do(|app| view::go_to_fragment(app, Focus::After)), "patch", "show the next contact patch", LOOK),
+    row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_fragment(app, Focus::Before)), "", "show the previous contact patch", LOOK),
+    row("b", EXPLORE, "longest-patch", Do(|app| app.view.look.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
+    row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.look.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
+    row("f", EXPLORE, "first-touch", Do(|app| app.view.look.focus = Focus::Summit), "", "show the point of first touch", LOOK),
+    row("+ =", EXPLORE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom in: the profile if selected, else the close-up", LOOK),
+    row("-", OTHER_PANES, "zoom-out", Do(|app| view::zoom(app, -1)), "", "zoom out", LOOK),
+    row("(", EXPLORE, "pan-left", Do(|app| view::pan(app, -1)), "", "pan left along the profile", LOOK),
+    row(")", EXPLORE, "pan-right", Do(|app| view::pan(app, 1)), "", "pan right along the profile", LOOK),
+    row("Z", EXPLORE, "reset-zoom", Do(view::reset_zoom), "", "show the whole profile", LOOK),
+    row("A", EXPLORE, "toggle-accuracy", Do(|app| app.toggle(Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
+    row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
+    row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
+    row("X", EXPLORE, "toggle-preload-scale", Do(view::toggle_preload_scale), "log/linear", "plot adhesion against preload on logarithmic axes, or on linear ones", LOOK).rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
+    row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show changes of F_a by ±10 % of each number, in place of profile and close-up", LOOK),
+    row("Tab", EXPLORE, "next-pane", Do(view::next_pane), "pane", "select the next pane", LOOK).rank(2),
+    row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Effect::Redraw)), "", "draw the whole screen again", LOOK),
+    row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
+    row("T", EXPLORE, "next-theme", Do(view::next_theme), "", "change the colours", LOOK),
+    row("M", EXPLORE, "next-marker", Do(view::next_marker), "", "draw plots in braille, or the whole screen in ASCII", LOOK),
+
+    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair, which reads the curves of the selected pane", CROSS),
+    row("← h", CROSSHAIR, "crosshair-left", Do(|app| crosshair::move_by(app, -1, false)), "", "move the crosshair left", CROSS),
+    row("→ l", CROSSHAIR, "crosshair-right", Do(|app| crosshair::move_by(app, 1, false)), "move", "move the crosshair right", CROSS),
+    row("Shift+← H", CROSSHAIR, "crosshair-left-coarse", Do(|app| crosshair::move_by(app, -1, true)), "", "move the crosshair left by a large step", CROSS),
+    row("Shift+→ L", CROSSHAIR, "crosshair-right-coarse", Do(|app| crosshair::move_by(app, 1, true)), "", "move the crosshair right by a large step", CROSS),
+    row("Home g", CROSSHAIR, "crosshair-start", Do(|app| crosshair::go_to_end(app, false)), "", "move the crosshair to the left end", CROSS),
+    row("End G", CROSSHAIR, "crosshair-end", Do(|app| crosshair::go_to_end(app, true)), "", "move the crosshair to the right end", CROSS),
+    row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
+
+    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ, in place of profile and close-up", MAP).rank(2),
+    row("← h", MAP_PANE, "move-left", Do(|app| map::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
+    row("→ l", MAP_PANE, "move-right", Do(|app| map::step(app, 1, 0)), "move", "move the scene to the value on the right: increase H", MAP).merges(),
+    row("↓ j", MAP_PANE, "move-down", Do(|app| map::step(app, 0, -1)), "", "move the scene to the value below: decrease κ", MAP).merges(),
+    row("↑ k", MAP_PANE, "move-up", Do(|app| map::step(app, 0, 1)), "", "move the scene to the value above: increase κ", MAP).merges(),
+    row("Shift+← H", MAP_PANE, "move-left-coarse", Do(|app| map::step(app, -4, 0)), "", "move by four values to the left", MAP).merges(),
+    row("Shift+→ L", MAP_PANE, "move-right-coarse", Do(|app| map::step(app, 4, 0)), "", "move by four values to the right", MAP).merges(),
+    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| map::step(app, 0, -4)), "", "move by four values down: half the κ", MAP).merges(),
+    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| map::step(app, 0, 4)), "", "move by four values up: twice the κ", MAP).merges(),
+    row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
+    row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the opened study, or the live map", MAP),
+    row("P PageDown", MAP_PANE, "next-slice", Do(|app| map::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
+    row("PageUp", MAP_PANE, "previous-slice", Do(|app| map::step_slice(app, -1)), "", "show the previous one", MAP),
+
+    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene: built-in, by its name or number, your own, or by path; or the folder of a study", SCENE).rank(2),
+    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
+    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane: table (.csv, .npy, .json), figure (.svg, .png, .pdf), screen (.txt)", SCENE),
+    row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
+    row(": Ctrl+p", EXPLORE, "open-palette", Do(dialogue::open_commands), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
+    row("? F1", EXPLORE, "help", Do(dialogue::open_help), "help", "show this help", SCENE).rank(0),
+    row("q Ctrl+c", EXPLORE, "quit", Do(files::ask_quit), "quit", "quit", SCENE).rank(0),
+    row("Ctrl+z", ANY, "suspend", Do(|app| app.effects.push(Effect::Suspend)), "", "suspend to the shell; fg resumes", SCENE),
+
+    row("↓ j space", HELP, "next-row", Do(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
+    row("↑ k", HELP, "previous-row", Do(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),
+    row("Home g", HELP, "first-row", Do(|app| dialogue::select(app, i32::MIN)), "", "select the first row", TEXT),
+    row("End G", HELP, "last-row", Do(|app| dialogue::select(app, i32::MAX)), "", "select the last row", TEXT),
+    row("/", HELP, "search-help", Do(dialogue::search_help), "find", "search the help by words", TEXT),
+    row("Esc ? q F1 Ctrl+c", HELP, "close-help", Do(dialogue::cancel), "back", "close the help", TEXT).rank(0),
+    row("↓ Ctrl+n", SEARCHED, "next-row", Do(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
+    row("↑ Ctrl+p", SEARCHED, "previous-row", Do(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),
+    row("PageDown", LISTS, "next-page", Do(|app| dialogue::page(app, 1)), "page", "go down a page", TEXT),
+    row("PageUp", LISTS, "previous-page", Do(|app| dialogue::page(app, -1)), "", "go up a page", TEXT),
+    row("Home", SEARCHED, "first-row", Do(|app| dialogue::select(app, i32::MIN)), "", "select the first row", TEXT),
+    row("End", SEARCHED, "last-row", Do(|app| dialogue::select(app, i32::MAX)), "", "select the last row", TEXT),
+    row("Enter", TYPED, "accept", Do(dialogue::accept), "accept", "accept the typed text, or the selected row", TEXT),
+    row("Tab", TYPED, "complete", Do(dialogue::complete), "complete", "complete the typed path, in a value the one between quotes", TEXT).shown_if(dialogue::can_complete),
+    row("Esc Ctrl+c", TYPED, "cancel", Do(dialogue::cancel), "cancel", "cancel: keep the previous value", TEXT),
+    row("← Ctrl+b", TYPED, "cursor-left", Edit(InputRequest::GoToPrevChar), "", "move the cursor left", TEXT),
+    row("→ Ctrl+f", TYPED, "cursor-right", Edit(InputRequest::GoToNextChar), "", "move the cursor right", TEXT),
+    row("Home", LINE, "cursor-start", Edit(InputRequest::GoToStart), "", "move the cursor to the start", TEXT),
+    row("End", LINE, "cursor-end", Edit(InputRequest::GoToEnd), "", "move the cursor to the end", TEXT),
+    row("Ctrl+a", TYPED, "cursor-start", Edit(InputRequest::GoToStart), "", "move the cursor to the start", TEXT),
+    row("Ctrl+e", TYPED, "cursor-end", Edit(InputRequest::GoToEnd), "", "move the cursor to the end", TEXT),
+    row("Backspace Ctrl+h", TYPED, "delete-backwards", Edit(InputRequest::DeletePrevChar), "", "delete the character before the cursor", TEXT),
+    row("Ctrl+←", TYPED, "word-left", Edit(InputRequest::GoToPrevWord), "", "move the cursor to the start of the word", TEXT),
+    row("Ctrl+→", TYPED, "word-right", Edit(InputRequest::GoToNextWord), "", "move the cursor to the next word", TEXT),
+    row("Ctrl+w", TYPED, "delete-word", Edit(InputRequest::DeletePrevWord), "", "delete the word before the cursor", TEXT),
+    row("Delete Ctrl+d", TYPED, "delete-forwards", Edit(InputRequest::DeleteNextChar), "", "delete the character under the cursor", TEXT),
+    row("Ctrl+u", TYPED, "clear", Edit(InputRequest::DeleteLine), "clear", "clear the typed text", TEXT),
+    row("y", OVERWRITE, "accept", Do(dialogue::accept), "overwrite", "overwrite the file", TEXT),
+    row("n Esc Ctrl+c", OVERWRITE, "cancel", Do(dialogue::cancel), "keep it", "keep the existing file", TEXT),
+    row("s", LEAVE, "save-then-quit", Do(files::save_before_leaving), "save", "save, then quit", TEXT),
+    row("q y Ctrl+c", LEAVE, "quit-anyway", Do(|app| app.finished = true), "quit", "quit without saving", TEXT),
+    row("n Esc", LEAVE, "cancel", Do(dialogue::cancel), "stay", "stay", TEXT),
+];

@@ -1,0 +1,26 @@
+//! Computed scenes kept for comparison.
+
+use crate::scene::{Change, Document};
+use crate::simulation::Outcome;
+use std::sync::Arc;
+
+/// A computed scene kept for comparison.
+#[derive(Clone, Debug)]
+pub struct Ghost {
+    pub document: Document,
+    pub outcome: Arc<Outcome>,
+}
+
+impl Ghost {
+    /// Differences from a scene, each in words.
+    pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
+        let changes = self.document.changes_to(present);
+        let parts: Vec<String> = changes.iter().map(words).collect();
+        if parts.is_empty() { "the same scene".to_owned() } else { parts.join(", ") }
+    }
+}
+
+pub fn letter(number: usize) -> &'static str {
+    const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
+    LETTERS[number % LETTERS.len()]
+}
