@@ -38,9 +38,43 @@ pub enum StudyError {
         /// Error of the run.
         error: RunError,
     },
-    /// Records are missing, or two records of one cell and profile differ.
-    #[error("{0}")]
-    Records(String),
+    /// A study that is asked for in a way that is not allowed.
+    #[error("{found}; allowed: {allowed}")]
+    NotAllowed {
+        /// What is asked for.
+        found: &'static str,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// Records are missing.
+    #[error(
+        "{missing} of {total} records are missing, in {cells} cells: {first}; run the study to its end, or merge with --partial"
+    )]
+    Missing {
+        /// Number of missing records.
+        missing: u64,
+        /// Number of all records.
+        total: u64,
+        /// Number of cells with missing records.
+        cells: u64,
+        /// The first of these cells with their coordinates.
+        first: String,
+    },
+    /// Two records of one cell and profile differ.
+    #[error(
+        "{place}: two records differ, in {} and {}; remove the one that is wrong",
+        path_name(&files[0]),
+        path_name(&files[1])
+    )]
+    Conflict {
+        /// Cell with its coordinates, and seed of the profile.
+        place: String,
+        /// Both files.
+        files: [PathBuf; 2],
+    },
+    /// The table of so many records does not fit into the memory.
+    #[error("there is not enough memory for {0} records")]
+    TooManyRecords(u64),
     /// The system has too little memory for so many threads.
     #[error(
         "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
@@ -56,6 +90,15 @@ pub enum StudyError {
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
+
+/// Error for a study on no profile.
+pub(super) const NO_PROFILES: StudyError =
+    StudyError::NotAllowed { found: "no profiles", allowed: "at least one" };
+/// Error for several profiles of a scene that has a single one.
+pub(super) const ONE_PROFILE: StudyError = StudyError::NotAllowed {
+    found: "more than one profile, and the profile of this scene is fixed",
+    allowed: "random roughness (SelfAffine, or an equivalent line)",
+};
 
 impl StudyError {
     /// Error of a profile of a study of one cell, or one at each preload.

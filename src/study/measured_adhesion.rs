@@ -5,7 +5,7 @@
 //! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
 //! forces of a profile differ by the spectrum alone.
 
-use super::error::StudyError;
+use super::error::{NO_PROFILES, StudyError};
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use crate::analysis::Regime;
@@ -84,12 +84,12 @@ impl MeasuredAdhesion {
     /// fails.
     pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
         if count == 0 {
-            return Err(StudyError::Records("no profiles; allowed: at least one".into()));
+            return Err(NO_PROFILES);
         }
         let scene = document.scene();
         if scene.measured().is_none() || scene.measured_as_line() {
-            let reason = "the scene has no equivalent line; allowed: roughness: Measured with as_line: false";
-            return Err(StudyError::Records(reason.into()));
+            let allowed = "roughness: Measured with as_line: false";
+            return Err(StudyError::NotAllowed { found: "the scene has no equivalent line", allowed });
         }
         let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;

@@ -1,6 +1,7 @@
 //! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
 
 use super::axis::Axis;
+use super::error::ONE_PROFILE;
 use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
 use crate::scene::{CheckedScene, Scene, SceneError, SceneErrors, ron_float};
@@ -28,10 +29,6 @@ const SAME: [&[&str]; 2] = [
     &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
-
-/// Reason why a scene has a single profile.
-pub(super) const ONE_PROFILE: &str = "more than one profile needs random roughness (SelfAffine, or an equivalent \
-                                      line); the profile of this scene is fixed";
 
 /// A checked plan.
 #[derive(Clone, Debug, PartialEq)]

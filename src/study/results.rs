@@ -3,8 +3,9 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::cells::Streak;
+use super::error::{NO_PROFILES, ONE_PROFILE};
 use super::grid::{Cell, Grid, Layer};
-use super::plan::{ONE_PROFILE, Plan};
+use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::recorder::{Recorded, Recorder, Records};
 use super::statistics::{RegimeCounts, Statistics};
@@ -14,7 +15,6 @@ use crate::draw::AxisScale;
 use crate::parallel::on_threads;
 use crate::scene::{Scene, Solver};
 use crate::simulation::{RunError, Simulation};
-use crate::text::path_name;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -90,9 +90,7 @@ impl Results {
     pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
         let (records, mut values) = (plan.records_in_all(), Vec::new());
         let count = records as usize * plan.record.len();
-        values
-            .try_reserve_exact(count)
-            .map_err(|_| StudyError::Records(format!("there is not enough memory for {records} records")))?;
+        values.try_reserve_exact(count).map_err(|_| StudyError::TooManyRecords(records))?;
         values.resize(count, f64::NAN);
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
@@ -110,10 +108,10 @@ impl Results {
         preloads: Option<&Axis>,
     ) -> Result<Results, StudyError> {
         if lines == 0 {
-            return Err(StudyError::Records("no profiles; allowed: at least one".into()));
+            return Err(NO_PROFILES);
         }
         if lines > 1 && scene.seed().is_none() {
-            return Err(StudyError::Records(ONE_PROFILE.into()));
+            return Err(ONE_PROFILE);
         }
         if preloads.is_some() && scene.numerics.solver != Solver::Exact {
             return Err(StudyError::Run { place: String::new(), error: RunError::NeedsExactSolver });
@@ -232,12 +230,8 @@ impl Results {
         let has = |file: &&ShardFile| folder.records(file).is_ok_and(|mut records| records.any(is_there));
         let one = files.iter().find(has).unwrap_or(other);
         let (cell, seed) = (place / self.plan.lines, self.plan.seed_of(place % self.plan.lines));
-        StudyError::Records(format!(
-            "cell {cell}, seed {seed} ({}): two records differ, in {} and {}; remove the one that is wrong",
-            self.plan.coordinates(cell),
-            path_name(&one.path),
-            path_name(&other.path)
-        ))
+        let place = format!("cell {cell}, seed {seed} ({})", self.plan.coordinates(cell));
+        StudyError::Conflict { place, files: [one.path.clone(), other.path.clone()] }
     }
 
     fn count(&self) -> u64 {

@@ -41,13 +41,12 @@ pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
         let named = |&cell: &u64| format!("cell {cell} ({})", plan.coordinates(cell));
         let named: Vec<String> = merged.first_missing.iter().map(named).collect();
         let more = if merged.missing_cells > named.len() as u64 { ", …" } else { "" };
-        return Err(StudyError::Records(format!(
-            "{} of {} records are missing, in {} cells: {}{more}; run the study to its end, or merge with --partial",
-            merged.total - merged.records,
-            merged.total,
-            merged.missing_cells,
-            named.join(", ")
-        )));
+        return Err(StudyError::Missing {
+            missing: merged.total - merged.records,
+            total: merged.total,
+            cells: merged.missing_cells,
+            first: named.join(", ") + more,
+        });
     }
     let path = |name| folder.path().join(name);
     write_new_file(&path(RESULTS), true, |out| results.table().write_csv(out, ""))?;

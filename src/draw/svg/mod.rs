@@ -62,7 +62,8 @@ impl Figure {
         }
         let mut document = Svg::new(width, y, &Label::plain(&self.title).to_string());
         if !self.origin.is_empty() {
-            document.push(format_args!("<metadata>{}</metadata>", escaped(self.origin.trim_end())));
+            let lines: Vec<String> = self.origin.lines().map(escaped).collect();
+            document.push(format_args!("<metadata>{}</metadata>", lines.join("\n")));
         }
         document.rectangle((0.0, 0.0), (width, y), PAPER);
         document.group(FONTS, |document| document.append(svg));

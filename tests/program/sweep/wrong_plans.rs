@@ -65,7 +65,7 @@ fn each_mistake_has_its_message() {
     let message = wrong(smooth);
     assert!(message.contains("this scene is smooth; allowed: an axis loading.0.0, in N"), "{message}");
     assert!(
-        message.contains("lines = 2: more than one profile needs random roughness (SelfAffine"),
+        message.contains("lines = 2: more than one profile, and the profile of this scene is fixed; allowed: random roughness (SelfAffine"),
         "{message}"
     );
     let message = wrong(&SMALL[..SMALL.len() / 2]);
