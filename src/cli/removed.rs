@@ -6,14 +6,14 @@ const REMOVED: &[(&str, &str)] = &[
     ("config", "docs/keys.md lists the settings of the configuration file"),
     ("--cast", "asciinema rec -c \"asperity demo\" records the terminal"),
     ("--parquet", "results.csv has the same rows, and pandas or polars write them as Parquet"),
-    ("--smoothing", "the density is gone, and --map writes forces and Everett function"),
+    ("--smoothing", "reversals have no density, and --map writes their forces and Everett function"),
     ("--loops", "asperity run computes minor loops as stages of the loading"),
-    ("--memory", "fewer threads take less memory: --jobs; --check states the memory of a plan"),
+    ("--memory", "--jobs keeps the memory of a study down, and --check states it"),
 ];
 
 /// Returns what serves in place of the first removed command or option among these words.
 pub(super) fn instead<'a>(words: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let name = |word: &'a str| word.split('=').next().unwrap_or(word);
     let row = |word| REMOVED.iter().find(|(removed, _)| *removed == name(word));
-    words.into_iter().find_map(row).map(|(name, instead)| format!("'{name}' has been removed: {instead}"))
+    words.into_iter().find_map(row).map(|(name, instead)| format!("there is no {name} any more: {instead}"))
 }

@@ -235,8 +235,7 @@ mod tests {
             ("pressure-sensitive", &rough),
             ("pressure-sensitive", &[few, ("roughness", "None"), ("title", "\"a <&> b\"")]),
         ] {
-            let overrides: Vec<_> =
-                overrides.iter().map(|(path, value)| (path.to_string(), value.to_string()));
+            let overrides = overrides.iter().map(|(path, value)| (path.to_string(), value.to_string()));
             let document = open(name).unwrap().set_all(&overrides.collect::<Vec<_>>()).unwrap();
             let (scene, title) = (document.scene(), document.title());
             let mut simulation = Simulation::default();
