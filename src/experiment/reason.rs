@@ -10,7 +10,7 @@ use crate::numerics::median;
 use crate::scene::{CheckedScene, format_quantity};
 use crate::simulation::Simulation;
 use serde::{Serialize, Serializer};
-use std::fmt;
+use thiserror::Error;
 
 /// Share of the length in contact of a body that is longer than its profile, and fewest springs in contact.
 const FULL: f64 = 0.99;
@@ -33,89 +33,74 @@ const LEAPS: f64 = 0.02;
 const CUT: f64 = 5.0;
 
 /// Why a model does not describe a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum Reason {
     /// The contact fills the profile of this length, m.
+    #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
     /// So few springs are in contact at most.
+    #[error(
+        "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
+    )]
     CoarseProfile(u64),
     /// The force jumps by this, N, on an instrument that the scene takes as rigid.
+    #[error(
+        "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
+        format_quantity(*.0, "N")
+    )]
     Rigid(f64),
     /// Residuals at pauses.
+    #[error(
+        "Most of the residual is at pauses, where the body creeps or relaxes: --segments 1,2 leaves them out."
+    )]
     Pause,
-    /// Slopes of the force where nothing touches: over time, and over the displacement.
-    Slopes(bool, bool),
+    /// A slope of the force over time where nothing touches.
+    #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
+    Drift,
+    /// A slope of the force over the displacement where nothing touches.
+    #[error("The force has a slope over the displacement where nothing touches: --tilt remove takes it off.")]
+    Tilt,
+    /// Slopes of the force over time and over the displacement where nothing touches.
+    #[error(
+        "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
+    )]
+    DriftAndTilt,
     /// The force differs before and after contact by this, N.
+    #[error(
+        "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
+         alone.",
+        format_quantity(*.0, "N")
+    )]
     Step(f64),
     /// Attraction of long range: its Tabor number.
+    #[error(
+        "The Tabor number is {}, below {LEAST_TABOR_NUMBER}: attraction of this range is not that of Johnson, Kendall and \
+         Roberts.",
+        format_quantity(*.0, "1")
+    )]
     TaborNumber(f64),
     /// Approach and retraction differ.
+    #[error(
+        "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
+         closing. --free {} tries the second, --segments 2 fits the retraction alone.",
+        Parameter::ClosingWork.name()
+    )]
     Branches,
     /// The force rises by so many N/m, more than the stiffness of the instrument in the scene allows.
+    #[error(
+        "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
+        format_quantity(*.0, "N/m")
+    )]
     Stiffness(f64),
     /// Approach and retraction deviate alike: another stiffness of the instrument, or another form or profile.
+    #[error(
+        "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
+         another form or profile."
+    )]
     StiffnessOrForm,
     /// Another form or profile.
+    #[error("Another form or profile than that of the scene is likely.")]
     Form,
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Reason::ShortProfile(length) => {
-                let length = format_quantity(length, "m");
-                write!(out, "The contact fills the profile of {length}: it needs a larger length.")
-            }
-            Reason::CoarseProfile(springs) => write!(
-                out,
-                "Few springs are in contact, {springs} at most: the profile needs more numerics.points, or a smaller length."
-            ),
-            Reason::Rigid(jump) => write!(
-                out,
-                "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
-                format_quantity(jump, "N")
-            ),
-            Reason::Pause => out.write_str(
-                "Most of the residual is at pauses, where the body creeps or relaxes: --segments 1,2 leaves them out.",
-            ),
-            Reason::Slopes(over_time, over_displacement) => {
-                let (slope, remedy) = match (over_time, over_displacement) {
-                    (true, false) => ("drifts over time", "--drift remove takes it off"),
-                    (false, true) => ("has a slope over the displacement", "--tilt remove takes it off"),
-                    _ => ("has slopes over time and displacement", "--drift remove --tilt remove takes them off"),
-                };
-                write!(out, "The force {slope} where nothing touches: {remedy}.")
-            }
-            Reason::Step(step) => write!(
-                out,
-                "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the \
-                 retraction alone.",
-                format_quantity(step, "N")
-            ),
-            Reason::TaborNumber(number) => write!(
-                out,
-                "The Tabor number is {}, below {LEAST_TABOR_NUMBER}: attraction of this range is not that of Johnson, Kendall \
-                 and Roberts.",
-                format_quantity(number, "1")
-            ),
-            Reason::Branches => write!(
-                out,
-                "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres \
-                 less on closing. --free {} tries the second, --segments 2 fits the retraction alone.",
-                Parameter::ClosingWork.name()
-            ),
-            Reason::Stiffness(slope) => write!(
-                out,
-                "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
-                format_quantity(slope, "N/m")
-            ),
-            Reason::StiffnessOrForm => out.write_str(
-                "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or \
-                 the body another form or profile.",
-            ),
-            Reason::Form => out.write_str("Another form or profile than that of the scene is likely."),
-        }
-    }
 }
 
 impl Serialize for Reason {
@@ -157,8 +142,11 @@ pub(super) fn reason(
     }
     let residual = (squares / rests.len() as f64).sqrt();
     let [drift, tilt, step] = curve.remaining.map(|slope| slope.abs() > residual);
-    if drift || tilt {
-        return Ok(Reason::Slopes(drift, tilt));
+    match (drift, tilt) {
+        (true, true) => return Ok(Reason::DriftAndTilt),
+        (true, false) => return Ok(Reason::Drift),
+        (false, true) => return Ok(Reason::Tilt),
+        (false, false) => {}
     }
     if step && curve.segment.first() != curve.segment.last() {
         return Ok(Reason::Step(curve.remaining[2]));
@@ -349,9 +337,9 @@ mod tests {
         let stiffer = curve(elastic, |at, _| hertz(2.6e6, at - 1e-7));
         assert_eq!(found(stiffer.into_iter(), &[]), Reason::Branches);
         let tilted = |at: f64, time: f64| elastic(at, time) + 0.1 * at;
-        assert_eq!(found(curve(tilted, tilted).into_iter(), &[]), Reason::Slopes(false, true));
+        assert_eq!(found(curve(tilted, tilted).into_iter(), &[]), Reason::Tilt);
         let drifts = |at: f64, time: f64| elastic(at, time) - 1e-7 * time;
-        assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Slopes(true, false));
+        assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Drift);
         let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
         assert!(matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9));
         let mut paused = curve(elastic, elastic);
