@@ -2,7 +2,7 @@
 
 use super::baseline::dot;
 use super::model::Model;
-use super::parameter::{Coordinate, Free, Parameter, Values};
+use super::parameter::{Coordinate, FitOptions, Parameter, Values};
 use super::population::WRONG_SIDE;
 use super::reason::{Reason, reason};
 use super::scene::with_values;
@@ -21,17 +21,6 @@ const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
 /// Standard deviations of the 95 % interval of a normal distribution.
 const NORMAL: f64 = 1.96;
-
-/// Options of a fit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FitOptions {
-    /// Parameters to be found.
-    pub free: Vec<Free>,
-    /// Random profiles on which the fit is repeated; 1: the profile of the scene alone.
-    pub lines: u64,
-    /// Threads that share the profiles.
-    pub jobs: usize,
-}
 
 /// A parameter with its errors.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]

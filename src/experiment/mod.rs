@@ -20,9 +20,9 @@ mod statistics;
 mod zero;
 
 pub use curve::MeasuredCurve;
-pub use fit::{Fit, FitOptions, FittedParameter, fit};
+pub use fit::{Fit, FittedParameter, fit};
 pub use options::{CurveOptions, Drift, Negate, Tilt};
-pub use parameter::{Free, Parameter, Row};
+pub use parameter::{FitOptions, Free, Parameter, Row};
 pub use reason::Reason;
 
 use crate::contact::ContactError;
@@ -63,8 +63,9 @@ fn refused<T>(found: impl Into<String>, allowed: impl Into<String>) -> Result<T,
 /// Curves of scenes with known values, for tests.
 #[cfg(test)]
 mod made {
+    use super::FitOptions;
     use super::MeasuredCurve;
-    use super::fit::{Fit, FitOptions, fit};
+    use super::fit::{Fit, fit};
     use super::options::{CurveOptions, Drift};
     use super::parameter::Parameter;
     use super::scene::radius_of;

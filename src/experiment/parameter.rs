@@ -152,6 +152,17 @@ impl FromStr for Free {
     }
 }
 
+/// Options of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Parameters to be found.
+    pub free: Vec<Free>,
+    /// Random profiles on which the fit is repeated; 1: the profile of the scene alone.
+    pub lines: u64,
+    /// Threads that share the profiles.
+    pub jobs: usize,
+}
+
 /// Coordinate of a free parameter: its value over a unit, its share of the work of adhesion, or its logarithm. That of the work
 /// of adhesion is linear up to its unit, so that it reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,7 @@
 //! The coordinates in which a scene is fitted, and the parts of the curve beside it.
 
 use super::baseline::ends;
-use super::fit::FitOptions;
-use super::parameter::{Coordinate, Free, Parameter, Values};
+use super::parameter::{Coordinate, FitOptions, Free, Parameter, Values};
 use super::population::WRONG_SIDE;
 use super::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use super::statistics::{PARTS, scale};

@@ -1,7 +1,7 @@
 //! The equivalent line of measured surfaces: its waves, their amplitudes and its moments.
 
-use super::measured::Face;
-use super::{Amplitude, MeasuredOptions, SurfaceError};
+use super::measured::{Face, MeasuredOptions, MeasuredProfile};
+use super::{Amplitude, SurfaceError};
 use crate::spectrum::{IsotropicSpectrum, LineMoments, line_moments};
 use std::f64::consts::TAU;
 
@@ -84,6 +84,29 @@ impl EquivalentLine {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
         Amplitude::from_modes((first..=last).rev().map(squares), length)
+    }
+}
+
+/// A measured surface as the roughness of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeasuredRoughness {
+    /// The profile itself.
+    Profile(MeasuredProfile),
+    /// The equivalent line.
+    Equivalent(EquivalentLine),
+}
+
+impl MeasuredRoughness {
+    pub(crate) fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+        match faces {
+            [face] if options.as_line.is_some() && face.len() == 1 => {
+                let (path, content) = &face[0];
+                let profile = MeasuredProfile::new(content, options);
+                let profile = profile.map_err(|error| SurfaceError::measured(path, &error))?;
+                Ok(MeasuredRoughness::Profile(profile))
+            }
+            _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
 
-use super::{Amplitude, EquivalentLine, SurfaceError};
+use super::{Amplitude, SurfaceError};
 use crate::memory::{OutOfMemory, check_room, gathered};
 use crate::spectrum::{Analysis, Detrend, Options, analyse};
 use crate::topography::{
@@ -203,29 +203,6 @@ impl MeasuredOptions {
             let file = files.get(error.surface());
             SurfaceError::measured(file.map_or(Path::new(""), |path| path), &error)
         })
-    }
-}
-
-/// A measured surface as the roughness of a line.
-#[derive(Clone, Debug, PartialEq)]
-pub enum MeasuredRoughness {
-    /// The profile itself.
-    Profile(MeasuredProfile),
-    /// The equivalent line.
-    Equivalent(EquivalentLine),
-}
-
-impl MeasuredRoughness {
-    pub(crate) fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
-        match faces {
-            [face] if options.as_line.is_some() && face.len() == 1 => {
-                let (path, content) = &face[0];
-                let profile = MeasuredProfile::new(content, options);
-                let profile = profile.map_err(|error| SurfaceError::measured(path, &error))?;
-                Ok(MeasuredRoughness::Profile(profile))
-            }
-            _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
-        }
     }
 }
 
