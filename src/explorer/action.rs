@@ -2,7 +2,7 @@
 
 use super::keys::bindings::Command;
 use super::opening::Opening;
-use super::snapshot::Report;
+use super::snapshot::Reply;
 use super::studies::Finding;
 use crate::export::Format;
 use crate::scene::Entry;
@@ -19,7 +19,7 @@ pub enum Action {
     Paste(String),
     Resize(u16, u16),
     Elapse(Duration),
-    Report(Report),
+    Reply(Reply),
     Found(Finding),
     /// A written file, or the reason why it was not written.
     Written(OutputFile, Result<(), WriteFailure>),
@@ -32,10 +32,10 @@ pub enum Action {
     Mouse(Mouse),
 }
 
-/// Work outside the model.
+/// Work outside of the state.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Effect {
-    /// Ask the worker for the state that the screen waits for.
+pub enum Task {
+    /// Ask the solver for the state that the screen waits for.
     Ask,
     /// Perform the remaining studies of the scene, see [`super::update::studies`], and no others.
     Study,

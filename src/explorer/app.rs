@@ -1,9 +1,8 @@
 //! The state of the explorer: changed by `update` alone, drawn by the views.
 
-use super::action::Effect;
+use super::action::Task;
 use super::config::Config;
 use super::editor::Editor;
-use super::editor::scene_of;
 use super::ghost::Ghost;
 use super::keys::bindings::{Command, Context};
 use super::map::Live;
@@ -12,7 +11,7 @@ use super::measured::Measured;
 use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
 use super::player::Player;
-use super::player::{indentations, start_of};
+use super::player::indentations;
 use super::prompt::{Prompt, Purpose};
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
@@ -88,7 +87,7 @@ pub struct View {
     pub zoomed: bool,
     pub size: (u16, u16),
     pub appearance: Appearance,
-    pub look: CloseUpTarget,
+    pub close_up: CloseUpTarget,
     pub profile: LineView,
     pub curve: CurveLook,
     /// Scale of the preloads of adhesion against preload.
@@ -128,7 +127,7 @@ pub struct App {
     /// Command chosen in the list of commands, to be run next.
     pub chosen: Option<Command>,
     pub finished: bool,
-    pub(super) effects: Vec<Effect>,
+    pub(super) effects: Vec<Task>,
     /// The last order to the solver.
     pub(super) asked: Option<Awaited>,
 }
@@ -147,7 +146,7 @@ impl App {
                 zoomed: false,
                 size,
                 appearance,
-                look: CloseUpTarget { focus: Focus::Summit, springs },
+                close_up: CloseUpTarget { focus: Focus::Summit, springs },
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),
                 preloads: AxisScale::default(),
@@ -220,14 +219,14 @@ impl App {
     /// adhesion may differ.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
-        let (before, now) = (&computed.scene, scene_of(&self.edit.document));
+        let (before, now) = (&computed.scene, &self.edit.scene);
         let same_line = before.roughness == now.roughness
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
         // An rms height that follows from γ and κ or e_el/γ changes with them.
         let both = |scene: &Scene| scene.adhesion.is_some_and(|adhesion| adhesion.sets_amplitude());
-        if !same_line || ((both(before) || both(&now)) && before.adhesion != now.adhesion) {
+        if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
             return None;
         }
         Some(computed.outcome.governing.with_adhesion(now.adhesion))
@@ -337,7 +336,7 @@ impl App {
     /// Shows this pane, or none, in place of profile and close-up, where other data are studied, and selects a pane.
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
-            self.effects.push(Effect::Study);
+            self.effects.push(Task::Study);
         }
         self.view.pane = selected;
     }
@@ -408,13 +407,5 @@ impl App {
 
     pub fn indentation(&self) -> f64 {
         self.play.indentation(self.legs())
-    }
-
-    /// Part of a loading stage done at an indentation, 0 to 1: the inverse of [`App::indentation`].
-    pub fn done_at(&self, leg: usize, indentation: f64) -> f64 {
-        let Some(end) = self.legs().get(leg).map(LegRecord::end) else { return 0.0 };
-        let start = start_of(self.legs(), leg);
-        let done = (indentation - start) / (end - start);
-        if done.is_finite() { done.clamp(0.0, 1.0) } else { 0.0 }
     }
 }

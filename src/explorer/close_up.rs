@@ -1,7 +1,7 @@
-//! The neighbourhood of one fragment: its place, its stretches, its force.
+//! The neighbourhood of one contact patch: its place, its stretches, its force.
 
 use super::request::{Focus, SnapshotRequest};
-use super::snapshot::{CloseUp, FragmentFacts};
+use super::snapshot::{CloseUp, PatchFacts};
 use crate::contact::{Leg, Patch};
 use crate::export::section::{Contact, LineColumns, Part};
 
@@ -28,11 +28,11 @@ pub fn close_up(
         .filter(|spring| shown.contains(spring))
         .map(|spring| (spring, contact.height(spring)))
         .collect();
-    let fragment = nearest(contact.patches, centre).and_then(|number| {
-        let patch = contact.patches[number];
-        Some(FragmentFacts { number, patch, state: leg.patch_state(contact.indentation, number)? })
+    let patch = nearest(contact.patches, centre).and_then(|number| {
+        let springs = contact.patches[number];
+        Some(PatchFacts { number, patch: springs, state: leg.patch_state(contact.indentation, number)? })
     });
-    CloseUp { section, boundaries, fragment }
+    CloseUp { section, boundaries, patch }
 }
 
 fn centre(contact: &Contact<'_>, focus: Focus) -> usize {

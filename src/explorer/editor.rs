@@ -14,6 +14,8 @@ const UNDO_DEPTH: usize = 1000;
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
+    /// Its scene, with files named from the working folder.
+    pub scene: Arc<CheckedScene>,
     /// Documents before each edit.
     pub past: Vec<Document>,
     /// Documents after each undone edit.
@@ -33,6 +35,7 @@ impl Editor {
     pub fn new(document: Document) -> Self {
         let mut editor = Editor {
             parameters: parameters(&document),
+            scene: scene_of(&document),
             document,
             past: Vec::new(),
             future: Vec::new(),
@@ -121,6 +124,7 @@ impl Editor {
         let document = &self.document;
         self.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
         self.parameters = parameters(&self.document);
+        self.scene = scene_of(&self.document);
         self.select(self.row_of(&selected));
         self.generation += 1;
     }
@@ -161,6 +165,7 @@ impl Editor {
     /// Marks the scene as saved to a file, which becomes the file of the scene.
     pub fn set_saved_as(&mut self, path: &Path) {
         if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
+            self.scene = scene_of(&document);
             self.document = document;
         }
         self.set_saved();

@@ -22,15 +22,18 @@ pub struct ManualBody {
 }
 
 impl ManualBody {
-    /// Begins manual loading at an indentation of a leg, m. `step` is the distance of the points of a pull, m; the stages so
-    /// far end in a direction. `None` without enough memory.
+    /// Begins manual loading at an indentation of a leg, m, or where the contact is separated there. `step` is the distance of
+    /// the points of a pull, m; the stages so far end in a direction. `None` without enough memory.
     pub fn take(
         leg: &Leg,
-        indentation: f64,
+        (indentation, is_separated): (f64, bool),
         step: f64,
         (loading, direction): (Vec<Move>, Option<Direction>),
     ) -> Option<Self> {
-        let body = Body::at(leg, indentation).ok()?;
+        let mut body = Body::at(leg, indentation).ok()?;
+        if is_separated {
+            body.move_to(Move::ToSeparation).ok()?;
+        }
         let reach = Reach::of(leg.contact());
         let travel = ManualPath { loading, ..ManualPath::default() };
         Some(ManualBody { body, travel, step, reach, direction })
@@ -50,7 +53,7 @@ impl ManualBody {
     }
 
     /// Moves the body; a refused order moves nothing.
-    pub fn obey(&mut self, order: ManualMove) {
+    pub fn follow(&mut self, order: ManualMove) {
         let from = self.body.point();
         let target = match order {
             ManualMove::Take { .. } => return,

@@ -5,34 +5,67 @@ use crate::contact::LegRecord;
 /// Share of the whole range of indentations by which the body is lifted before first touch.
 const LIFT: f64 = 0.12;
 
+/// Place of the animation in a loading stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum At {
+    Start,
+    /// At an indentation, m.
+    Indentation(f64),
+    /// After the stage: nothing is in contact at the end of a separation.
+    End,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Player {
     pub leg: usize,
-    /// Played share, 0 to 1.
-    pub done: f64,
+    pub at: At,
     pub playing: bool,
 }
 
 impl Player {
-    pub const START: Player = Player { leg: 0, done: 0.0, playing: true };
+    pub const START: Player = Player { leg: 0, at: At::Start, playing: true };
 
-    /// This state on existing loading stages: at the end of the last one where its own stage does not exist.
+    /// This state on existing loading stages: at the end of the last one where its own stage does not exist, and between
+    /// the ends of its stage.
     pub fn within(self, legs: &[LegRecord]) -> Player {
         match legs.len().checked_sub(1) {
-            Some(last) if self.leg > last => Player { leg: last, done: 1.0, playing: false },
-            _ => self,
+            Some(last) if self.leg > last => Player { leg: last, at: At::End, playing: false },
+            Some(_) => Player { at: self.advanced(legs, 0.0), ..self },
+            None => self,
         }
     }
 
     /// The indentation of the animation of these loading stages, m.
     pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
-        let Some(leg) = legs.get(self.leg) else { return 0.0 };
+        match self.at {
+            At::Start => start_of(legs, self.leg),
+            At::Indentation(indentation) => indentation,
+            At::End => legs.get(self.leg).map_or(0.0, LegRecord::end),
+        }
+    }
+
+    /// Played share of the stage, 0 to 1.
+    pub fn share(&self, legs: &[LegRecord]) -> f64 {
+        let Some(end) = legs.get(self.leg).map(LegRecord::end) else { return 0.0 };
         let start = start_of(legs, self.leg);
-        match leg.curve.last() {
-            // The contact still holds at this end; below, it is gone.
-            Some(end) if self.done >= 1.0 && end.springs == 0 => end.indentation.next_down(),
-            _ if self.done >= 1.0 => leg.end(),
-            _ => start + (leg.end() - start) * self.done,
+        match self.at {
+            At::Start => 0.0,
+            At::End => 1.0,
+            At::Indentation(_) if start == end => 0.0,
+            At::Indentation(indentation) => ((indentation - start) / (end - start)).clamp(0.0, 1.0),
+        }
+    }
+
+    /// The place that is a share of the stage further on, at most at its ends.
+    pub fn advanced(&self, legs: &[LegRecord], share: f64) -> At {
+        let to = self.share(legs) + share;
+        let start = start_of(legs, self.leg);
+        let end = legs.get(self.leg).map_or(start, LegRecord::end);
+        match self.at {
+            _ if to >= 1.0 || start == end && share > 0.0 => At::End,
+            _ if to <= 0.0 => At::Start,
+            at if share == 0.0 => at,
+            _ => At::Indentation(start + (end - start) * to),
         }
     }
 }

@@ -1,5 +1,6 @@
-//! Requests from the explorer to the worker.
+//! Requests from the explorer to the solver.
 
+use super::player::At;
 use crate::scene::CheckedScene;
 use std::sync::Arc;
 
@@ -27,10 +28,10 @@ impl Request {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualMove {
-    /// Begins manual loading at an indentation of a leg.
+    /// Begins manual loading at a place of a loading stage.
     Take {
         leg: usize,
-        indentation: f64,
+        at: At,
     },
     /// Moves the body to an indentation, m.
     To(f64),
@@ -45,8 +46,8 @@ pub enum ManualMove {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
     pub drive: Drive,
-    /// Share of the stage, 0 to 1, as the animation plays it; manual loading has a place of its own.
-    pub done: f64,
+    /// Place of the animation in the stage; manual loading has a place of its own.
+    pub at: At,
     /// Columns of dots of the profile pane.
     pub profile_columns: usize,
     pub profile: LineView,
@@ -76,12 +77,12 @@ impl LineView {
 pub enum Focus {
     Summit,
     Spring(usize),
-    /// The fragment after the one nearest to a spring.
+    /// The patch after the one nearest to a spring.
     After(Option<usize>),
-    /// The fragment before the one nearest to a spring.
+    /// The patch before the one nearest to a spring.
     Before(Option<usize>),
     Largest,
-    /// The fragment that carries the largest force, pressing or pulling.
+    /// The patch that carries the largest force, pressing or pulling.
     MostLoaded,
 }
 

@@ -1,7 +1,7 @@
 //! The interpreter of effects: one for the session, for demos and for tests. Solver and studies run on threads of their
 //! own, or at once: the same actions then lead to the same screens.
 
-use super::action::{Action, Effect};
+use super::action::{Action, Task};
 use super::app::App;
 use super::commands::accuracy::studies;
 use super::completion::complete;
@@ -43,7 +43,7 @@ impl Engine {
         let mut solver = Solver::new(solve, Default::default());
         let solve = move |request| {
             let mut reports = Vec::new();
-            solver.answer(request, &mut |report| reports.push(Action::Report(report)));
+            solver.answer(request, &mut |report| reports.push(Action::Reply(report)));
             reports
         };
         let perform = move |wanted: Vec<Study>| {
@@ -70,14 +70,14 @@ pub struct Runtime {
 
 impl Runtime {
     /// Applies an action and performs its effects; returns those for the terminal.
-    pub fn act(&mut self, action: Action) -> Vec<Effect> {
+    pub fn act(&mut self, action: Action) -> Vec<Task> {
         let effects = update(&mut self.app, action);
         self.perform(effects)
     }
 
     /// Runs a command by its name, if its keys are valid or, while exploring, in another pane; returns the effects for
     /// the terminal.
-    pub fn command(&mut self, name: &str) -> Vec<Effect> {
+    pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
         let elsewhere = || bindings.named(name, Context::Explore).filter(|_| self.app.prompt.is_none());
         let command = bindings.named(name, self.app.keys()).or_else(elsewhere);
@@ -85,10 +85,10 @@ impl Runtime {
     }
 
     /// Performs effects, and those of the actions that follow; returns the effects for the terminal.
-    pub fn perform(&mut self, effects: Vec<Effect>) -> Vec<Effect> {
+    pub fn perform(&mut self, effects: Vec<Task>) -> Vec<Task> {
         let (mut waiting, mut left) = (VecDeque::from(effects), Vec::new());
         while let Some(effect) = waiting.pop_front() {
-            if matches!(effect, Effect::Copy(_) | Effect::Redraw | Effect::Suspend) {
+            if matches!(effect, Task::Copy(_) | Task::Redraw | Task::Suspend) {
                 left.push(effect);
                 continue;
             }
@@ -100,10 +100,10 @@ impl Runtime {
     }
 
     /// Performs one effect; returns the actions that follow at once.
-    pub fn answer(&mut self, effect: Effect) -> Vec<Action> {
+    pub fn answer(&mut self, effect: Task) -> Vec<Action> {
         let Runtime { app, engine, folder, asked, .. } = self;
         let action = match effect {
-            Effect::Ask => {
+            Task::Ask => {
                 let request = request(app);
                 if request.generation != *asked {
                     // Estimates of the former scene are of no use, and take time from this one.
@@ -112,18 +112,18 @@ impl Runtime {
                 }
                 return (engine.solve)(request);
             }
-            Effect::Study => return (engine.perform)(studies(app)),
-            Effect::Write(file) => writing::write(app, folder, file),
-            Effect::List if folder.as_os_str().is_empty() => {
+            Task::Study => return (engine.perform)(studies(app)),
+            Task::Write(file) => writing::write(app, folder, file),
+            Task::List if folder.as_os_str().is_empty() => {
                 Action::Listed(scenes(own_folder().as_deref(), Path::new(".")))
             }
-            Effect::List => Action::Listed(scenes(None, folder)),
-            Effect::Complete(typed) => Action::Completed(complete(&typed)),
-            Effect::Open(name) => {
+            Task::List => Action::Listed(scenes(None, folder)),
+            Task::Complete(typed) => Action::Completed(complete(&typed)),
+            Task::Open(name) => {
                 let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
                 Action::Opened(name, opened)
             }
-            Effect::Copy(_) | Effect::Redraw | Effect::Suspend => return Vec::new(),
+            Task::Copy(_) | Task::Redraw | Task::Suspend => return Vec::new(),
         };
         vec![action]
     }

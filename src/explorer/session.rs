@@ -1,6 +1,6 @@
 //! A session: the explorer in a terminal, with threads for input, signals, solver and studies.
 
-use super::action::{Action, Effect};
+use super::action::{Action, Task};
 use super::app::App;
 use super::autosave::{Autosave, Kept};
 use super::commands::opening::begin;
@@ -95,7 +95,7 @@ pub fn open(opening: Opening, options: Options, solve: Solve, draw: Draw) -> io:
     let sender = || sender.clone();
     let to = sender();
     let solver =
-        SolverThread::start(solve, move |report| drop(to.send(Message::Act(Action::Report(report).into()))))?;
+        SolverThread::start(solve, move |report| drop(to.send(Message::Act(Action::Reply(report).into()))))?;
     let to = sender();
     let studies =
         StudyThread::start(move |finding| drop(to.send(Message::Act(Action::Found(finding).into()))))?;
@@ -174,7 +174,7 @@ impl Session<'_> {
     /// Runs until the explorer is to end; returns the signal that ends it, if any.
     fn run(&mut self) -> io::Result<Option<i32>> {
         let frame_time = Duration::from_secs(1) / self.frames;
-        self.runtime.perform(vec![Effect::Ask]);
+        self.runtime.perform(vec![Task::Ask]);
         let mut moved = Instant::now();
         let mut changed = true;
         // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the line
@@ -261,11 +261,11 @@ impl Session<'_> {
         for effect in self.runtime.act(action) {
             match effect {
                 // Sent with the next frame; the terminal does not confirm a copy.
-                Effect::Copy(text) => {
+                Task::Copy(text) => {
                     queue!(self.terminal.backend_mut(), CopyToClipboard::to_clipboard_from(text))?;
                 }
-                Effect::Redraw => self.redraw = true,
-                Effect::Suspend => {
+                Task::Redraw => self.redraw = true,
+                Task::Suspend => {
                     // With the signal of continuation the size of the window is read again.
                     self.guard.suspend()?;
                     self.redraw = true;

@@ -26,14 +26,14 @@ pub struct ContactSnapshot {
     pub line: LineFacts,
     /// Requested place of the close-up.
     pub focus: Focus,
-    /// Indentation, force, springs in contact and fragments.
+    /// Indentation, force, springs in contact and patches.
     pub point: CurvePoint,
     /// Half the distance between the outermost edges of the contact, m; zero in separation.
     pub contact_radius: f64,
     pub profile: Section,
     /// All springs of this state, for files.
     pub springs: SpringsInContact,
-    /// The neighbourhood of one fragment.
+    /// The neighbourhood of one patch.
     pub close_up: CloseUp,
     /// Contact of the whole profile in a row of cells: `■` where all springs touch, `▪` some, `·` none.
     pub strip: String,
@@ -133,20 +133,20 @@ pub struct ManualPath {
     pub refused: Option<String>,
 }
 
-/// The neighbourhood of one contact fragment.
+/// The neighbourhood of one contact patch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CloseUp {
     /// The springs shown.
     pub section: Section,
-    /// Boundary points of the fragments shown: spring and z in m (the white circles of Fig. 3).
+    /// Boundary points of the patches shown: spring and z in m (the white circles of Fig. 3).
     pub boundaries: Vec<(usize, f64)>,
-    /// The fragment nearest to the middle.
-    pub fragment: Option<FragmentFacts>,
+    /// The patch nearest to the middle.
+    pub patch: Option<PatchFacts>,
 }
 
-/// One contact fragment in numbers.
+/// One contact patch in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FragmentFacts {
+pub struct PatchFacts {
     /// Its number along the line, from 0.
     pub number: usize,
     /// Its springs.
@@ -163,20 +163,20 @@ pub struct Preview {
     pub outcome: Outcome,
 }
 
-impl Report {
+impl Reply {
     /// Generation of the scene.
     pub fn generation(&self) -> u64 {
         match self {
-            Report::Solved(solved, _) => solved.generation,
-            Report::Shown(snapshot) => snapshot.generation,
-            Report::Progress { generation, .. } | Report::Failed { generation, .. } => *generation,
+            Reply::Solved(solved, _) => solved.generation,
+            Reply::Shown(snapshot) => snapshot.generation,
+            Reply::Progress { generation, .. } | Reply::Failed { generation, .. } => *generation,
         }
     }
 }
 
-/// Report of the worker.
+/// Answer of the solver.
 #[derive(Clone, Debug)]
-pub enum Report {
+pub enum Reply {
     /// A scene has been computed, with its first snapshot unless its loading is empty.
     Solved(Arc<SolvedScene>, Option<Arc<ContactSnapshot>>),
     /// Another snapshot of it is ready.
@@ -184,7 +184,7 @@ pub enum Report {
     /// Part of a scene is done.
     Progress {
         generation: u64,
-        /// Legs done.
+        /// Number of computed stages.
         legs: usize,
     },
     /// A scene could not be computed.

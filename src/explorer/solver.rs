@@ -3,10 +3,10 @@
 
 use super::close_up::close_up;
 use super::manual_body::ManualBody;
-use super::player::{Player, indentations};
+use super::player::{At, Player, indentations};
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, Probe, Report, SolvedScene, SpringsInContact, profile_part, strip};
-use crate::contact::{ContactError, CurvePoint, Direction, Leg};
+use super::snapshot::{ContactSnapshot, Probe, Reply, SolvedScene, SpringsInContact, profile_part, strip};
+use crate::contact::{ContactError, CurvePoint, Direction, Leg, LegRecord};
 use crate::export::section::{Contact, LineColumns};
 use crate::scene::{CheckedScene, Move, Observer, Solver as SceneSolver};
 use crate::simulation::reach::Reach;
@@ -56,23 +56,23 @@ impl Solver {
     }
 
     /// Marks the scene of a request as awaited, and answers.
-    pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Report)) {
+    pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         self.awaited.store(request.generation, Ordering::Relaxed);
         self.serve(request, report);
     }
 
     /// Answers a request. A panic ends the request, not the explorer.
-    pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Report)) {
+    pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let generation = request.generation;
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report))) {
             self.newest = Newest { generation, ..Newest::default() };
             self.simulation = Simulation::default();
             let error = format!("internal error, please report it: {}", panic_text(panic.as_ref()));
-            report(Report::Failed { generation, error });
+            report(Reply::Failed { generation, error });
         }
     }
 
-    fn try_serve(&mut self, request: Request, report: &mut dyn FnMut(Report)) {
+    fn try_serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let Request { generation, scene, moves, snapshot } = request;
         let is_new = generation != self.newest.generation;
         if is_new {
@@ -80,16 +80,16 @@ impl Solver {
                 Ok(()) => {}
                 // Unless the scene is awaited again.
                 Err(error) if error.is_interruption() => return self.newest.generation = 0,
-                Err(error) => report(Report::Failed { generation, error: error.to_string() }),
+                Err(error) => report(Reply::Failed { generation, error: error.to_string() }),
             }
         }
         for order in moves {
-            self.obey(order);
+            self.follow(order);
         }
         let shown = self.snapshot(&snapshot).map(Arc::new);
         match (self.newest.solved.clone().filter(|_| is_new), shown) {
-            (Some(solved), shown) => report(Report::Solved(solved, shown)),
-            (None, Some(shown)) => report(Report::Shown(shown)),
+            (Some(solved), shown) => report(Reply::Solved(solved, shown)),
+            (None, Some(shown)) => report(Reply::Shown(shown)),
             (None, None) => {}
         }
     }
@@ -98,7 +98,7 @@ impl Solver {
         &mut self,
         generation: u64,
         scene: Arc<CheckedScene>,
-        report: &mut dyn FnMut(Report),
+        report: &mut dyn FnMut(Reply),
     ) -> Result<(), RunError> {
         self.newest = Newest { generation, ..Newest::default() };
         // The histogram beside the profile needs the heights.
@@ -111,7 +111,7 @@ impl Solver {
             }
             legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
             bytes += leg.bytes();
-            report(Report::Progress { generation, legs: stage + 1 });
+            report(Reply::Progress { generation, legs: stage + 1 });
             Ok(())
         })?;
         let solved = Some(Arc::new(SolvedScene { generation, scene, outcome, reach }));
@@ -120,18 +120,18 @@ impl Solver {
     }
 
     /// Moves the body manually.
-    fn obey(&mut self, order: ManualMove) {
+    fn follow(&mut self, order: ManualMove) {
         match order {
-            ManualMove::Take { leg, indentation } => self.newest.body = self.take(leg, indentation),
+            ManualMove::Take { leg, at } => self.newest.body = self.take(leg, at),
             order => {
                 if let Some(body) = &mut self.newest.body {
-                    body.obey(order);
+                    body.follow(order);
                 }
             }
         }
     }
 
-    fn take(&mut self, number: usize, indentation: f64) -> Option<ManualBody> {
+    fn take(&mut self, number: usize, at: At) -> Option<ManualBody> {
         self.newest.body = None;
         let solved = self.newest.solved.clone()?;
         let leg = if solved.scene.numerics.solver == SceneSolver::Exact {
@@ -141,9 +141,12 @@ impl Solver {
             let exact = solved.scene.with(|scene| scene.numerics.solver = SceneSolver::Exact).ok()?;
             self.leg_of(&exact, number)
         }?;
-        let (low, high) = indentations(&solved.outcome.history.legs).unwrap_or_default();
-        let so_far = stages_until(&solved, number, indentation);
-        ManualBody::take(&leg, indentation, (high - low) / STEPS_OF_A_PULL, so_far)
+        let legs = &solved.outcome.history.legs;
+        let indentation = Player { leg: number, at, playing: false }.indentation(legs);
+        let (low, high) = indentations(legs).unwrap_or_default();
+        let so_far = stages_until(&solved, number, at);
+        let is_separated = at == At::End && is_separated(legs.get(number));
+        ManualBody::take(&leg, (indentation, is_separated), (high - low) / STEPS_OF_A_PULL, so_far)
     }
 
     /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
@@ -153,10 +156,13 @@ impl Solver {
                 self.newest.body = None;
                 let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
                 // The existing leg nearest to the requested one.
-                let player = Player { leg: number, done: request.done, playing: false }.within(legs);
+                let player = Player { leg: number, at: request.at, playing: false }.within(legs);
                 let (number, indentation) = (player.leg, player.indentation(legs));
+                // After a separation nothing is in contact, at the same indentation.
+                let end = legs.get(number).filter(|leg| player.at == At::End && is_separated(Some(leg)));
+                let end = end.and_then(|leg| leg.curve.last().copied());
                 let leg = self.leg(number)?;
-                let point = leg.point(indentation).ok()?;
+                let point = end.map_or_else(|| leg.point(indentation).ok(), Some)?;
                 (Drive::Leg(number), leg, point)
             }
             Drive::Manual => {
@@ -166,7 +172,7 @@ impl Solver {
         };
         let Newest { generation, solved, body, profile, close_up: columns, .. } = &mut self.newest;
         let line = solved.as_deref()?.outcome.line;
-        let patches = leg.patches(point.indentation);
+        let patches = if point.springs == 0 { Vec::new() } else { leg.patches(point.indentation) };
         let CurvePoint { indentation, .. } = point;
         let gaps = leg.contact().gaps();
         let contact = Contact { gaps, summit: line.summit, indentation, patches: &patches };
@@ -217,18 +223,24 @@ impl Solver {
     }
 }
 
-/// The stages of a loading until an indentation of a leg, m, and the direction of the last one.
-fn stages_until(solved: &SolvedScene, number: usize, indentation: f64) -> (Vec<Move>, Option<Direction>) {
+/// Returns true for a stage after which nothing is in contact.
+fn is_separated(leg: Option<&LegRecord>) -> bool {
+    leg.and_then(|leg| leg.curve.last()).is_some_and(|end| end.springs == 0)
+}
+
+/// The stages of a loading until a place of a stage, and the direction of the last one.
+fn stages_until(solved: &SolvedScene, number: usize, at: At) -> (Vec<Move>, Option<Direction>) {
     let (legs, loading) = (&solved.outcome.history.legs, &solved.scene.loading);
     let mut stages = loading.iter().take(number).copied().collect::<Vec<_>>();
-    let before = number.checked_sub(1).and_then(|before| legs.get(before));
+    let before = number.checked_sub(1).and_then(|before| legs.get(before)).map(|leg| leg.direction);
     let Some(leg) = legs.get(number) else { return (stages, None) };
-    // The animation begins above the foundation.
-    if indentation == leg.start() || before.is_none() && indentation < leg.start() {
-        return (stages, before.map(|leg| leg.direction));
+    match at {
+        At::Start => return (stages, before),
+        // The animation begins above the foundation.
+        At::Indentation(indentation) if number == 0 && indentation <= leg.start() => return (stages, before),
+        At::Indentation(indentation) => stages.push(Move::ToIndentation(indentation)),
+        At::End => stages.push(leg.target),
     }
-    let is_end = [leg.end(), leg.end().next_down()].contains(&indentation);
-    stages.push(if is_end { leg.target } else { Move::ToIndentation(indentation) });
     (stages, Some(leg.direction))
 }
 
@@ -244,13 +256,13 @@ pub struct SolverThread {
 
 impl SolverThread {
     /// Starts the thread. `report` receives its reports.
-    pub fn start(solve: Solve, report: impl Fn(Report) + Send + 'static) -> std::io::Result<Self> {
+    pub fn start(solve: Solve, report: impl Fn(Reply) + Send + 'static) -> std::io::Result<Self> {
         let (requests, inbox) = channel();
         let awaited = Arc::new(AtomicU64::new(0));
         let solver = Solver::new(solve, Arc::clone(&awaited));
         let newest = Arc::clone(&awaited);
         // The explorer may be behind with its input: reports of scenes that it has left do not wait for it.
-        let mut report = move |one: Report| {
+        let mut report = move |one: Reply| {
             if one.generation() == newest.load(Ordering::Relaxed) {
                 report(one);
             }
@@ -269,7 +281,7 @@ impl SolverThread {
 }
 
 /// Serves the newest request until the explorer is gone.
-pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Report)) {
+pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Reply)) {
     while let Ok(first) = requests.recv() {
         let newest = requests.try_iter().fold(first, |earlier, later| later.after(earlier));
         solver.serve(newest, report);

@@ -1,4 +1,4 @@
-//! Styles of the meanings; a glyph carries each meaning as well.
+//! Style of each meaning. Glyphs carry the same meanings, so that colours are optional.
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
@@ -120,7 +120,7 @@ impl Theme {
 }
 
 /// Values of an option, cycled by a key.
-pub trait Choice: ValueEnum + PartialEq + 'static {
+pub trait Cycle: ValueEnum + PartialEq + 'static {
     /// The next value; the first follows the last.
     fn next(self) -> Self {
         let all = Self::value_variants();
@@ -134,8 +134,8 @@ pub trait Choice: ValueEnum + PartialEq + 'static {
     }
 }
 
-impl Choice for Theme {}
-impl Choice for Marker {}
+impl Cycle for Theme {}
+impl Cycle for Marker {}
 
 #[cfg(test)]
 mod tests {

@@ -2,24 +2,24 @@
 //! the state is returned.
 
 use super::action::Action;
-use super::action::Effect;
+use super::action::Task;
 use super::app::{App, Awaited};
 use super::commands::{accuracy, dialogue, edit, files, measured, movement, opening, table};
-use super::editor::scene_of;
 use super::keys::bindings::Command;
 use super::layout::Layout;
 use super::mouse;
 use super::prompt::Purpose;
 use super::request::{Request, SnapshotRequest};
-use super::snapshot::Report;
+use super::snapshot::Reply;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use std::sync::Arc;
 
 /// Applies an action and returns the effects to perform outside, a request of the state that the screen waits for among
 /// them.
-pub fn update(app: &mut App, action: Action) -> Vec<Effect> {
+pub fn update(app: &mut App, action: Action) -> Vec<Task> {
     apply(app, action);
     if app.asked.is_some_and(|asked| asked != awaited(app)) {
-        app.effects.push(Effect::Ask);
+        app.effects.push(Task::Ask);
     }
     std::mem::take(&mut app.effects)
 }
@@ -31,7 +31,7 @@ fn apply(app: &mut App, action: Action) {
         Action::Paste(text) => edit::edit_line(app, |line| line.insert(&text)),
         Action::Resize(columns, rows) => app.view.size = (columns, rows),
         Action::Elapse(time) => movement::elapse(app, time),
-        Action::Report(report) => reported(app, report),
+        Action::Reply(reply) => replied(app, reply),
         Action::Found(found) => {
             app.studies.take_in(found);
             accuracy::found(app);
@@ -43,7 +43,7 @@ fn apply(app: &mut App, action: Action) {
         Action::Opened(_, Ok(opening)) => opening::open(app, *opening),
         Action::Opened(path, Err(why)) => {
             app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
-            app.effects.push(Effect::List);
+            app.effects.push(Task::List);
         }
         Action::Mouse(mouse) => mouse::act(app, mouse),
     }
@@ -73,29 +73,29 @@ fn run(app: &mut App, command: Command) {
     }
 }
 
-/// Stores a report of the worker, unless the scene or the text has been changed since.
-fn reported(app: &mut App, report: Report) {
-    match report {
-        Report::Solved(computed, snapshot) if computed.generation == app.edit.generation => {
+/// Stores a reply of the solver, unless the scene or the text has been changed since.
+fn replied(app: &mut App, reply: Reply) {
+    match reply {
+        Reply::Solved(computed, snapshot) if computed.generation == app.edit.generation => {
             app.progress = None;
             app.play = app.play.within(&computed.outcome.history.legs);
             app.solved = Some(computed);
             if let Some(snapshot) = snapshot {
                 movement::shown(app, snapshot);
             }
-            app.effects.push(Effect::Study);
+            app.effects.push(Task::Study);
         }
-        Report::Shown(snapshot) if snapshot.generation == app.edit.generation => {
+        Reply::Shown(snapshot) if snapshot.generation == app.edit.generation => {
             movement::shown(app, snapshot);
         }
-        Report::Progress { generation, legs } if generation == app.edit.generation => {
+        Reply::Progress { generation, legs } if generation == app.edit.generation => {
             app.progress = app.progress.map(|_| legs);
         }
-        Report::Failed { generation, error } if generation == app.edit.generation => {
+        Reply::Failed { generation, error } if generation == app.edit.generation => {
             app.progress = None;
             app.set_error(error);
         }
-        Report::Solved(..) | Report::Shown(_) | Report::Progress { .. } | Report::Failed { .. } => {}
+        Reply::Solved(..) | Reply::Shown(_) | Reply::Progress { .. } | Reply::Failed { .. } => {}
     }
 }
 
@@ -106,7 +106,7 @@ pub fn request(app: &mut App) -> Request {
     app.asked = Some(awaited(app));
     Request {
         generation: app.edit.generation,
-        scene: scene_of(&app.edit.document),
+        scene: Arc::clone(&app.edit.scene),
         moves,
         snapshot: snapshot_request(app),
     }
@@ -125,13 +125,13 @@ pub fn snapshot_request(app: &App) -> SnapshotRequest {
     let layout = Layout::of(app);
     SnapshotRequest {
         drive: app.drive(),
-        done: app.play.done,
+        at: app.play.at,
         profile_columns: DOTS * layout.profile_cells(),
         profile: app.view.profile,
         close_up_columns: DOTS * layout.close_up_cells(),
         strip_cells: layout.close_up_cells(),
-        focus: app.view.look.focus,
-        close_up_springs: app.view.look.springs,
+        focus: app.view.close_up.focus,
+        close_up_springs: app.view.close_up.springs,
         crosshair: app.view.crosshair.filter(|_| app.section().is_some()),
     }
 }

@@ -3,7 +3,7 @@
 
 use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::commands::opening::begin;
 use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
@@ -59,9 +59,9 @@ impl Driver {
     }
 
     /// Performs the effects of an action.
-    pub fn perform(&mut self, effects: Vec<Effect>) {
+    pub fn perform(&mut self, effects: Vec<Task>) {
         for effect in self.runtime.perform(effects) {
-            if let Effect::Copy(text) = effect {
+            if let Task::Copy(text) = effect {
                 self.copied.push(text);
             }
         }

@@ -3,7 +3,7 @@
 
 use super::driver::Driver;
 use asperity::contact::CurvePoint;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::app::App;
 use asperity::explorer::keys::key::Key;
@@ -23,26 +23,26 @@ impl Driver {
     /// The explorer with its scene computed and the first state shown.
     pub fn start(opening: impl Into<Opening>) -> Self {
         let mut driver = Driver::open(opening);
-        driver.perform(vec![Effect::Ask]);
+        driver.perform(vec![Task::Ask]);
         driver
     }
 
     /// Performs an action and all its effects. Returns the effects of the action itself.
-    pub fn act(&mut self, action: Action) -> Vec<Effect> {
+    pub fn act(&mut self, action: Action) -> Vec<Task> {
         let effects = update(&mut self.app, action);
         self.perform(effects.clone());
         effects
     }
 
     /// Runs a command of this name, and returns its effects, not performed.
-    pub fn update(&mut self, name: &str) -> Vec<Effect> {
+    pub fn update(&mut self, name: &str) -> Vec<Task> {
         let command = self.app.config.bindings.named(name, self.app.keys()).expect("a valid command");
         update(&mut self.app, Action::Command(command))
     }
 
     /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`. Returns the effects of the
     /// last one.
-    pub fn press(&mut self, names: &str) -> Vec<Effect> {
+    pub fn press(&mut self, names: &str) -> Vec<Task> {
         let mut effects = Vec::new();
         for name in names.split_whitespace() {
             let name = if name == "Space" { "space" } else { name };
@@ -82,7 +82,7 @@ impl Driver {
     }
 
     /// Advances the clock.
-    pub fn elapse(&mut self, seconds: f64) -> Vec<Effect> {
+    pub fn elapse(&mut self, seconds: f64) -> Vec<Task> {
         self.act(Action::Elapse(Duration::from_secs_f64(seconds)))
     }
 
@@ -125,7 +125,7 @@ impl Driver {
     }
 
     /// Moves the mouse.
-    pub fn mouse(&mut self, column: u16, row: u16, gesture: Gesture) -> Vec<Effect> {
+    pub fn mouse(&mut self, column: u16, row: u16, gesture: Gesture) -> Vec<Task> {
         self.act(Action::Mouse(Mouse { column, row, gesture }))
     }
 

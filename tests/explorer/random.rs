@@ -6,11 +6,11 @@ use super::common::effort::cases;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use super::common::study::PLAN;
 use super::common::study::merged;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::keys::bindings::Command;
 use asperity::explorer::parameters::parameters;
-use asperity::explorer::snapshot::Report;
+use asperity::explorer::snapshot::Reply;
 use asperity::explorer::update::{request, update};
 use asperity::explorer::{Opening, view};
 use asperity::scene::{Document, Scene, Solver};
@@ -126,7 +126,7 @@ fn scenes(study: &Path) -> Vec<Opening> {
 /// An explorer whose worker answers only on demand.
 struct Explorer {
     driver: Driver,
-    waiting: VecDeque<Effect>,
+    waiting: VecDeque<Task>,
     /// All reports so far.
     reports: Vec<Action>,
     /// The last judged generation.
@@ -137,7 +137,7 @@ struct Explorer {
 
 impl Explorer {
     fn new(opening: Opening, study: &Path) -> Self {
-        let (driver, waiting) = (Driver::open(opening), VecDeque::from([Effect::Ask]));
+        let (driver, waiting) = (Driver::open(opening), VecDeque::from([Task::Ask]));
         Explorer { driver, waiting, reports: Vec::new(), judged: 0, study: study.to_owned() }
     }
 
@@ -145,9 +145,9 @@ impl Explorer {
         for effect in update(&mut self.driver.app, action) {
             match effect {
                 // Of all waiting states, only the newest is computed.
-                Effect::Ask => {
-                    self.waiting.retain(|one| *one != Effect::Ask);
-                    self.waiting.push_back(Effect::Ask);
+                Task::Ask => {
+                    self.waiting.retain(|one| *one != Task::Ask);
+                    self.waiting.push_back(Task::Ask);
                 }
                 other => self.waiting.push_back(other),
             }
@@ -218,9 +218,9 @@ impl Explorer {
             is_small && numerics.solver == Solver::Exact
         };
         let actions = match &effect {
-            Effect::Ask if !is_cheap(&self.driver.app.edit.document) => {
+            Task::Ask if !is_cheap(&self.driver.app.edit.document) => {
                 let generation = request(&mut self.driver.app).generation;
-                vec![Action::Report(Report::Failed {
+                vec![Action::Reply(Reply::Failed {
                     generation,
                     error: "too large for a test\nin two lines".to_owned(),
                 })]
@@ -251,7 +251,7 @@ impl Explorer {
             assert!(!app.is_refused(), "a changed scene is not refused");
         }
         assert!(app.edit.parameter().is_some());
-        assert!((0.0..=1.0).contains(&app.play.done), "{:?}", app.play);
+        assert!((0.0..=1.0).contains(&app.play.share(app.legs())), "{:?}", app.play);
         assert!(app.indentation().is_finite());
         if let Some(study) = app.map.shown_study() {
             assert!(study.slice < study.study_map.slices());

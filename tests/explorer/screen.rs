@@ -51,7 +51,7 @@ fn mid_retraction(document: Document) -> Driver {
     driver.elapse(3.0);
     assert_eq!((driver.app.play.leg, driver.app.play.playing), (1, false));
     driver.press(".");
-    while driver.app.play.done < 0.5 {
+    while driver.app.play.share(driver.app.legs()) < 0.5 {
         driver.press(".");
     }
     driver

@@ -4,8 +4,9 @@
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use asperity::contact::{ContactError, CurvePoint, Patch};
+use asperity::explorer::player::At;
 use asperity::explorer::request::{Drive, Focus, LineView, ManualMove, Request, SnapshotRequest};
-use asperity::explorer::snapshot::{ContactSnapshot, Report, SolvedScene};
+use asperity::explorer::snapshot::{ContactSnapshot, Reply, SolvedScene};
 use asperity::explorer::solver::{Solve, Solver, SolverThread, serve};
 use asperity::scene::{Document, Observer};
 use asperity::simulation::{Outcome, Simulation};
@@ -21,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// A solver on a thread of its own, and its channel of reports.
 struct Served {
     thread: SolverThread,
-    reports: Receiver<Report>,
+    reports: Receiver<Reply>,
     /// The request of the last scene.
     last: RefCell<Request>,
 }
@@ -42,15 +43,15 @@ impl Served {
         self.thread.ask(compute(generation, document));
     }
 
-    fn report(&self) -> Report {
+    fn report(&self) -> Reply {
         self.reports.recv_timeout(PATIENCE).expect("the worker reports")
     }
 
     /// The next report other than progress.
-    fn answer(&self) -> Report {
+    fn answer(&self) -> Reply {
         loop {
             match self.report() {
-                Report::Progress { .. } => {}
+                Reply::Progress { .. } => {}
                 other => return other,
             }
         }
@@ -59,18 +60,18 @@ impl Served {
     fn computed(&self, generation: u64, document: &Document) -> Arc<SolvedScene> {
         self.compute(generation, document);
         match self.answer() {
-            Report::Solved(computed, _) => computed,
+            Reply::Solved(computed, _) => computed,
             other => panic!("not computed: {other:?}"),
         }
     }
 
     /// A snapshot of the last scene at an indentation of a leg.
     fn shown(&self, leg: usize, indentation: f64, snapshot: SnapshotRequest) -> Arc<ContactSnapshot> {
-        let moves = vec![ManualMove::Take { leg, indentation }];
+        let moves = vec![ManualMove::Take { leg, at: At::Indentation(indentation) }];
         let snapshot = SnapshotRequest { drive: Drive::Manual, ..snapshot };
         self.thread.ask(Request { snapshot, moves, ..self.last.borrow().clone() });
         match self.answer() {
-            Report::Shown(snapshot) => snapshot,
+            Reply::Shown(snapshot) => snapshot,
             other => panic!("not shown: {other:?}"),
         }
     }
@@ -79,7 +80,7 @@ impl Served {
 /// A request for a snapshot at the start of the animation.
 const SNAPSHOT: SnapshotRequest = SnapshotRequest {
     drive: Drive::Leg(0),
-    done: 0.0,
+    at: At::Start,
     profile_columns: 100,
     profile: LineView::WHOLE,
     close_up_columns: 100,
@@ -95,7 +96,7 @@ fn compute(generation: u64, document: &Document) -> Request {
 }
 
 /// Sends all requests to a solver at once and returns all its reports.
-fn serve_all(awaited: u64, requests: Vec<Request>) -> Vec<Report> {
+fn serve_all(awaited: u64, requests: Vec<Request>) -> Vec<Reply> {
     let (sender, receiver) = channel();
     requests.into_iter().for_each(|request| sender.send(request).unwrap());
     drop(sender);
@@ -106,10 +107,10 @@ fn serve_all(awaited: u64, requests: Vec<Request>) -> Vec<Report> {
 }
 
 /// The computed scenes.
-fn solved(reports: &[Report]) -> Vec<Arc<SolvedScene>> {
-    let computed = |report: &Report| match report {
-        Report::Solved(computed, _) => Some(Arc::clone(computed)),
-        Report::Progress { .. } => None,
+fn solved(reports: &[Reply]) -> Vec<Arc<SolvedScene>> {
+    let computed = |report: &Reply| match report {
+        Reply::Solved(computed, _) => Some(Arc::clone(computed)),
+        Reply::Progress { .. } => None,
         other => panic!("{other:?}"),
     };
     reports.iter().filter_map(computed).collect()
@@ -125,9 +126,9 @@ fn a_scene_is_computed_leg_by_leg_and_then_whole() {
         let served = Served::start();
         served.compute(7, &rough());
         for done in 1..=2 {
-            assert!(matches!(served.report(), Report::Progress { generation: 7, legs } if legs == done));
+            assert!(matches!(served.report(), Reply::Progress { generation: 7, legs } if legs == done));
         }
-        let Report::Solved(computed, Some(shown)) = served.report() else { panic!("not computed") };
+        let Reply::Solved(computed, Some(shown)) = served.report() else { panic!("not computed") };
         assert_eq!((shown.generation, shown.drive), (7, Drive::Leg(0)));
         let rough = rough();
         let scene = rough.scene().with(|scene| scene.observe.push(Observer::HeightHistogram)).unwrap();
@@ -173,9 +174,9 @@ fn a_newer_scene_stops_the_one_that_is_being_computed() {
         }
         served.compute(2, &rough());
         let reports: Vec<_> = std::iter::from_fn(|| Some(served.report()))
-            .take_while(|report| !matches!(report, Report::Solved(..)))
+            .take_while(|report| !matches!(report, Reply::Solved(..)))
             .collect();
-        assert!(reports.iter().all(|report| matches!(report, Report::Progress { generation: 2, .. })));
+        assert!(reports.iter().all(|report| matches!(report, Reply::Progress { generation: 2, .. })));
         assert_eq!(served.shown(0, 0.0, SNAPSHOT).generation, 2);
     });
 }
@@ -192,7 +193,7 @@ fn a_panic_is_stated_and_the_next_scene_is_computed() {
         for (title, expected) in [("\"text\"", "no such spring"), ("\"formatted\"", "no spring 1024")] {
             generation += 1;
             served.compute(generation, &rough().set("title", title).unwrap());
-            let Report::Failed { generation: of, error } = served.answer() else { panic!("not failed") };
+            let Reply::Failed { generation: of, error } = served.answer() else { panic!("not failed") };
             assert_eq!(of, generation);
             assert!(error.contains("internal error") && error.contains(expected), "{error}");
             assert_eq!(error.lines().count(), 1, "{error}");
@@ -314,7 +315,7 @@ fn picture_counts_and_boundaries_say_the_same() {
                     for &(spring, height) in boundaries {
                         assert_eq!(shown.profile.columns[spring].line, (height, height), "{name}");
                     }
-                    let fragment = shown.close_up.fragment.map(|facts| (facts.number, facts.patch));
+                    let fragment = shown.close_up.patch.map(|facts| (facts.number, facts.patch));
                     assert_eq!(fragment.is_some(), !found.is_empty(), "{name}");
                     if let Some((number, springs)) = fragment {
                         assert_eq!(found[number], springs, "{name}");

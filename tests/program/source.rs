@@ -192,6 +192,40 @@ fn files_are_in_no_circle() {
     assert!(found.is_empty(), "circles of files: {found:?}");
 }
 
+/// Words behind a keyword at the start of a line, as names of types behind `struct`.
+fn names_behind<'c>(code: &'c str, keyword: &str) -> BTreeSet<&'c str> {
+    let words = code.lines().filter_map(|line| line.split_once(keyword));
+    let words = words.filter(|(before, _)| before.is_empty() || before.starts_with("pub"));
+    words.map(|(_, rest)| rest.split(|c| !is_part_of_name(c)).next().unwrap_or_default()).collect()
+}
+
+/// A method that is defined beside another type ties files that import nothing from each other, and a re-export ties all
+/// that it names: without both, the circles of imports are all circles.
+#[test]
+fn the_explorer_has_methods_beside_their_types_and_no_reexports_below_its_root() {
+    let modules = modules();
+    let files = modules.iter().filter(|(module, _)| module.first().is_some_and(|room| room == "explorer"));
+    let mut seen = 0;
+    for (module, code) in files {
+        let types: BTreeSet<&str> =
+            ["struct ", "enum "].iter().flat_map(|keyword| names_behind(code, keyword)).collect();
+        let impls =
+            code.lines().filter_map(|line| line.strip_prefix("impl")).filter(|line| !line.contains(" for "));
+        for line in impls {
+            seen += 1;
+            // Behind the generic parameters of the block.
+            let name =
+                if line.starts_with('<') { line.split_once("> ").map_or("", |(_, name)| name) } else { line };
+            let name = name.trim_start().split(|c| !is_part_of_name(c)).next().unwrap_or_default();
+            assert!(types.contains(name), "{}: methods of {name}", module.join("::"));
+        }
+        let is_root = module.len() == 1;
+        let reexports = code.lines().filter(|line| line.starts_with("pub") && line.contains(" use "));
+        assert!(is_root || reexports.count() == 0, "{}: pub use", module.join("::"));
+    }
+    assert!(seen > 30, "{seen} blocks of methods");
+}
+
 /// Files with this name as a whole, in order.
 fn files_that_name(name: &str) -> Vec<String> {
     let is_whole = |code: &str, at: usize| !code[at + name.len()..].starts_with(is_part_of_name);

@@ -3,7 +3,7 @@
 
 use super::{edit, measured};
 use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
-use crate::explorer::action::Effect;
+use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::editor::scene_of;
 use crate::explorer::panes;
@@ -75,7 +75,7 @@ fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     })
 }
 
-const NOT_COMPUTED: &str = "not before the scene is computed";
+const NOT_COMPUTED: &str = "the scene is still being computed";
 
 pub fn type_tolerance(app: &mut App) {
     if app.is_current() {
@@ -92,7 +92,7 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
         return Err(NOT_COMPUTED.to_owned());
     }
     app.studies.set(app.edit.generation, Choosing { tolerance, tried: None, found: None }, false);
-    app.effects.push(Effect::Study);
+    app.effects.push(Task::Study);
     Ok(())
 }
 
@@ -100,22 +100,22 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
 pub fn found(app: &mut App) {
     if let Some(Choosing { found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
         app.studies.forget::<Choosing>();
-        app.effects.push(Effect::Study);
+        app.effects.push(Task::Study);
         match found {
-            Ok(choice) => take_over(app, &choice),
+            Ok(choice) => apply(app, &choice),
             Err(error) => app.set_error(error.to_string()),
         }
     }
 }
 
-fn take_over(app: &mut App, choice: &Choice) {
+fn apply(app: &mut App, choice: &Choice) {
     let numerics = app.edit.document.scene().numerics;
     let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
     if !is_so {
         let points = choice.points.to_string();
         let fields = [("numerics.points", points.as_str()), ("numerics.edges", choice.edges.name())];
         let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        edit::take_over(app, app.edit.document.set_all(&fields));
+        edit::apply(app, app.edit.document.set_all(&fields));
         if app.is_refused() {
             return;
         }

@@ -1,7 +1,7 @@
 //! Prompts: what opens, edits, accepts and cancels them.
 
 use super::{accuracy, edit, files, measured, movement};
-use crate::explorer::action::{Effect, OutputFile};
+use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
 use crate::explorer::keys::bindings::{Command, Context};
@@ -20,7 +20,7 @@ pub fn find_parameter(app: &mut App) {
 
 pub fn open_library(app: &mut App) {
     app.ask(Purpose::Scene(Vec::new()), "");
-    app.effects.push(Effect::List);
+    app.effects.push(Task::List);
 }
 
 pub fn listed(app: &mut App, entries: Vec<Entry>) {
@@ -99,7 +99,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
             // The path of a scene, or of a study.
             None => {
                 let path = typed_path(typed.trim()).to_string_lossy().into_owned();
-                app.effects.push(Effect::Open(path));
+                app.effects.push(Task::Open(path));
             }
         },
         Purpose::Parameter { .. } => {
@@ -111,7 +111,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
             topic.row.into_iter().for_each(|row| choose(app, Command { row, character: None }));
         }
         Purpose::Overwrite(file) => {
-            app.effects.push(Effect::Write(OutputFile { overwrite: true, ..file.clone() }));
+            app.effects.push(Task::Write(OutputFile { overwrite: true, ..file.clone() }));
         }
         Purpose::Leave => {}
     }
@@ -163,7 +163,7 @@ pub fn can_complete(app: &App) -> bool {
 /// Requests the paths that begin as typed.
 pub fn complete(app: &mut App) {
     if let Some(path) = typed_in_line(app) {
-        app.effects.push(Effect::Complete(path));
+        app.effects.push(Task::Complete(path));
     }
 }
 

@@ -1,8 +1,7 @@
 //! Edits of the scene. Each results in a document of its own and can be undone.
 
-use crate::explorer::action::Effect;
+use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget, Message};
-use crate::explorer::editor::scene_of;
 use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::{Parameter, Setting, text_of};
@@ -38,7 +37,8 @@ pub fn open(app: &mut App, document: Document) {
         app.set_done("unsaved changes kept; u returns to them");
     }
     app.play = Player::START;
-    app.view.look = CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
+    app.view.close_up =
+        CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
     app.view.profile = LineView::WHOLE;
     // The shown map is that of the scene; a study stays loaded.
     app.map.of_study = false;
@@ -115,13 +115,13 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
     if parameter.field.step == Step::Choice {
         return match app.edit.document.with_next_choice(parameter.field, steps > 0, &computed(app)) {
-            Ok(Some(document)) => take_over(app, Ok(document)),
+            Ok(Some(document)) => apply(app, Ok(document)),
             Ok(None) => refuse(app, no_step),
-            Err(errors) => take_over(app, Err(errors)),
+            Err(errors) => apply(app, Err(errors)),
         };
     }
     let Some(written) = app.written(parameter) else {
-        return refuse(app, "not before the scene is computed".to_owned());
+        return refuse(app, "the scene is still being computed".to_owned());
     };
     match parameter.field.stepped(&written, steps, coarse) {
         Some(next) => set_selected(app, &next),
@@ -154,7 +154,7 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     if let Some(why) = app.studies.failure::<Preview>().filter(|_| app.tried.is_some()) {
         return Err(why.to_owned());
     }
-    take_over(app, Ok(document));
+    apply(app, Ok(document));
     Ok(())
 }
 
@@ -192,7 +192,7 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
 /// Sets the selected parameter to a value in the notation of the scene.
 fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
-        Ok(document) => take_over(app, Ok(document)),
+        Ok(document) => apply(app, Ok(document)),
         Err(why) => refuse(app, why),
     }
 }
@@ -230,7 +230,7 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
                     document.with_adhesion(adhesion.with_work(work))
                 }
-                None => return Err("not before the scene is computed".to_owned()),
+                None => return Err("the scene is still being computed".to_owned()),
             }
         }
     };
@@ -260,7 +260,7 @@ pub fn preview(app: &mut App) {
         return;
     }
     app.tried = tried;
-    app.effects.push(Effect::Study);
+    app.effects.push(Task::Study);
 }
 
 /// Switches the effect of the selected row on or off.
@@ -275,7 +275,7 @@ pub fn toggle_effect(app: &mut App) {
     } else {
         document.with(effect)
     };
-    take_over(app, changed)
+    apply(app, changed)
 }
 
 /// Values of the computed scene, which may replace others in the scene.
@@ -296,7 +296,7 @@ fn refuse(app: &mut App, why: String) {
 /// Sets a field; an invalid value leaves the scene unchanged.
 pub fn change(app: &mut App, path: &str, value: &str) {
     let changed = app.edit.document.set(path, value);
-    take_over(app, changed)
+    apply(app, changed)
 }
 
 /// Draws another random profile, of a seed with at most six digits, which can be read out to a colleague. The seeds
@@ -312,7 +312,7 @@ pub fn draw_seed(app: &mut App) {
 }
 
 /// Makes a changed document the explored one, or states the reason why it is not allowed.
-pub fn take_over(app: &mut App, changed: Result<Document, SceneErrors>) {
+pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     match changed {
         Ok(document) => {
             let lost = app.edit.document.comments().saturating_sub(document.comments());
@@ -329,31 +329,31 @@ pub fn take_over(app: &mut App, changed: Result<Document, SceneErrors>) {
 /// Makes a document the explored one; undo returns to the former one.
 pub fn adopt(app: &mut App, document: Document) {
     app.edit.adopt(document);
-    renewed(app);
+    after_edit(app);
 }
 
 /// Continues the last edit: its new result replaces the former one.
 pub fn replace(app: &mut App, document: Document) {
     app.edit.replace(document);
-    renewed(app);
+    after_edit(app);
 }
 
 /// Undoes the last edit, or redoes the last edit that was undone, and states the change.
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
     let Some(what) = app.edit.undo(back) else { return app.set_done(format!("nothing to {name}")) };
-    renewed(app);
+    after_edit(app);
     if !matches!(app.message, Some(Message::Done(_))) {
         app.set_done(format!("{name}: {what}"));
     }
 }
 
 /// Drops what belongs to the former scene.
-fn renewed(app: &mut App) {
+fn after_edit(app: &mut App) {
     app.message.take_if(|message| !matches!(message, Message::Done(_)));
     app.progress = Some(0);
     app.map.moving = false;
-    let map = app.map.key(&scene_of(&app.edit.document)).unwrap_or_default();
+    let map = app.map.key(&app.edit.scene).unwrap_or_default();
     app.studies.keep(&[&map, app.edit.document.text()]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {

@@ -1,7 +1,7 @@
 //! Output of the explorer: the scene, exports, the command to open the scene.
 
 use super::edit;
-use crate::explorer::action::{Content, EXPORTS, Effect, OutputFile, WriteFailure};
+use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::editor::Editor;
 use crate::explorer::prompt::Purpose;
@@ -26,7 +26,7 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     if path.as_os_str().is_empty() {
         return Err("type the name of a file".to_owned());
     }
-    app.effects.push(Effect::Write(OutputFile { path, content, overwrite: false, then_quit }));
+    app.effects.push(Task::Write(OutputFile { path, content, overwrite: false, then_quit }));
     Ok(())
 }
 
@@ -111,5 +111,5 @@ pub fn copy_command(app: &mut App) {
     }
     // The terminal does not confirm a copy, so the notice has the command too.
     app.set_done(format!("copied: {command}"));
-    app.effects.push(Effect::Copy(command));
+    app.effects.push(Task::Copy(command));
 }

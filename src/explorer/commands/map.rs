@@ -1,7 +1,7 @@
 //! Commands of the map and of the scene as its mark.
 
 use super::edit;
-use crate::explorer::action::Effect;
+use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::map::OpenStudy;
 use crate::scene::{Document, RoughnessParameter, SceneErrors};
@@ -17,7 +17,7 @@ pub fn toggle_study(app: &mut App) {
         return;
     }
     app.map.of_study = !app.map.of_study;
-    app.effects.push(Effect::Study);
+    app.effects.push(Task::Study);
 }
 
 /// Shows another map of the study. A scene that belongs to the former map follows.
@@ -42,7 +42,7 @@ pub fn step_slice(app: &mut App, steps: i32) {
     app.map.study = Some(OpenStudy::new(study_map, next));
     if let Some(followed) = followed {
         let was_unsaved = app.edit.is_unsaved();
-        edit::take_over(app, followed);
+        edit::apply(app, followed);
         // Browsing is no change that anyone has to save.
         if !was_unsaved && !app.is_refused() {
             app.edit.set_saved();
@@ -56,7 +56,7 @@ pub fn step(app: &mut App, columns: i32, rows: i32) {
         let why = match live_plan(app.edit.document.scene(), RoughnessParameter::Kappa) {
             Err(why) => why.to_owned(),
             Ok(_) if app.map.shown_study().is_some() => NO_PLACE.to_owned(),
-            Ok(_) => "not before the scene is computed: its κ follows from its profile".to_owned(),
+            Ok(_) => "the scene is still being computed: its κ follows from its profile".to_owned(),
         };
         app.set_error(why);
         return;
@@ -87,7 +87,7 @@ pub fn move_to(app: &mut App, place: Place) {
     let goes_on = app.map.moving;
     match moved_to(app, place) {
         Ok(document) if goes_on => edit::replace(app, document),
-        moved => edit::take_over(app, moved),
+        moved => edit::apply(app, moved),
     }
     app.map.moving = !app.is_refused();
 }

@@ -2,7 +2,7 @@
 
 use super::edit;
 use crate::experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
-use crate::explorer::action::Effect;
+use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::measured::{Fitting, fitted};
 use crate::explorer::prompt::Purpose;
@@ -52,10 +52,10 @@ pub fn ask_fit(app: &mut App) {
 pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
     let free = typed.split(',').map(|one| one.trim().parse()).collect::<Result<Vec<Free>, String>>()?;
     if !app.is_current() {
-        return Err("not before the scene is computed".to_owned());
+        return Err("the scene is still being computed".to_owned());
     }
     app.studies.set(app.edit.generation, Fitting { free, evaluations: 0, found: None }, false);
-    app.effects.push(Effect::Study);
+    app.effects.push(Task::Study);
     Ok(())
 }
 
@@ -65,7 +65,7 @@ pub fn found(app: &mut App) {
         app.studies.forget::<Fitting>();
         match found {
             Ok(fit) => {
-                edit::take_over(app, Ok(fit.document.clone()));
+                edit::apply(app, Ok(fit.document.clone()));
                 app.set_done(sentence(&fit));
                 app.studies.set(app.edit.generation, fit, true);
             }

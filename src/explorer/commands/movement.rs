@@ -2,7 +2,7 @@
 
 use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState};
-use crate::explorer::player::Player;
+use crate::explorer::player::{At, Player};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::ContactSnapshot;
@@ -42,7 +42,7 @@ pub fn separate(app: &mut App) {
 /// loading: the animation is the loading of the scene.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;
-    let at_end = app.play.done >= 1.0 && app.play.leg + 1 >= app.legs().len();
+    let at_end = app.play.at == At::End && app.play.leg + 1 >= app.legs().len();
     if at_end && !app.play.playing {
         app.play = Player::START;
     } else {
@@ -53,8 +53,15 @@ pub fn toggle_play(app: &mut App) {
 pub fn step(app: &mut App, steps: i32) {
     app.manual = None;
     app.play.playing = false;
-    let legs = app.legs().len();
-    advance(&mut app.play, f64::from(steps) / STEPS, legs);
+    let share = f64::from(steps) / STEPS;
+    let to = app.play.share(app.legs()) + share;
+    let player = app.play;
+    app.play = match player.leg {
+        // Not past the boundary to another stage.
+        leg if to > 1.0 && leg + 1 < app.legs().len() => Player { leg: leg + 1, at: At::Start, ..player },
+        leg if to < 0.0 && leg > 0 => Player { leg: leg - 1, at: At::End, ..player },
+        _ => Player { at: player.advanced(app.legs(), share), ..player },
+    };
 }
 
 pub fn restart(app: &mut App) {
@@ -66,10 +73,10 @@ pub fn restart(app: &mut App) {
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
     // A playing animation is past the start at once.
-    let back = legs < 0 && app.play.done > NEAR_START;
+    let back = legs < 0 && app.play.share(app.legs()) > NEAR_START;
     let leg = app.play.leg.saturating_add_signed(if back { 0 } else { legs as isize });
     app.play.leg = leg.min(app.legs().len().saturating_sub(1));
-    app.play.done = 0.0;
+    app.play.at = At::Start;
 }
 
 /// Goes to the pull-off, while the contact still holds.
@@ -79,9 +86,7 @@ pub fn go_to_pull_off(app: &mut App) {
         app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading");
         return;
     };
-    // Rounding must not pass the indentation: below it springs detach.
-    let done = app.done_at(leg, point.indentation) - 8.0 * f64::EPSILON;
-    app.play = Player { leg, done, playing: false };
+    app.play = Player { leg, at: At::Indentation(point.indentation), playing: false };
     app.manual = None;
 }
 
@@ -89,43 +94,27 @@ pub fn elapse(app: &mut App, time: Duration) {
     if !app.play.playing || app.legs().is_empty() || !app.is_current() {
         return;
     }
-    let legs = app.legs().len();
-    let player = &mut app.play;
-    let (speed, repeats) = (app.config.speed, app.config.repeat);
-    player.done += speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
-    // The distance does not depend on the frame rate: its rest continues on the next leg.
-    while player.done > 1.0 && player.leg + 1 < legs {
-        player.leg += 1;
-        player.done -= 1.0;
+    let legs = app.legs();
+    let (mut player, last) = (app.play, legs.len() - 1);
+    let mut share = app.config.speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
+    // The distance does not depend on the frame rate: its rest continues on the next stage.
+    while player.leg < last && share > 1.0 - player.share(legs) {
+        share -= 1.0 - player.share(legs);
+        player = Player { leg: player.leg + 1, at: At::Start, ..player };
     }
-    if player.done >= 1.0 && player.leg + 1 >= legs {
-        *player = Player {
-            leg: if repeats { 0 } else { player.leg },
-            done: if repeats { 0.0 } else { 1.0 },
-            playing: repeats,
-        };
+    player.at = player.advanced(legs, share);
+    if player.leg == last && player.at == At::End {
+        player = if app.config.repeat { Player::START } else { Player { playing: false, ..player } };
     }
-}
-
-/// Moves the animation by a share of a leg, but not past the boundary to another leg.
-fn advance(player: &mut Player, share: f64, legs: usize) {
-    player.done += share;
-    if player.done > 1.0 && player.leg + 1 < legs {
-        player.leg += 1;
-        player.done = 0.0;
-    } else if player.done < 0.0 && player.leg > 0 {
-        player.leg -= 1;
-        player.done = 1.0;
-    }
-    player.done = player.done.clamp(0.0, 1.0);
+    app.play = player;
 }
 
 /// Stores a snapshot from the worker.
 pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     // Another snapshot may have been on its way when the fragment was requested.
-    if snapshot.focus == app.view.look.focus && app.view.look.focus.is_question() {
-        let middle = snapshot.close_up.fragment.map(|facts| facts.patch.middle());
-        app.view.look.focus = middle.map_or(Focus::Summit, Focus::Spring);
+    if snapshot.focus == app.view.close_up.focus && app.view.close_up.focus.is_question() {
+        let middle = snapshot.close_up.patch.map(|facts| facts.patch.middle());
+        app.view.close_up.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
     if let Some((manual, travel)) = app.manual.as_mut().zip(snapshot.manual.as_ref()) {
         manual.path.extend(travel.path.iter().map(|(_, point)| point));
@@ -154,12 +143,12 @@ pub fn take(app: &mut App, order: Option<ManualMove>) {
         return;
     }
     if app.manual.is_none() {
-        let (leg, indentation) = (app.play.leg, app.indentation());
+        let Player { leg, at, .. } = app.play;
         let start = app.present().map(|snapshot| snapshot.point);
         app.play.playing = false;
-        let moves = vec![ManualMove::Take { leg, indentation }];
+        let moves = vec![ManualMove::Take { leg, at }];
         // The start of a stage is the end of the one before, which the path may continue.
-        let stage = if app.play.done > 0.0 { leg } else { leg.saturating_sub(1) };
+        let stage = if at == At::Start { leg.saturating_sub(1) } else { leg };
         let (path, stages) = start.map(|point| (point, stage)).into_iter().unzip();
         app.manual = Some(ManualState { path, stages, moves, ..ManualState::default() });
     }

@@ -2,7 +2,7 @@
 
 use super::edit;
 use crate::explorer::app::App;
-use crate::explorer::player::Player;
+use crate::explorer::player::{At, Player};
 use crate::scene;
 use crate::scene::{Document, Move, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
 use crate::text::round_to;
@@ -36,7 +36,7 @@ fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
 /// Makes an allowed scene the explored one and selects a stage.
 fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     let is_allowed = changed.is_ok();
-    edit::take_over(app, changed);
+    edit::apply(app, changed);
     let row = app.edit.parameters.iter().position(|one| one.leg == Some(stage));
     if let Some(row) = row.filter(|_| is_allowed) {
         app.edit.select(row);
@@ -149,7 +149,7 @@ pub fn keep_path(app: &mut App) {
         Some(Ok(document)) => {
             let count = document.scene().loading.len();
             edit::adopt(app, document);
-            app.play = Player { leg: count - 1, done: 1.0, playing: false };
+            app.play = Player { leg: count - 1, at: At::End, playing: false };
             let stages = if count == 1 { "1 stage".to_owned() } else { format!("{count} stages") };
             app.set_done(format!("the path is the loading of the scene, {stages}; u undoes"));
         }

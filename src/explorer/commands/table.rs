@@ -2,7 +2,7 @@
 //! docs/keys.md.
 
 use super::{accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, view};
-use crate::explorer::action::Effect;
+use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::{ANY, Bindings, Command, Context, EXPLORE, MANUAL, Row};
 use crate::explorer::pane::Pane;
@@ -185,11 +185,11 @@ static TABLE: &[Entry] = &[
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or patches", LOOK),
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
     row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
-    row("n", EXPLORE, "next-patch", Do(|app| view::go_to_fragment(app, Focus::After)), "patch", "show the next contact patch", LOOK),
-    row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_fragment(app, Focus::Before)), "", "show the previous contact patch", LOOK),
-    row("b", EXPLORE, "longest-patch", Do(|app| app.view.look.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
-    row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.look.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
-    row("f", EXPLORE, "first-touch", Do(|app| app.view.look.focus = Focus::Summit), "", "show the point of first touch", LOOK),
+    row("n", EXPLORE, "next-patch", Do(|app| view::go_to_patch(app, Focus::After)), "patch", "show the next contact patch", LOOK),
+    row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_patch(app, Focus::Before)), "", "show the previous contact patch", LOOK),
+    row("b", EXPLORE, "longest-patch", Do(|app| app.view.close_up.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
+    row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.close_up.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
+    row("f", EXPLORE, "first-touch", Do(|app| app.view.close_up.focus = Focus::Summit), "", "show the point of first touch", LOOK),
     row("+ =", EXPLORE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom in: the profile if selected, else the close-up", LOOK),
     row("-", OTHER_PANES, "zoom-out", Do(|app| view::zoom(app, -1)), "", "zoom out", LOOK),
     row("(", EXPLORE, "pan-left", Do(|app| view::pan(app, -1)), "", "pan left along the profile", LOOK),
@@ -201,7 +201,7 @@ static TABLE: &[Entry] = &[
     row("X", EXPLORE, "toggle-preload-scale", Do(view::toggle_preload_scale), "log/linear", "plot adhesion against preload on logarithmic axes, or on linear ones", LOOK).rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
     row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show changes of F_a by ±10 % of each number, in place of profile and close-up", LOOK),
     row("Tab", EXPLORE, "next-pane", Do(view::next_pane), "pane", "select the next pane", LOOK).rank(2),
-    row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Effect::Redraw)), "", "draw the whole screen again", LOOK),
+    row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Task::Redraw)), "", "draw the whole screen again", LOOK),
     row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
     row("T", EXPLORE, "next-theme", Do(view::next_theme), "", "change the colours", LOOK),
     row("M", EXPLORE, "next-marker", Do(view::next_marker), "", "draw plots in braille, or the whole screen in ASCII", LOOK),
@@ -236,7 +236,7 @@ static TABLE: &[Entry] = &[
     row(": Ctrl+p", EXPLORE, "open-palette", Do(dialogue::open_commands), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
     row("? F1", EXPLORE, "help", Do(dialogue::open_help), "help", "show this help", SCENE).rank(0),
     row("q Ctrl+c", EXPLORE, "quit", Do(files::ask_quit), "quit", "quit", SCENE).rank(0),
-    row("Ctrl+z", ANY, "suspend", Do(|app| app.effects.push(Effect::Suspend)), "", "suspend to the shell; fg resumes", SCENE),
+    row("Ctrl+z", ANY, "suspend", Do(|app| app.effects.push(Task::Suspend)), "", "suspend to the shell; fg resumes", SCENE),
 
     row("↓ j space", HELP, "next-row", Do(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
     row("↑ k", HELP, "previous-row", Do(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),

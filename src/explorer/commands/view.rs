@@ -1,27 +1,27 @@
 //! Changes of the view: panes, close-up, parts of the line, quantities, colours.
 
 use crate::draw::AxisScale;
-use crate::explorer::action::Effect;
+use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget};
 use crate::explorer::pane::Pane;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::ContactSnapshot;
-use crate::explorer::theme::Choice;
+use crate::explorer::theme::Cycle;
 use std::sync::Arc;
 
 /// Fewest springs that fill a pane.
 const FEWEST_SPRINGS: usize = 8;
 
 /// Shows the fragment of a question, starting from the shown one.
-pub fn go_to_fragment(app: &mut App, question: fn(Option<usize>) -> Focus) {
-    let fragment = app.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.fragment);
-    app.view.look.focus = question(fragment.map(|facts| facts.patch.middle()));
+pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
+    let fragment = app.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.patch);
+    app.view.close_up.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
 /// Shows the whole profile, and the close-up in its initial size.
 pub fn reset_zoom(app: &mut App) {
     app.view.profile = LineView::WHOLE;
-    app.view.look.springs = CloseUpTarget::springs_shown(&app.edit.document);
+    app.view.close_up.springs = CloseUpTarget::springs_shown(&app.edit.document);
 }
 
 pub fn next_pane(app: &mut App) {
@@ -39,7 +39,7 @@ pub fn next_marker(app: &mut App) {
     app.view.appearance.marker = app.view.appearance.marker.next();
     app.set_done(format!("markers: {}", app.view.appearance.marker.name()));
     // A terminal may have given the former markers another width than the program.
-    app.effects.push(Effect::Redraw);
+    app.effects.push(Task::Redraw);
 }
 
 /// Changes between preloads at equal distances and at equal ratios.
@@ -48,7 +48,7 @@ pub fn toggle_preload_scale(app: &mut App) {
         AxisScale::Linear => AxisScale::Logarithmic,
         AxisScale::Logarithmic => AxisScale::Linear,
     };
-    app.effects.push(Effect::Study);
+    app.effects.push(Task::Study);
 }
 
 fn springs(app: &App) -> usize {
@@ -66,9 +66,9 @@ pub fn zoom(app: &mut App, steps: i32) {
             app.view.profile = LineView::WHOLE;
         }
     } else {
-        let springs = app.view.look.springs;
+        let springs = app.view.close_up.springs;
         let springs = if steps > 0 { springs / 2 } else { springs * 2 };
-        app.view.look.springs = springs.clamp(FEWEST_SPRINGS, most.max(FEWEST_SPRINGS));
+        app.view.close_up.springs = springs.clamp(FEWEST_SPRINGS, most.max(FEWEST_SPRINGS));
     }
 }
 
@@ -81,7 +81,7 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
         (position / snapshot.line.spacing - first) / section.springs.max(1) as f64
     };
     let pointer = position.zip(app.snapshot.as_ref()).map(share);
-    let (profile, springs_before) = (app.view.profile, app.view.look.springs as f64);
+    let (profile, springs_before) = (app.view.profile, app.view.close_up.springs as f64);
     zoom(app, steps);
     let Some(pointer) = pointer else { return };
     let away = pointer - 0.5;
@@ -93,8 +93,8 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     } else if let Some(snapshot) = &app.snapshot {
         let section = &snapshot.close_up.section;
         let middle = section.first as f64 + section.springs as f64 / 2.0;
-        let to = middle + away * (springs_before - app.view.look.springs as f64);
-        app.view.look.focus = Focus::Spring(to.clamp(0.0, (springs(app) - 1) as f64) as usize);
+        let to = middle + away * (springs_before - app.view.close_up.springs as f64);
+        app.view.close_up.focus = Focus::Spring(to.clamp(0.0, (springs(app) - 1) as f64) as usize);
     }
 }
 
@@ -109,6 +109,6 @@ pub fn pan(app: &mut App, quarters: i32) {
         let section = &snapshot.close_up.section;
         let middle = section.first + section.springs / 2;
         let to = middle as f64 + quarters * section.springs as f64;
-        app.view.look.focus = Focus::Spring(to.clamp(0.0, (springs(app) - 1) as f64) as usize);
+        app.view.close_up.focus = Focus::Spring(to.clamp(0.0, (springs(app) - 1) as f64) as usize);
     }
 }

@@ -4,7 +4,7 @@ pub mod script;
 pub mod watch;
 
 use self::script::Cue;
-use crate::explorer::action::{Action, Effect};
+use crate::explorer::action::{Action, Task};
 use crate::explorer::app::App;
 use crate::explorer::commands::table::bindings;
 use crate::explorer::config::Config;
@@ -46,7 +46,7 @@ impl Demo {
         app.view.demo = Some("");
         let engine = Engine::inline(Simulation::run, |study| !study.is_long);
         let mut explorer = Runtime { app, engine, asked: 0, folder: PathBuf::new() };
-        explorer.perform(vec![Effect::Ask]);
+        explorer.perform(vec![Task::Ask]);
         Demo {
             explorer,
             cues: script.iter().copied().collect(),

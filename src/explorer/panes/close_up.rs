@@ -6,7 +6,7 @@ use super::section;
 use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
-use crate::explorer::snapshot::{ContactSnapshot, FragmentFacts};
+use crate::explorer::snapshot::{ContactSnapshot, PatchFacts};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::export::section::{Part as LinePart, Section};
 use crate::scene::format_quantity;
@@ -51,7 +51,7 @@ fn panel(app: &App, size: Size) -> Panel {
         let springs = app.solved.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
         panel.foot.push(strip(&snapshot.strip, section, springs as usize, theme));
     }
-    panel.foot.extend(describe(snapshot.close_up.fragment, snapshot.point.fragments).map(Line::raw));
+    panel.foot.extend(describe(snapshot.close_up.patch, snapshot.point.fragments).map(Line::raw));
     panel
 }
 
@@ -99,8 +99,8 @@ fn strip(strip: &str, section: &Section, springs: usize, theme: Theme) -> Line<'
 const ROUNDING: f64 = 1e-13;
 
 /// The contact patch in words: its place and force, and the stretch of its most stretched spring.
-fn describe(patch: Option<FragmentFacts>, patches: u64) -> [String; 2] {
-    let Some(FragmentFacts { number, patch, state }) = patch else {
+fn describe(patch: Option<PatchFacts>, patches: u64) -> [String; 2] {
+    let Some(PatchFacts { number, patch, state }) = patch else {
         return ["○ nothing is in contact".to_owned(), String::new()];
     };
     let springs = patch.springs().len();

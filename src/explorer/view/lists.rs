@@ -40,7 +40,7 @@ pub fn draw_topics(
     topics: &[Topic],
     buffer: &mut Buffer,
 ) {
-    let (theme, width) = (look.theme, inside(area).width.saturating_sub(1));
+    let (theme, width) = (look.theme, inside(area).width);
     let (mut rows, mut selected, mut section) = (Vec::new(), 0, "");
     for (place, topic) in prompt.found.iter().filter_map(|index| topics.get(*index)).enumerate() {
         if topic.section != section && prompt.line.text().is_empty() {

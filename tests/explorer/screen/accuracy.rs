@@ -6,7 +6,7 @@ use super::is_up_to_date;
 use asperity::accuracy::{
     Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
 };
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::app::Message;
 use asperity::explorer::commands::accuracy::Choosing;
 use asperity::explorer::pane::Pane;
@@ -103,7 +103,7 @@ fn a_scene_with_nothing_to_show_says_so() {
 fn an_edit_forgets_what_was_found_out() {
     let mut driver = measured(rough());
     driver.select("roughness.hurst");
-    assert_eq!(driver.press("l"), [Effect::Ask]);
+    assert_eq!(driver.press("l"), [Task::Ask]);
     assert!(driver.app.is_shown(Pane::Accuracy));
     assert!(driver.app.studies.value::<Estimate>().is_none());
     assert!(driver.app.studies.value::<Costs>().is_none());
@@ -186,5 +186,5 @@ fn a_tolerance_out_of_reach_changes_nothing() {
     // No choice for a missing scene.
     let mut driver = Driver::open(rough());
     driver.press("%");
-    assert!(driver.status().contains("not before"), "{}", driver.status());
+    assert!(driver.status().contains("still being computed"), "{}", driver.status());
 }

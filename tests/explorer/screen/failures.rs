@@ -3,7 +3,7 @@
 use super::common::driver::Driver;
 use super::{is_up_to_date, pressed};
 use asperity::explorer::action::Action;
-use asperity::explorer::snapshot::Report;
+use asperity::explorer::snapshot::Reply;
 
 #[test]
 fn reports_of_another_scene_change_nothing() {
@@ -14,10 +14,10 @@ fn reports_of_another_scene_change_nothing() {
     let screen = driver.screen();
     let generation = computed.generation;
     for action in [
-        Action::Report(Report::Solved(computed, None)),
-        Action::Report(Report::Shown(snapshot.into())),
-        Action::Report(Report::Progress { generation, legs: 1 }),
-        Action::Report(Report::Failed { generation, error: "old".to_owned() }),
+        Action::Reply(Reply::Solved(computed, None)),
+        Action::Reply(Reply::Shown(snapshot.into())),
+        Action::Reply(Reply::Progress { generation, legs: 1 }),
+        Action::Reply(Reply::Failed { generation, error: "old".to_owned() }),
     ] {
         assert!(driver.act(action).is_empty());
         assert_eq!(driver.screen(), screen);

@@ -5,7 +5,7 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
 
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::picture;
 use asperity::explorer::theme::Marker;
@@ -15,7 +15,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Exports to a file and returns the effects.
-fn export(driver: &mut Driver, path: &Path) -> Vec<Effect> {
+fn export(driver: &mut Driver, path: &Path) -> Vec<Task> {
     driver.press("E Ctrl+u");
     driver.type_text(&path.display().to_string());
     driver.press("Enter")
@@ -37,7 +37,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
         let mut driver = pressed("");
         let (path, content) = (PathBuf::from(name), Content::Pane(format));
         let file = OutputFile { path, content, overwrite: false, then_quit: false };
-        assert_eq!(export(&mut driver, Path::new(name)), [Effect::Write(file)]);
+        assert_eq!(export(&mut driver, Path::new(name)), [Task::Write(file)]);
         assert!(driver.status().contains(&format!("exported to {name}")), "{}", driver.status());
     }
     let unknown = |extension| {
@@ -141,7 +141,7 @@ fn the_text_is_the_screen_without_the_prompt() {
     for marker in [Marker::Braille, Marker::Ascii] {
         let mut driver = pressed("c L d { j");
         driver.app.view.appearance.marker = marker;
-        driver.perform(vec![Effect::Ask]);
+        driver.perform(vec![Task::Ask]);
         let seen = picture::text(&driver.screen());
         let written = exported(&mut driver, "a.txt");
         assert_eq!(written, seen);

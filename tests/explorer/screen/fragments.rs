@@ -5,10 +5,10 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::contact::Patch;
 use asperity::explorer::action::Action;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::pane::Pane;
-use asperity::explorer::snapshot::FragmentFacts;
-use asperity::explorer::snapshot::Report;
+use asperity::explorer::snapshot::PatchFacts;
+use asperity::explorer::snapshot::Reply;
 
 #[test]
 fn the_close_up_goes_round_all_fragments() {
@@ -20,7 +20,7 @@ fn the_close_up_goes_round_all_fragments() {
         driver.press(closer);
         for key in ["n", "p"] {
             driver.press("f");
-            let number = |driver: &Driver| driver.snapshot().close_up.fragment.unwrap().number;
+            let number = |driver: &Driver| driver.snapshot().close_up.patch.unwrap().number;
             let start = number(&driver);
             let mut seen = Vec::new();
             for _ in 0..count {
@@ -39,13 +39,13 @@ fn the_close_up_goes_round_all_fragments() {
 #[test]
 fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
     let mut driver = pressed("f");
-    let number = |driver: &Driver| driver.snapshot().close_up.fragment.unwrap().number;
+    let number = |driver: &Driver| driver.snapshot().close_up.patch.unwrap().number;
     let before = driver.snapshot().clone();
     let first = number(&driver);
     // The fragment is requested just after a snapshot requested by the animation.
     let effects = driver.update("next-patch");
-    assert_eq!(effects, [Effect::Ask]);
-    driver.act(Action::Report(Report::Shown(before.into())));
+    assert_eq!(effects, [Task::Ask]);
+    driver.act(Action::Reply(Reply::Shown(before.into())));
     driver.perform(effects);
     assert_eq!(number(&driver), first + 1);
     driver.press(". ,");
@@ -69,8 +69,8 @@ fn fragments(driver: &mut Driver) -> Vec<Patch> {
     }))
 }
 
-fn facts(driver: &Driver) -> FragmentFacts {
-    driver.snapshot().close_up.fragment.unwrap()
+fn facts(driver: &Driver) -> PatchFacts {
+    driver.snapshot().close_up.patch.unwrap()
 }
 
 #[test]

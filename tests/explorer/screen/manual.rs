@@ -3,7 +3,7 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, mid_retraction, pressed};
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::app::ManualState;
 use asperity::explorer::request::Drive;
 
@@ -198,7 +198,7 @@ fn playing_gives_it_back() {
         let leg = driver.app.play.leg;
         driver.press("d { [");
         let effects = driver.press(keys);
-        assert_eq!(effects, [Effect::Ask], "{keys}");
+        assert_eq!(effects, [Task::Ask], "{keys}");
         assert!(driver.app.manual.is_none(), "{keys}");
         assert!(matches!(driver.snapshot().drive, Drive::Leg(_)), "{keys}");
         if keys == "Space" {

@@ -3,7 +3,7 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::is_up_to_date;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::action::{Action, Gesture, Mouse};
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::keys::bindings::Context;
@@ -70,7 +70,7 @@ fn moves_in_a_row_are_one_edit() {
     assert_eq!(driver.app.keys(), Context::Map);
     let before = driver.app.edit.document.clone();
     let (edits, map) = (driver.app.edit.past.len(), driver.app.grid().cloned());
-    assert_eq!(driver.press("Down"), [Effect::Ask]);
+    assert_eq!(driver.press("Down"), [Task::Ask]);
     assert_eq!(place(&driver), (6.73, 0.7));
     driver.press("Down Left h k Shift+Down Right");
     assert_eq!(place(&driver), (3.36, 0.65));
@@ -121,7 +121,7 @@ fn other_edits_begin_the_map_anew() {
     driver.press("m m");
     assert!(!driver.app.is_shown(Pane::Map));
     assert!(!begins(&mut driver));
-    assert_eq!(driver.press("m"), [Effect::Study, Effect::Ask]);
+    assert_eq!(driver.press("m"), [Task::Study, Task::Ask]);
     assert!(begins(&mut driver));
     // Accuracy takes the place of the map, and vice versa.
     driver.press("A");

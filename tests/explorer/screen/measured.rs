@@ -4,7 +4,7 @@ use super::common::driver::Driver;
 use super::is_up_to_date;
 use asperity::experiment::{CurveOptions, Drift, Fit, MeasuredCurve};
 use asperity::explorer::Opening;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::measured::Fitting;
 use asperity::explorer::measured::Measured;
 use asperity::explorer::pane::Pane;
@@ -51,7 +51,7 @@ fn shown() -> Driver {
     let is_of_curve =
         |study: &asperity::explorer::studies::Study| study.is::<Arc<Fit>>() || study.is::<Fitting>();
     let mut driver = Driver::open_with(opening, Simulation::run, is_of_curve);
-    driver.perform(vec![Effect::Ask]);
+    driver.perform(vec![Task::Ask]);
     driver
 }
 

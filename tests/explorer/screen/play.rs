@@ -3,9 +3,10 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{is_up_to_date, pressed};
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
+use asperity::explorer::player::At;
 use std::path::Path;
 
 #[test]
@@ -16,7 +17,7 @@ fn the_animation_plays_to_its_end_and_stops() {
     let (mut last, mut elapsed) = (f64::NEG_INFINITY, 0);
     while driver.app.play.playing {
         let leg = driver.app.play.leg;
-        assert_eq!(driver.elapse(0.1), [Effect::Ask]);
+        assert_eq!(driver.elapse(0.1), [Task::Ask]);
         if driver.app.play.leg != leg {
             last = ends[0];
         }
@@ -46,10 +47,10 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     let mut driver = Driver::start(rough());
     driver.elapse(1.0);
     let before = driver.app.play;
-    assert!(before.done > 0.0);
+    assert_ne!(before.at, At::Start);
     driver.press("Space");
     assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
-    assert_eq!(driver.app.play.done, before.done);
+    assert_eq!(driver.app.play.at, before.at);
     let force = |driver: &Driver| driver.point();
     let here = force(&driver);
     driver.press(".");
@@ -59,19 +60,19 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     driver.press("Space .");
     assert!(!driver.app.play.playing, "a step pauses");
     driver.press("> >");
-    assert_eq!((driver.app.play.leg, driver.app.play.done), (1, 0.0));
+    assert_eq!((driver.app.play.leg, driver.app.play.at), (1, At::Start));
     driver.press("<");
-    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
+    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start));
     driver.press(". . <");
-    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "first to the start of this leg");
+    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start), "first to the start of this leg");
     driver.press(",");
-    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0), "there is nothing before");
+    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start), "there is nothing before");
     driver.press("> . r");
-    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 0.0));
+    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start));
     assert!(driver.app.play.playing);
     // Steps go from leg to leg in both directions.
     driver.press("> ,");
-    assert_eq!((driver.app.play.leg, driver.app.play.done), (0, 1.0));
+    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::End));
     driver.press(".");
     assert_eq!(driver.app.play.leg, 1);
 }
@@ -119,14 +120,15 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
     let place = |steps: u32, seconds: f64| {
         let mut driver = Driver::start(rough().set("loading", three).unwrap());
         (0..steps).for_each(|_| drop(driver.elapse(seconds / f64::from(steps))));
-        (driver.app.play, driver.point())
+        let player = driver.app.play;
+        (player, player.share(driver.app.legs()), driver.point())
     };
     for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
-        let (player, point) = place(1, seconds);
+        let (player, share, point) = place(1, seconds);
         let expected = (seconds / 6.0).min(3.0);
-        assert!((player.leg as f64 + player.done - expected).abs() < 1e-9, "{seconds}: {player:?}");
+        assert!((player.leg as f64 + share - expected).abs() < 1e-9, "{seconds}: {player:?}");
         for steps in [3, 70, 211] {
-            let (other, there) = place(steps, seconds);
+            let (other, _, there) = place(steps, seconds);
             assert_eq!((other.leg, other.playing), (player.leg, player.playing), "{seconds}, {steps}");
             assert!((there.indentation - point.indentation).abs() < 5e-14, "{seconds}, {steps}");
         }
@@ -142,7 +144,7 @@ fn the_configuration_sets_speed_end_and_keys() {
         driver.press("r");
         (0..10 * seconds).for_each(|_| drop(driver.elapse(0.1)));
         let player = driver.app.play;
-        (player.leg, (10.0 * player.done).round(), player.playing)
+        (player.leg, (10.0 * player.share(driver.app.legs())).round(), player.playing)
     };
     assert_eq!(place(Config::new(bindings()), 3), (0, 5.0, true));
     assert_eq!(place(config("(version: 1, speed: 2.0)"), 3), (0, 10.0, true));

@@ -5,7 +5,7 @@ use super::common::scenes::rough;
 use super::pressed;
 use asperity::explorer::action::{Content, OutputFile};
 
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::keys::bindings::Context;
 use asperity::scene::Document;
 
@@ -18,7 +18,7 @@ fn a_saved_scene_is_read_back_as_it_is() {
     driver.type_text("folder/mine.ron");
     assert_eq!(
         driver.press("Enter"),
-        [Effect::Write(OutputFile {
+        [Task::Write(OutputFile {
             path: "folder/mine.ron".into(),
             content: Content::Scene,
             overwrite: false,

@@ -2,7 +2,7 @@
 
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::studies::Study;
 use asperity::scene::Document;
@@ -13,7 +13,7 @@ use asperity::study::Sensitivity;
 pub fn computed_sensitivity(document: Document) -> Driver {
     let few = changed(&document, &[("numerics.points", "512"), ("roughness.modes", "(8, 128)")]);
     let mut driver = Driver::open_with(few, Simulation::run, Study::is::<Sensitivity>);
-    driver.perform(vec![Effect::Ask]);
+    driver.perform(vec![Task::Ask]);
     driver.press("Space Y");
     driver
 }

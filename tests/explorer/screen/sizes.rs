@@ -10,7 +10,7 @@ use super::preloads::computed_preloads;
 use super::{SIZES, everywhere, pressed};
 use asperity::explorer::layout::{Layout, is_framed};
 use asperity::explorer::pane::Pane;
-use asperity::explorer::theme::{Choice, Marker, Theme};
+use asperity::explorer::theme::{Cycle, Marker, Theme};
 use clap::ValueEnum;
 use ratatui::style::Color;
 

@@ -3,7 +3,7 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough};
 use super::pressed;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::studies::Study;
 use asperity::export::SceneSpectra;
@@ -87,7 +87,7 @@ fn a_measured_surface_is_the_roughness_by_its_path_alone() {
         let document = Document::parse(text.text(), name.to_str().unwrap()).unwrap();
         let performs = |study: &Study| study.is::<SceneSpectra>() || study.is::<MeasuredAdhesion>();
         let mut driver = Driver::open_with(document, Simulation::run, performs);
-        driver.perform(vec![Effect::Ask]);
+        driver.perform(vec![Task::Ask]);
         driver.resize(size);
         driver.select("roughness");
         driver.press("Enter");

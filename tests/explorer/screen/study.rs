@@ -6,7 +6,7 @@ use super::common::study::{PLAN, begun, merged};
 use super::{is_up_to_date, pressed};
 use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::map::Live;
@@ -140,7 +140,7 @@ fn the_computed_map_can_be_had_instead() {
     let (_folder, mut driver) = opened();
     let charts = |driver: &mut Driver| studies(&mut driver.app).iter().any(|study| study.is::<Live>());
     assert!(!charts(&mut driver), "nothing is computed that is not shown");
-    assert_eq!(driver.press("W"), [Effect::Study]);
+    assert_eq!(driver.press("W"), [Task::Study]);
     assert!(charts(&mut driver));
     assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
     driver.press("Up");

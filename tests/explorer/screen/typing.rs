@@ -4,7 +4,7 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{SIZES, is_up_to_date, pressed, reversed};
 use asperity::explorer::action::Action;
-use asperity::explorer::action::Effect;
+use asperity::explorer::action::Task;
 use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::layout::Layout;
 use asperity::explorer::update::update;
@@ -212,7 +212,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
         driver.press("Backspace Backspace");
         assert!(driver.app.tried_outcome().is_some());
         let effects = driver.press("Esc");
-        assert_eq!((effects, driver.app.tried.is_none()), (vec![Effect::Study], true));
+        assert_eq!((effects, driver.app.tried.is_none()), (vec![Task::Study], true));
         assert_eq!(driver.text(), before);
         driver.press("e Ctrl+u");
         driver.type_text("300 nm");
@@ -232,7 +232,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
     // The next value is typed, and its curve is not there yet: the previous one remains.
     driver.press("Home Delete");
     let waiting = update(&mut driver.app, Action::Paste('4'.to_string()));
-    assert_eq!(waiting, [Effect::Study]);
+    assert_eq!(waiting, [Task::Study]);
     // "00 nm" is no allowed height, and has no curve.
     assert!(driver.status().starts_with("preview: computing…") || force(&driver).is_none());
     driver.perform(waiting);
@@ -241,7 +241,7 @@ fn no_older_curve_is_shown_between_a_preview_and_the_next_one() {
     assert!(!driver.status().contains("computing"), "{}", driver.status());
     // After acceptance the curve remains until the scene itself is computed.
     let accepted = driver.update("accept");
-    assert_eq!(accepted, [Effect::Ask]);
+    assert_eq!(accepted, [Task::Ask]);
     assert_eq!((driver.app.is_computing(), force(&driver)), (true, Some(second)));
     assert!(driver.text().contains("preview"), "{}", driver.text());
     driver.perform(accepted);
