@@ -5,12 +5,14 @@
 //! relative to a [`Reference`]: the adhesion force in closed form if the scene has one, otherwise the finest solution with
 //! edges between springs, whose own error is estimated. Timed runs are separate from compared ones.
 
+mod choice;
 mod estimate;
 mod ladder;
 mod solution;
 mod table;
 
-pub use estimate::{Choice, ChoiceError, Estimate, Evidence, choose, estimate, parse_tolerance};
+pub use choice::{Choice, ChoiceError, choose, parse_tolerance};
+pub use estimate::{Estimate, Evidence, estimate};
 pub use ladder::{Progress, measure};
 pub use solution::Target;
 pub use table::{CostTable, ErrorFigure, Knob, QUANTITIES, Reference, Row, Timing};
