@@ -11,7 +11,7 @@ mod peak;
 #[cfg(target_os = "linux")]
 fn main() {
     use asperity::scene::open;
-    use asperity::simulation::Plan;
+    use asperity::simulation::Workload;
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
@@ -53,7 +53,7 @@ fn main() {
         let seconds = (0..runs).map(time).min().unwrap_or(Duration::MAX).as_secs_f64();
         let taken = peak::peak(ASPERITY, (SCENE, &fields));
         let owned: Vec<_> = fields.iter().map(|&(path, value)| (path.into(), value.into())).collect();
-        let stated = Plan::of(open(SCENE).unwrap().set_all(&owned).unwrap().scene()).resident_bytes;
+        let stated = Workload::of(open(SCENE).unwrap().set_all(&owned).unwrap().scene()).resident_bytes;
         let each = (taken as f64 - f64::from(10 << 20)) / f64::from(1_u32 << exponent);
         println!(
             "  2^{exponent:<6} {seconds:>9.4} {:>11.1} {:>13.1}   {each:.1}",

@@ -8,7 +8,7 @@ mod peak;
 
 use asperity::contact::{Body, Contact, Foundation, HessRule};
 use asperity::scene::{Document, Edges, Move, open};
-use asperity::simulation::{Plan, Simulation};
+use asperity::simulation::{Simulation, Workload};
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use peak::{Changed, arguments, peak};
 use std::mem::take;
@@ -44,7 +44,7 @@ fn a_plan_states_the_memory_that_a_run_takes() {
     for changed in SCENES {
         let fields: Vec<_> = changed.1.iter().map(|&(path, value)| (path.into(), value.into())).collect();
         let document = open(changed.0).unwrap().set_all(&fields).unwrap();
-        let (stated, taken) = (Plan::of(document.scene()).resident_bytes, peak(ASPERITY, changed));
+        let (stated, taken) = (Workload::of(document.scene()).resident_bytes, peak(ASPERITY, changed));
         let is_at_most = |one: u64, other: u64| one as f64 <= FACTOR * (other + OF_BUILDS) as f64;
         let row = format!("{changed:?}: {} MiB stated, {} MiB taken", stated >> 20, taken >> 20);
         println!("{row}");
@@ -90,7 +90,7 @@ fn memory_of_a_large_scene_is_given_back_when_a_much_smaller_one_is_computed() {
             let large = large.set("roughness.seed", seed).unwrap();
             let kept = kept_after(&mut simulation, &large, before);
             // As stated by `Simulation`, beside the memory of other tests.
-            let most = (Plan::of(large.scene()).peak_bytes + 20 * (1 << 20)) as usize + (1 << 20);
+            let most = (Workload::of(large.scene()).peak_bytes + 20 * (1 << 20)) as usize + (1 << 20);
             assert!(kept > 24 << 20 && kept <= most, "{kept} bytes kept; at most {most}");
         }
         let kept = kept_after(&mut simulation, &small, before);

@@ -1,8 +1,8 @@
 //! The text of a scene.
 
 use super::{assert_document, assert_errors, assert_place, text};
-use asperity::scene::{Computed, Document, Effect, LONGEST_TEXT, Origin};
-use asperity::simulation::Plan;
+use asperity::scene::{Document, Effect, LONGEST_TEXT, Origin};
+use asperity::simulation::Workload;
 
 const NAME: &str = "fuzzed.ron";
 
@@ -28,7 +28,7 @@ pub fn scene(bytes: &[u8]) {
             assert_document(&document);
             assert_fields(&document);
             assert_effects(&document);
-            let _ = Plan::of(document.scene());
+            let _ = Workload::of(document.scene());
         }
     }
 }
@@ -55,12 +55,6 @@ fn assert_fields(document: &Document) {
 
 /// An effect that is switched off is off, and comes back.
 fn assert_effects(document: &Document) {
-    let computed = Computed {
-        work_of_adhesion: Some(0.05),
-        kappa: Some(2.0),
-        elastic_energy_ratio: Some(3.0),
-        rms_height: Some(1.0e-7),
-    };
     let sound = |changed: &Result<Document, _>, effect: Effect, on: bool| match changed {
         Ok(changed) => {
             assert_document(changed);
@@ -73,7 +67,7 @@ fn assert_effects(document: &Document) {
         }
     };
     for effect in Effect::ALL {
-        let off = document.without(effect, &computed);
+        let off = document.without(effect);
         sound(&off, effect, false);
         let Ok(off) = off else { continue };
         for also in Effect::ALL.into_iter().filter(|also| *also != effect) {

@@ -5,7 +5,7 @@
 //! Adhesion forces of smooth bodies are in [`crate::reference`], the rule of Hess is [`crate::contact::HessRule`].
 
 use crate::contact::{Foundation, HessRule};
-use crate::scene::{Adhesion, Form, Roughness, RoughnessParameter, Scene};
+use crate::scene::{Adhesion, Form, Roughness, RoughnessParameter, Scene, Strength};
 use crate::surface::Amplitude;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -31,8 +31,7 @@ impl Governing {
     /// Derives the parameters of a checked scene from the amplitude of its self-affine profile of rms height 1, or that
     /// of its measured one.
     ///
-    /// Given κ alone, γ = h⟨∇z⟩E*/κ²; given γ and κ, h = κ √(γ/(E* ⟨∇z⟩/h)). Similarly for e_el/γ, with e_el = E*
-    /// h² q̄/4 and the mean wave number q̄.
+    /// Given κ, γ = h⟨∇z⟩E*/κ². Similarly for e_el/γ, with e_el = E* h² q̄/4 and the mean wave number q̄.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
@@ -40,15 +39,7 @@ impl Governing {
             let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
                 return None;
             };
-            let by_adhesion = || {
-                let adhesion = scene.adhesion?;
-                let (work, (parameter, value)) = adhesion.work.zip(adhesion.parameter())?;
-                let per_square = energy_of(parameter, unit, effective_modulus);
-                Some(parameter.energy_over_work(value).sqrt() * (work / per_square).sqrt())
-            };
-            let rms_height = rms_height
-                .or_else(|| rms_gradient.map(|gradient| gradient / unit.rms_gradient))
-                .or_else(by_adhesion)?;
+            let rms_height = rms_height.or(rms_gradient.map(|gradient| gradient / unit.rms_gradient))?;
             let amplitude = unit.scaled(rms_height);
             Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
         });
@@ -57,20 +48,26 @@ impl Governing {
 
     /// The same profile with another adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
-        let adhesion = adhesion.unwrap_or_default();
-        let given = adhesion.parameter();
-        let by_parameter = || given.and_then(|(parameter, value)| self.work_for(parameter, value));
-        let work_of_adhesion = adhesion.work.or_else(by_parameter);
+        let given = adhesion.and_then(|adhesion| adhesion.parameter());
+        let work_of_adhesion = adhesion.and_then(|adhesion| self.work_of(adhesion));
         let value = |parameter: RoughnessParameter| match given {
             Some((same, value)) if same == parameter => Some(value),
             _ => value_of(parameter, self.energy(parameter)?, work_of_adhesion?),
         };
         Governing {
             work_of_adhesion,
-            closing_work: adhesion.closing_work,
+            closing_work: adhesion.and_then(|adhesion| adhesion.closing_work()),
             kappa: value(RoughnessParameter::Kappa),
             elastic_energy_ratio: value(RoughnessParameter::ElasticEnergyRatio),
             ..self
+        }
+    }
+
+    /// Work of adhesion of an adhesion on the same profile, J/m²; `None` for a parameter without roughness.
+    fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
+        match adhesion.strength {
+            Strength::Work { opening, .. } => Some(opening),
+            Strength::Parameter(parameter, value) => self.work_for(parameter, value),
         }
     }
 
@@ -228,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn two_of_amplitude_work_and_a_parameter_give_the_third() {
+    fn work_and_parameters_follow_from_each_other() {
         // h⟨∇z⟩E* = 72, and 72/2 is the square of 6. E* h² q̄/4 = 4.5.
         let expected = Governing {
             effective_modulus: 4.0,
@@ -243,10 +240,8 @@ mod tests {
             ("rms_gradient: 6.0,", "(work: 2.0)"),
             ("rms_height: 3.0,", "(kappa: 6.0)"),
             ("rms_gradient: 6.0,", "(kappa: 6.0)"),
-            ("", "(work: 2.0, kappa: 6.0)"),
             ("rms_height: 3.0,", "(elastic_energy_ratio: 2.25)"),
             ("rms_gradient: 6.0,", "(elastic_energy_ratio: 2.25)"),
-            ("", "(work: 2.0, elastic_energy_ratio: 2.25)"),
         ] {
             assert_eq!(governing(Some(amplitude), adhesion), expected, "{amplitude} {adhesion}");
         }

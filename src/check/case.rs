@@ -30,8 +30,6 @@ pub struct Case {
     pub evidence: &'static str,
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
-    /// True for a case that takes seconds and hundreds of megabytes.
-    pub large: bool,
     pub(super) subject: Subject,
 }
 
@@ -42,7 +40,7 @@ impl Case {
         bounds: &'static [(Edges, f64)],
         subject: Subject,
     ) -> Case {
-        Case { name, family, holds, evidence, error_of, bounds, large: false, subject }
+        Case { name, family, holds, evidence, error_of, bounds, subject }
     }
 }
 

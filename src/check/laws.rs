@@ -1,4 +1,4 @@
-//! Laws valid for every body: reversibility without adhesion, memory, energy, mirrors, scales, and the agreement of
+//! Laws valid for every body: reversibility without adhesion, memory, energy, scales, and the agreement of
 //! both solvers.
 
 use super::case::Subject::{Bodies, Scene as OfScene};
@@ -6,7 +6,7 @@ use super::case::{
     Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with,
 };
 use crate::Cycle;
-use crate::contact::{CurvePoint, LegRecord, Patch};
+use crate::contact::{CurvePoint, LegRecord};
 use crate::scene::{CheckedScene, Edges, Solver};
 
 const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
@@ -26,8 +26,6 @@ pub const CASES: &[Case] = &[
         earlier turning points.", FORCE], &both(0.0, 0.0), Bodies(memory)),
     Case::row(LAW, ["no-energy-for-nothing", "No closed loop gains energy, and the energy dissipated from separation to \
         separation is ∮F dd.", "energy, over the scale"], &both(1e-4, 1e-4), Bodies(energy)),
-    Case::row(LAW, ["mirror", "A mirrored profile has the mirrored contact and the same forces.", FORCE],
-        &both(0.0, 1e-15), Bodies(mirror)),
     Case::row(LAW, ["lengths-and-moduli", "Lengths from 2 nm to 6.6 m and E* from 2 Pa to 8.4 TPa, all else scaled \
         alike, change no bit of contact and forces.", FORCE], &both(0.0, 0.0), Bodies(units)),
     Case::row(COMPUTED, ["stepwise-solver", "On profiles from bare to sticky the stepwise solver, which applies the \
@@ -85,20 +83,6 @@ fn energy(body: &Body) -> Measured {
     };
     let done: f64 = cycle.legs().iter().flat_map(|leg| leg.curve.windows(2)).map(trapezium).sum();
     Ok((lost(cycle.legs()) - done).abs() / scale)
-}
-
-fn mirror(body: &Body) -> Measured {
-    let mirrored = Body { heights: body.heights.iter().rev().copied().collect(), ..body.clone() };
-    let (last, turns) = (body.heights.len() - 1, body.turns::<6>(13));
-    let (one, other) = (body.load(&turns, false, 17)?, mirrored.load(&turns, false, 17)?);
-    let turned: Vec<_> = other
-        .patches()
-        .iter()
-        .rev()
-        .map(|one| Patch { first: last - one.last, last: last - one.first })
-        .collect();
-    ensure(one.patches() == turned, || format!("after {turns:?} m another contact"))?;
-    largest(one.curve().zip(other.curve()).map(|(a, b)| Ok((a.force - b.force).abs() / body.force_unit())))
 }
 
 /// Scales lengths along the profile, heights and stresses by these powers of two: no bit of the mantissas may change.

@@ -69,9 +69,7 @@ mod tests {
     #[test]
     fn every_check_of_the_catalogue_passes() {
         let mut failed = Vec::new();
-        let checks = checks(|case| !case.large);
-        assert!(checks.len() >= 30, "{} checks", checks.len());
-        for check in checks {
+        for check in checks(|_| true) {
             let verdict = judge(check);
             let error =
                 verdict.error.as_ref().map_or_else(ToString::to_string, |error| format!("{error:.1e}"));

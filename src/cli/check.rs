@@ -11,7 +11,6 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity check                            All cases
-  asperity check --quick                    All but the cases of seconds and much memory
   asperity check sphere memory              Cases with one of these words in their names
   asperity check --format json -o check.json
 
@@ -23,9 +22,6 @@ pub struct CheckArguments {
     /// Only cases with one of these words in their names
     #[arg(value_name = "WORD")]
     pub words: Vec<String>,
-    /// Leave out cases that take seconds and hundreds of megabytes
-    #[arg(long)]
-    pub quick: bool,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -40,16 +36,8 @@ impl CheckArguments {
                 return Err(CliError::named(word, none));
             }
         }
-        let is_meant = |case: &Case| {
-            let named = self.words.is_empty() || self.words.iter().any(|word| has(case, word));
-            named && !(self.quick && case.large)
-        };
-        let chosen = checks(is_meant);
-        if chosen.is_empty() {
-            let none = "--quick leaves out all of these cases: they take seconds and hundreds of megabytes";
-            return Err(CliError::message(none.to_owned()));
-        }
-        Ok(chosen)
+        let is_meant = |case: &Case| self.words.is_empty() || self.words.iter().any(|word| has(case, word));
+        Ok(checks(is_meant))
     }
 }
 
@@ -79,27 +67,18 @@ fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {
 mod tests {
     use super::*;
 
-    fn arguments(words: &[&str], quick: bool) -> CheckArguments {
-        CheckArguments {
-            words: words.iter().map(ToString::to_string).collect(),
-            quick,
-            output: OutputArguments::default(),
-        }
-    }
-
     #[test]
     fn words_choose_cases() {
-        let names = |words: &[&str], quick| -> Vec<&str> {
-            let mut names: Vec<_> =
-                arguments(words, quick).chosen().unwrap().iter().map(|check| check.case.name).collect();
-            names.dedup();
-            names
+        let chosen = |words: &[&str]| {
+            let words = words.iter().map(ToString::to_string).collect();
+            CheckArguments { words, output: OutputArguments::default() }.chosen()
         };
-        assert_eq!(names(&["cone", "memory"], false), ["cone", "return-point-memory"]);
-        assert!(names(&[], false).contains(&"springs-2^24") && !names(&[], true).contains(&"springs-2^24"));
-        let error = |words: &[&str], quick| arguments(words, quick).chosen().err().unwrap().to_string();
-        assert!(error(&["cone", "trapezium"], false).starts_with("trapezium: no case has this in its name"));
-        assert!(error(&["2^24"], true).starts_with("--quick leaves out all of these cases"));
+        let mut names: Vec<&str> =
+            chosen(&["cone", "memory"]).unwrap().iter().map(|check| check.case.name).collect();
+        names.dedup();
+        assert_eq!(names, ["cone", "return-point-memory"]);
+        let error = chosen(&["cone", "trapezium"]).unwrap_err().to_string();
+        assert!(error.starts_with("trapezium: no case has this in its name"), "{error}");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::error::CliError;
 use super::output::AnswerFormat;
 use super::scene::SceneArguments;
 use crate::export::sheet::Sheet;
-use crate::simulation::{Plan, PlannedStage};
+use crate::simulation::{PlannedStage, Workload};
 use crate::text::{grouped, memory_size};
 use clap::Args;
 use std::io::Write;
@@ -29,11 +29,11 @@ pub struct PlanArguments {
 
 pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
-    let plan = Plan::of(document.scene());
+    let plan = Workload::of(document.scene());
     arguments.format.write(stdout, || text(&plan), &plan)
 }
 
-fn text(plan: &Plan) -> String {
+fn text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };
     for PlannedStage { stage, runs, because, passes, springs_touched, bytes } in &plan.stages {
@@ -50,7 +50,7 @@ fn text(plan: &Plan) -> String {
     let mut sheet = Sheet::default();
     sheet.table(&rows);
     let (springs, peak) = (grouped(plan.springs), memory_size(plan.resident_bytes));
-    let program = memory_size(Plan::PROGRAM);
+    let program = memory_size(Workload::PROGRAM);
     sheet.heading(&format!(
         "{springs} springs under the body; about {peak} of memory at any one time, {program} of them the program"
     ));

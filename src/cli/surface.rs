@@ -6,7 +6,7 @@ use super::scene::{MOST_LINES, threads};
 use crate::export::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
 use crate::io::write_new;
 use crate::scene::{
-    Adhesion, Document, Material, Measured, Move, Numerics, Roughness, SCENE_VERSIONS, Scene, parse_quantity,
+    Adhesion, Document, Material, Measured, Move, Numerics, Roughness, SCENE_VERSION, Scene, parse_quantity,
 };
 use crate::simulation::equivalent_springs;
 use crate::spectrum::analyse;
@@ -159,7 +159,7 @@ impl SurfaceArguments {
         // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
         let length = round_to(length, 12);
         Scene {
-            version: *SCENE_VERSIONS.end(),
+            version: SCENE_VERSION,
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
             notice: String::new(),
             material: Material::effective(modulus),
@@ -182,7 +182,7 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
         check_file(file, "ron", arguments.output.force)?;
     }
     let measured = arguments.surfaces()?;
-    let mut options = measured.options(false);
+    let mut options = measured.options();
     options.spectrum.tip_radius = arguments.in_metres("--tip-radius", arguments.tip_radius)?;
     let mut faces = vec![face(&arguments.files, &options)?];
     if let Some(opposite) = &arguments.opposite {

@@ -275,7 +275,7 @@ mod tests {
         assert!((residual / fit.residual - 1.0).abs() < 1e-9, "{residual} {}", fit.residual);
         assert!((fit.residual / curve.noise / fit.residual_over_noise - 1.0).abs() < 1e-9);
         let scene = fit.document.scene();
-        assert_eq!(scene.adhesion.unwrap().work, Some(fit.parameters[0].value));
+        assert_eq!(scene.adhesion.unwrap().work(), Some(fit.parameters[0].value));
         assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
         // A wrong stiffness does not describe the curve, and says so.
         let mut wrong = made;

@@ -238,7 +238,7 @@ mod made {
 
     pub(super) fn truth(made: &Made, parameter: Parameter) -> f64 {
         match parameter {
-            Parameter::Work => made.scene.adhesion.unwrap().work.unwrap(),
+            Parameter::Work => made.scene.adhesion.unwrap().work().unwrap(),
             Parameter::Modulus => made.scene.material.effective_modulus(),
             Parameter::Offset => made.offset,
             Parameter::Stiffness => stiffness(&made.scene),

@@ -3,7 +3,7 @@
 use super::parameter::{Parameter, Values};
 use super::{ExperimentError, MeasuredCurve};
 use crate::analysis::Governing;
-use crate::scene::{Document, Scene, SceneErrors, ron_float};
+use crate::scene::{Adhesion, Document, Scene, SceneErrors, ron_float};
 use crate::text::round_to;
 
 /// A change of a field: its path and its value in RON.
@@ -29,30 +29,22 @@ pub(super) fn radius_of(scene: &Scene) -> Option<f64> {
 
 /// Largest work of adhesion on closing that a scene allows, J/m².
 pub(super) fn most_on_closing(scene: &Scene) -> f64 {
-    scene.adhesion.and_then(|adhesion| adhesion.closing_work).unwrap_or(f64::INFINITY)
+    scene.adhesion.and_then(|adhesion| adhesion.closing_work()).unwrap_or(f64::INFINITY)
 }
 
-/// The document with works of adhesion in place of κ or e_el/γ, and with the amplitude of the roughness that these set.
-/// Without adhesion it gets this work, J/m², if there is one.
+/// The document with works of adhesion in place of κ or e_el/γ. Without adhesion it gets this work, J/m², if there is one.
 pub(super) fn written_out(
     document: &Document,
     governing: &Governing,
     start: Option<f64>,
 ) -> Result<Document, SceneErrors> {
-    let adhesion = document.scene().adhesion.unwrap_or_default();
-    let mut changes = Vec::new();
-    let known = governing.adhesive_work();
-    if let Some(work) = known.or(start).filter(|_| known.is_none() || adhesion.parameter().is_some()) {
-        let [closing, range] =
-            [("closing_work", adhesion.closing_work), ("range", adhesion.range)].map(|(name, value)| {
-                value.map_or_else(String::new, |value| format!(", {name}: {}", ron_float(value)))
-            });
-        changes.push(("adhesion".to_owned(), format!("(work: {}{closing}{range})", ron_float(work))));
-    }
-    if let Some(amplitude) = governing.amplitude.filter(|_| adhesion.sets_amplitude()) {
-        changes.push(change("roughness.rms_height", amplitude.rms_height));
-    }
-    document.set_all(&changes)
+    let (adhesion, known) = (document.scene().adhesion, governing.adhesive_work());
+    let is_by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
+    let Some(work) = known.or(start).filter(|_| known.is_none() || is_by_parameter) else {
+        return Ok(document.clone());
+    };
+    let by_work = Adhesion::by_work(work);
+    document.with_adhesion(adhesion.map_or(by_work, |adhesion| adhesion.with_work(work)))
 }
 
 /// The document with the values found, loaded as the curve was.
@@ -68,8 +60,8 @@ pub(super) fn with_values(
         Some(ratio) => change("material.youngs_modulus", modulus * (1.0 - ratio) * (1.0 + ratio)),
         None => change("material.effective_modulus", modulus),
     };
-    let has_closing =
-        free(Parameter::ClosingWork) || document.scene().adhesion.is_some_and(|of| of.closing_work.is_some());
+    let has_closing = free(Parameter::ClosingWork)
+        || document.scene().adhesion.is_some_and(|of| of.closing_work().is_some());
     let rows = [
         (free(Parameter::Work), change("adhesion.work", values[Parameter::Work as usize])),
         (has_closing, change("adhesion.closing_work", values[Parameter::ClosingWork as usize])),
@@ -123,14 +115,14 @@ mod tests {
         let all = with_values(&document, &values, |_| true, &curve).unwrap();
         let scene = all.scene();
         let adhesion = scene.adhesion.unwrap();
-        assert_eq!((adhesion.work, adhesion.closing_work), (Some(0.04), Some(0.03)));
+        assert_eq!((adhesion.work(), adhesion.closing_work()), (Some(0.04), Some(0.03)));
         assert_eq!((scene.material.effective_modulus(), scene.loading_stiffness), (3e6, Some(5.0)));
         assert_eq!((radius_of(scene), most_on_closing(scene)), (Some(6e-6), 0.03));
         // Those that are not free stay.
         let none = with_values(&document, &values, |_| false, &curve).unwrap();
         let scene = none.scene();
         assert_eq!(
-            scene.adhesion.map(|adhesion| (adhesion.work, adhesion.closing_work)),
+            scene.adhesion.map(|adhesion| (adhesion.work(), adhesion.closing_work())),
             Some((Some(1e-3), None))
         );
         assert_eq!((scene.material.effective_modulus(), scene.loading_stiffness), (2e6, Some(3.0)));
@@ -143,6 +135,6 @@ mod tests {
         // A work on closing that the scene has follows the work of adhesion.
         let closing = document.set_all(&[("adhesion.closing_work".to_owned(), "1e-4".to_owned())]).unwrap();
         let found = with_values(&closing, &values, |one| one == Parameter::Work, &curve).unwrap();
-        assert_eq!(found.scene().adhesion.unwrap().closing_work, Some(0.03));
+        assert_eq!(found.scene().adhesion.unwrap().closing_work(), Some(0.03));
     }
 }

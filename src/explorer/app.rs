@@ -22,7 +22,7 @@ use crate::contact::{CurvePoint, LegRecord};
 use crate::draw::AxisScale;
 use crate::export::LoopQuantities;
 use crate::export::section::Section;
-use crate::scene::{Document, Move, Observer, Scene, ron_float};
+use crate::scene::{Document, Move, Observer, ron_float};
 use crate::simulation::Outcome;
 use crate::study::{Axis, Grid, Place, Quantity};
 use std::sync::Arc;
@@ -224,12 +224,7 @@ impl App {
             && before.length == now.length
             && before.form == now.form
             && before.material == now.material;
-        // An rms height that follows from γ and κ or e_el/γ changes with them.
-        let both = |scene: &Scene| scene.adhesion.is_some_and(|adhesion| adhesion.sets_amplitude());
-        if !same_line || ((both(before) || both(now)) && before.adhesion != now.adhesion) {
-            return None;
-        }
-        Some(computed.outcome.governing.with_adhesion(now.adhesion))
+        same_line.then(|| computed.outcome.governing.with_adhesion(now.adhesion))
     }
 
     /// Returns true if the present scene has been computed.

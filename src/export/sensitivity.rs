@@ -4,7 +4,7 @@ use super::report::{Json, Report};
 use super::sheet::Sheet;
 use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer, Shape, Sign, Span};
 use crate::io::{Table, object};
-use crate::scene::{Adhesion, Scene, format_quantity, format_rounded};
+use crate::scene::{Scene, format_quantity, format_rounded};
 use crate::study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
 use crate::text::grouped;
 
@@ -143,7 +143,9 @@ impl SensitivityReport<'_> {
             return missing.to_owned();
         }
         let follows = match self.scene.adhesion {
-            Some(Adhesion { work: None, .. }) => ", and the work of adhesion follows from them",
+            Some(adhesion) if adhesion.parameter().is_some() => {
+                ", and the work of adhesion follows from them"
+            }
             _ => "",
         };
         let seeds =

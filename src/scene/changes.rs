@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::field::Field;
-use super::model::{Move, Roughness, Scene};
+use super::model::{Move, Scene};
 use super::quantity::format_quantity;
 use super::stages::loading_text;
 use super::tree::{Tree, differing};
@@ -52,13 +52,13 @@ impl Document {
     /// The fields, other than texts, with different values in this scene and another one: each by itself where both
     /// scenes make the same choices, else their group; loading stages one by one if both scenes have as many.
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
-        let scenes = [self, other].map(|document| with_stated_use(document.scene()));
-        let [here, there] = scenes.each_ref().map(Tree::of);
+        let scenes = [self, other].map(|document| &**document.scene());
+        let [here, there] = scenes.map(Tree::of);
         let mut changes = Vec::new();
         for field in differing([&here, &there], |one, other| one == other) {
             match field.path {
                 "title" | "notice" | "version" => {}
-                "loading" => changes.extend(changed_stages(&scenes)),
+                "loading" => changes.extend(changed_stages(scenes)),
                 _ => {
                     let [from, to] = [&here, &there].map(|tree| in_words(tree, field));
                     changes.push(Change { name: symbol_or_name(field).to_owned(), from, to });
@@ -70,8 +70,8 @@ impl Document {
 }
 
 /// The changed stages of two histories, or the histories as a whole where these are shorter to name.
-fn changed_stages(scenes: &[Scene; 2]) -> Vec<Change> {
-    let [one, other] = scenes.each_ref().map(|scene| &scene.loading);
+fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
+    let [one, other] = scenes.map(|scene| &scene.loading);
     let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);
     let changes: Vec<Change> = pairs.map(change_of_stage).collect();
     let [from, to] = [one, other].map(|loading| loading_text(loading, format_quantity));
@@ -90,15 +90,6 @@ fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
         _ => String::new(),
     };
     Change { name: format!("stage {}{symbol}", index + 1), from, to }
-}
-
-/// The scene with an explicit use of its measured profile as the line, which is mostly omitted.
-fn with_stated_use(scene: &Scene) -> Scene {
-    let mut stated = scene.clone();
-    if let Some(Roughness::Measured(measured)) = &mut stated.roughness {
-        measured.as_line = Some(scene.measured_as_line());
-    }
-    stated
 }
 
 #[cfg(test)]
@@ -123,7 +114,7 @@ mod tests {
         assert_eq!(changes(&scene, &other), ["stage 1 F 10 µN → 20 µN"]);
         let other = scene.set("loading", "5 µN").unwrap();
         assert_eq!(changes(&scene, &other), ["loading 10 µN, separation → 5 µN"]);
-        let text = "(version: 2, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
+        let text = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
         let line = Document::parse(text, "test").unwrap();
         let profile = line.set("roughness.as_line", "true").unwrap();
         assert_eq!(changes(&line, &profile), ["profile as line false → true"]);

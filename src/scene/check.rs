@@ -6,7 +6,7 @@
 
 use serde_json::Value;
 
-use super::adhesion::Adhesion;
+use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
 use super::field::{FILE_NAME, Field, LEG_INDENTATION};
 use super::fields::{FIELDS, field};
@@ -35,7 +35,6 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     found.check_form();
     found.check_roughness();
     found.check_adhesion();
-    found.check_amplitude();
     found.check_loading();
     found.errors
 }
@@ -203,8 +202,18 @@ impl Found<'_> {
         let scene = self.scene;
         match &scene.roughness {
             None => {}
-            &Some(Roughness::SelfAffine { modes, wavelengths, roll_off, .. }) => {
+            &Some(Roughness::SelfAffine {
+                rms_height, rms_gradient, modes, wavelengths, roll_off, ..
+            }) => {
                 self.check_waves(modes, wavelengths, roll_off);
+                let wrong = match (rms_height, rms_gradient) {
+                    (Some(_), Some(_)) => {
+                        "rms_height and rms_gradient determine each other: give one of them"
+                    }
+                    (None, None) => "the amplitude is missing: give rms_height or rms_gradient",
+                    _ => "",
+                };
+                self.require(wrong.is_empty(), &[], "roughness", "", wrong);
             }
             // A profile is one row or one column; several files have a common spectrum and no profile.
             Some(Roughness::Measured(measured)) => {
@@ -213,7 +222,7 @@ impl Found<'_> {
                     let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
                     self.require(is_unit, &[path], path, UnitError::ALLOWED, "unit of the file");
                 }
-                let (has_both, as_line) = (row.is_some() && column.is_some(), scene.measured_as_line());
+                let (has_both, as_line) = (row.is_some() && column.is_some(), measured.as_line);
                 let reason = "a profile is a row or a column: give one of them";
                 self.require(!has_both, &[], "roughness.column", "", reason);
                 let reason = "spectra of two faces add, their profiles do not: give as_line: false";
@@ -268,61 +277,23 @@ impl Found<'_> {
         self.require(is_met, &of, roll_off, &allowed, "a roll-off lies within the waves of the profile");
     }
 
+    /// Works of adhesion in their order, and a parameter only with roughness.
     fn check_adhesion(&mut self) {
-        let Some(adhesion) = self.scene.adhesion else { return };
-        let Adhesion { work, closing_work, kappa, elastic_energy_ratio, .. } = adhesion;
-        let (has_two, has_none) = (
-            kappa.is_some() && elastic_energy_ratio.is_some(),
-            work.or(kappa).or(elastic_energy_ratio).is_none(),
-        );
-        let reason = "kappa and elastic_energy_ratio determine each other: give one of them";
-        self.require(!has_two, &[], "adhesion", "", reason);
-        self.require(!has_none, &[], "adhesion", "", "give work, kappa or elastic_energy_ratio");
-        let path = "adhesion.closing_work";
-        match closing_work.zip(work) {
+        let Some(Adhesion { strength, .. }) = self.scene.adhesion else { return };
+        match strength {
             // A spring that attaches with more energy than it detaches with would detach at once.
-            Some((closing, work)) => {
-                let allowed = format!("0 to {} J/m²", ron_float(work));
-                self.require(closing <= work, &["adhesion"], path, &allowed, "at most adhesion.work");
+            Strength::Work { opening, closing } => {
+                let (path, allowed) = ("adhesion.closing_work", format!("0 to {} J/m²", ron_float(opening)));
+                let is_met = closing.is_none_or(|closing| closing <= opening);
+                self.require(is_met, &["adhesion"], path, &allowed, "at most adhesion.work");
             }
-            None => {
-                let reason = "closing_work requires adhesion.work, which is missing: κ and e_el/γ refer to one work of \
-                              adhesion";
-                self.require(closing_work.is_none(), &["adhesion"], path, "", reason);
-            }
-        }
-    }
-
-    /// Amplitude of the roughness, work of adhesion and κ or e_el/γ: any two determine the third.
-    fn check_amplitude(&mut self) {
-        let adhesion = self.scene.adhesion.unwrap_or_default();
-        let (work, parameter) = (adhesion.work, adhesion.parameter().map(|(parameter, _)| parameter));
-        let symbol = parameter.map_or("", |parameter| parameter.symbol());
-        let (path, reason) = match (&self.scene.roughness, work, parameter) {
-            (None, _, Some(parameter)) => {
+            Strength::Parameter(parameter, _) if self.scene.roughness.is_none() => {
                 let end = "there is none: give roughness, or adhesion by work";
-                let reason = format!("{symbol} measures adhesion against roughness, and {end}");
-                return self.refuse(parameter.path(), String::new(), "", &reason);
+                let reason = format!("{} measures adhesion against roughness, and {end}", parameter.symbol());
+                self.refuse(parameter.path(), String::new(), "", &reason);
             }
-            (Some(Roughness::SelfAffine { rms_height: Some(_), rms_gradient: Some(_), .. }), ..) => {
-                ("roughness", "rms_height and rms_gradient determine each other: give one of them".into())
-            }
-            (Some(roughness), Some(_), Some(parameter)) if roughness.has_amplitude() => {
-                let end = "two determine the third, so leave one out or set it to None";
-                ("adhesion", format!("roughness amplitude, work and {}: {end}", parameter.name()))
-            }
-            (Some(roughness), ..) if roughness.has_amplitude() => return,
-            (Some(_), Some(0.0), Some(_)) => {
-                let end = "give rms_height or rms_gradient";
-                ("roughness", format!("without work of adhesion {symbol} does not set an amplitude: {end}"))
-            }
-            (None, ..) | (Some(_), Some(_), Some(_)) => return,
-            (Some(_), ..) => {
-                let end = "give rms_height or rms_gradient, or adhesion by work and kappa";
-                ("roughness", format!("the amplitude is missing: {end}"))
-            }
-        };
-        self.require(false, &[], path, "", &reason);
+            Strength::Parameter(..) => {}
+        }
     }
 
     fn check_loading(&mut self) {
@@ -396,9 +367,16 @@ mod tests {
             ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)", "material = E* = 5.0"),
             ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999)", ""),
             ("roughness.rms_gradient=0.1", "rms_height and rms_gradient determine each other"),
-            ("adhesion.kappa=2.0", "roughness amplitude, work and kappa: two determine the third"),
-            ("adhesion.elastic_energy_ratio=2.0", "work and elastic_energy_ratio: two determine the third"),
-            ("adhesion=(kappa: 2.0, elastic_energy_ratio: 1.0)", "determine each other: give one of them"),
+            (
+                "adhesion.kappa=2.0",
+                "adhesion: the strength of the adhesion is given in one way: type adhesion=(work: 0.05) or \
+                 adhesion=(kappa: 2.0)",
+            ),
+            ("adhesion.work=None; adhesion.elastic_energy_ratio=2.0", ""),
+            (
+                "adhesion=(kappa: 2.0, elastic_energy_ratio: 1.0)",
+                "type adhesion=(kappa: 2.0) or adhesion=(elastic_energy_ratio: 1.0)",
+            ),
             ("adhesion=()", "adhesion: give work, kappa or elastic_energy_ratio"),
             ("adhesion=(work: 0.0)", ""),
             (
@@ -406,8 +384,6 @@ mod tests {
                 "adhesion.kappa: κ measures adhesion against roughness",
             ),
             (no_amplitude, "roughness: the amplitude is missing"),
-            (&format!("{no_amplitude}; adhesion.kappa=2.0"), ""),
-            (&format!("{no_amplitude}; adhesion=(work: 0.0, kappa: 2.0)"), "κ does not set an amplitude"),
             ("adhesion.closing_work=0.05", ""),
             (
                 "adhesion.closing_work=0.0500001",

@@ -1,7 +1,7 @@
 //! Optional effects of a scene beyond the nonadhesive contact of a flat body.
 
 use super::adhesion::{Adhesion, RoughnessParameter};
-use super::model::{Move, Observer, Roughness, Scene};
+use super::model::{Move, Roughness, Scene};
 use crate::surface::Form;
 use crate::text::round_to;
 
@@ -16,50 +16,25 @@ pub enum Effect {
     Adhesion,
     /// Loading stages that may pull; off: pressed and held.
     Unloading,
-    /// The list of contact patches.
-    Fragments,
-    /// The histogram of heights.
-    HeightHistogram,
 }
 
 impl Effect {
     /// All effects, in the order of a scene file.
-    pub const ALL: [Effect; 6] = [
-        Effect::Form,
-        Effect::Roughness,
-        Effect::Adhesion,
-        Effect::Unloading,
-        Effect::Fragments,
-        Effect::HeightHistogram,
-    ];
-
-    /// Name and path of the effect, and its observed quantity.
-    const fn row(self) -> (&'static str, &'static str, Option<Observer>) {
-        match self {
-            Effect::Form => ("form", "form", None),
-            Effect::Roughness => ("roughness", "roughness", None),
-            Effect::Adhesion => ("adhesion", "adhesion", None),
-            Effect::Unloading => ("unloading", "loading", None),
-            Effect::Fragments => ("contact patches in results", "observe", Some(Observer::Fragments)),
-            Effect::HeightHistogram => {
-                ("height histogram in results", "observe", Some(Observer::HeightHistogram))
-            }
-        }
-    }
+    pub const ALL: [Effect; 4] = [Effect::Form, Effect::Roughness, Effect::Adhesion, Effect::Unloading];
 
     /// Technical name.
     pub const fn name(self) -> &'static str {
-        self.row().0
+        match self {
+            Effect::Form => "form",
+            Effect::Roughness => "roughness",
+            Effect::Adhesion => "adhesion",
+            Effect::Unloading => "unloading",
+        }
     }
 
     /// Path of the effect's [field](super::FIELDS).
     pub const fn path(self) -> &'static str {
-        self.row().1
-    }
-
-    /// Observed quantity of the effect.
-    pub(super) const fn observer(self) -> Option<Observer> {
-        self.row().2
+        if let Effect::Unloading = self { "loading" } else { self.name() }
     }
 
     /// Returns true if the scene has the effect. A work of adhesion of zero is no adhesion.
@@ -67,16 +42,14 @@ impl Effect {
         match self {
             Effect::Form => scene.form.is_some(),
             Effect::Roughness => scene.roughness.is_some(),
-            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work != Some(0.0)),
+            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work() != Some(0.0)),
             Effect::Unloading => may_pull(&scene.loading),
-            _ => self.observer().is_some_and(|observer| scene.observe.contains(&observer)),
         }
     }
 
     /// The scene with the effect, at values that suit the others.
     pub(super) fn suited(self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
-        let adhesion = scene.adhesion.unwrap_or_default();
         match self {
             // At the ends of the profile its height is an eighth of the length.
             Effect::Form => scene.form = Some(Form::Paraboloid { radius: scene.length }),
@@ -94,16 +67,15 @@ impl Effect {
                     seed: 1,
                 });
             }
-            Effect::Adhesion if scene.roughness.is_some() => {
-                let kappa = Adhesion::by_parameter(RoughnessParameter::Kappa, 2.0);
-                scene.adhesion = Some(Adhesion { range: adhesion.range, ..kappa });
+            Effect::Adhesion => {
+                let usual = match scene.roughness {
+                    Some(_) => Adhesion::by_parameter(RoughnessParameter::Kappa, 2.0),
+                    None => Adhesion::by_work(0.05),
+                };
+                let range = scene.adhesion.and_then(|adhesion| adhesion.range);
+                scene.adhesion = Some(Adhesion { range, ..usual });
             }
-            Effect::Adhesion => scene.adhesion = Some(adhesion.with_work(0.05)),
             Effect::Unloading => scene.loading.push(Move::ToSeparation),
-            Effect::Fragments | Effect::HeightHistogram => {
-                let on = |effect: &Effect| *effect == self || effect.is_on(&scene);
-                scene.observe = Effect::ALL.into_iter().filter(on).filter_map(Effect::observer).collect();
-            }
         }
         scene
     }

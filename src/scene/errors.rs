@@ -148,9 +148,9 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::File { name: name.into(), place: Some(line_column(text, offset)) }
 }
 
-/// Overrides that cause an error: those of its field, else all of them.
+/// Overrides that cause an error: the overrides of its field, of a group around it or of a field inside it, else all.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
-    let is_behind = |path: &str| is_within(&error.field, path);
+    let is_behind = |path: &str| is_within(&error.field, path) || is_within(path, &error.field);
     let is_known = overrides.iter().any(|(path, _)| is_behind(path));
     let behind = overrides.iter().filter(|(path, _)| !is_known || is_behind(path));
     Origin::Overrides(behind.map(|(path, value)| format!("{path}={value}")).collect())

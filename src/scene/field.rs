@@ -28,7 +28,12 @@ pub struct Field {
     pub default: &'static str,
     /// Meaning in one line.
     pub meaning: &'static str,
+    /// The value of a typed text in RON.
+    pub(super) read: Read,
 }
+
+/// Returns in RON what is typed, without blanks around it, as the value of a field.
+pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 
 /// Step of a field for a key press.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,14 +58,15 @@ pub enum Step {
 
 /// A required field, with the usual unit and step of its range; its name is its path.
 pub(super) const fn row(path: &'static str, range: Range) -> Field {
-    let (step, unit) = match range {
-        Range::Real(..) => (Step::Logarithmic, "1"),
-        Range::Whole(..) => (Step::Typed, "1"),
-        Range::Band(..) | Range::Wavelengths(..) => (Step::Band, "1"),
-        Range::Choice(_) => (Step::Choice, ""),
-        Range::Text { .. } | Range::List { .. } | Range::Group => (Step::Typed, ""),
+    let (step, unit, read): (_, _, Read) = match range {
+        Range::Real(..) => (Step::Logarithmic, "1", read_number),
+        Range::Whole(..) => (Step::Typed, "1", read_whole),
+        Range::Band(..) | Range::Wavelengths(..) => (Step::Band, "1", read_pair),
+        Range::Choice(_) => (Step::Choice, "", read_choice),
+        Range::Text { .. } => (Step::Typed, "", read_text),
+        Range::List { .. } | Range::Group => (Step::Typed, "", |_, typed| Ok(typed.to_owned())),
     };
-    Field { path, variant: None, name: path, symbol: "", unit, range, step, default: "", meaning: "" }
+    Field { path, variant: None, name: path, symbol: "", unit, range, step, default: "", meaning: "", read }
 }
 
 /// Changes of a row in the table of fields.
@@ -92,6 +98,10 @@ impl Field {
 
     pub(super) const fn meaning(self, meaning: &'static str) -> Field {
         Field { meaning, ..self }
+    }
+
+    pub(super) const fn read(self, read: Read) -> Field {
+        Field { read, ..self }
     }
 }
 
@@ -198,62 +208,95 @@ impl Field {
     /// # Errors
     /// Text that begins as a number and continues as another unit, or a number that is too large.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
-        let typed = typed.trim();
-        if self.path == "roughness" && is_file_name(typed) {
-            return Ok(format!("Measured(file: {}, as_line: false)", ron_string(typed)));
-        }
-        if self.path == "loading" && self.variant.is_none() && ron::from_str::<Vec<Move>>(typed).is_err() {
-            let stages: Vec<_> = read_loading(typed)?.iter().map(stage_in_ron).collect();
-            return Ok(format!("[{}]", stages.join(", ")));
-        }
-        if self.path == "form" && is_file_name(typed) {
-            return Ok(format!("Table(file: {})", ron_string(typed)));
-        }
-        let is_omitted = self.range == FILE_NAME && (typed.is_empty() || typed == "None");
-        let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
-        if matches!(self.range, Range::Text { .. }) && !is_omitted && !is_quoted {
-            return Ok(ron_string(typed));
-        }
-        let whole =
-            |value: f64| (value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value)).then_some(value as u64);
-        let is_pair = matches!(self.range, Range::Wavelengths(..) | Range::Band(..));
-        if let Some((first, last)) = split_pair(typed).filter(|_| is_pair) {
-            let [first, last] = [first, last].map(|end| parse_quantity(end.trim(), self.unit));
-            let written = |end: f64| match self.range {
-                Range::Band(..) => whole(end).map_or_else(|| ron_float(end), |end| end.to_string()),
-                _ => ron_float(end),
-            };
-            return Ok(format!("({}, {})", written(first?), written(last?)));
-        }
-        if let Range::Choice(choices) = self.range
-            && let Some(choice) = choices.iter().find(|choice| choice_in_words(choice) == typed)
-        {
-            return Ok((*choice).to_owned());
-        }
-        let digits: String = typed.split_whitespace().collect();
-        if matches!(self.range, Range::Whole(..)) && digits.parse::<u64>().is_ok() {
-            return Ok(digits);
-        }
-        if !typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.')) {
-            return Ok(typed.to_string());
-        }
-        let is_number = ron::from_str::<f64>(typed).is_ok();
-        match self.range {
-            // A work or a modulus with its unit, where the choice is made by a name.
-            Range::Choice(..) if self.path == "adhesion" && !is_number => {
-                parse_quantity(typed, "J/m²").map(|work| format!("(work: {})", ron_float(work)))
-            }
-            Range::Real(..) | Range::Wavelengths(..) if !is_number => {
-                parse_quantity(typed, self.unit).map(ron_float)
-            }
-            // A seed has more digits than a floating-point number keeps.
-            Range::Whole(..) | Range::Band(..) if ron::from_str::<u64>(typed).is_err() => {
-                let value = whole(parse_quantity(typed, self.unit)?);
-                Ok(value.map_or_else(|| typed.to_string(), |value| value.to_string()))
-            }
-            _ => Ok(typed.to_string()),
-        }
+        (self.read)(self, typed.trim())
     }
+}
+
+fn begins_as_number(typed: &str) -> bool {
+    typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
+}
+
+/// A number in RON, or one with a prefix and the unit.
+fn read_number(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
+        true => parse_quantity(typed, field.unit).map(ron_float),
+        false => Ok(typed.to_owned()),
+    }
+}
+
+fn whole(value: f64) -> Option<String> {
+    (value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value)).then(|| (value as u64).to_string())
+}
+
+/// A whole number, with blanks between its digits or with a prefix.
+fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let digits: String = typed.split_whitespace().collect();
+    if digits.parse::<u64>().is_ok() {
+        return Ok(digits);
+    }
+    // A seed has more digits than a floating-point number keeps.
+    match begins_as_number(typed) && ron::from_str::<u64>(typed).is_err() {
+        true => Ok(whole(parse_quantity(typed, field.unit)?).unwrap_or_else(|| typed.to_owned())),
+        false => Ok(typed.to_owned()),
+    }
+}
+
+/// Two numbers, or one as for a field of one number.
+fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let is_whole = matches!(field.range, Range::Band(..));
+    let Some((first, last)) = split_pair(typed) else {
+        return if is_whole { read_whole(field, typed) } else { read_number(field, typed) };
+    };
+    let [first, last] = [first, last].map(|end| parse_quantity(end.trim(), field.unit));
+    let written = |end: f64| whole(end).filter(|_| is_whole).unwrap_or_else(|| ron_float(end));
+    Ok(format!("({}, {})", written(first?), written(last?)))
+}
+
+/// A text with or without quotes.
+fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let is_omitted = field.range == FILE_NAME && (typed.is_empty() || typed == "None");
+    let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
+    Ok(if is_omitted || is_quoted { typed.to_owned() } else { ron_string(typed) })
+}
+
+/// A choice in RON or in words.
+fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let Range::Choice(choices) = field.range else { return Ok(typed.to_owned()) };
+    let in_words = choices.iter().find(|choice| choice_in_words(choice) == typed);
+    Ok(in_words.map_or(typed, |choice| choice).to_owned())
+}
+
+/// A form, or the file of a table.
+pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match is_file_name(typed) {
+        true => Ok(format!("Table(file: {})", ron_string(typed))),
+        false => read_choice(field, typed),
+    }
+}
+
+/// A roughness, or the file of a measured surface.
+pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match is_file_name(typed) {
+        true => Ok(format!("Measured(file: {})", ron_string(typed))),
+        false => read_choice(field, typed),
+    }
+}
+
+/// An adhesion, or a work of adhesion with its unit.
+pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
+        true => parse_quantity(typed, "J/m²").map(|work| format!("(work: {})", ron_float(work))),
+        false => read_choice(field, typed),
+    }
+}
+
+/// A list of loading stages in RON or in words.
+pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityError> {
+    if ron::from_str::<Vec<Move>>(typed).is_ok() {
+        return Ok(typed.to_owned());
+    }
+    let stages: Vec<_> = read_loading(typed)?.iter().map(stage_in_ron).collect();
+    Ok(format!("[{}]", stages.join(", ")))
 }
 
 /// The two parts of a typed pair: `4, 512`, `4–512`, `4 to 512`, in brackets or not.
@@ -306,7 +349,7 @@ mod tests {
             "length|-inf|-inf",
             "form.angle|90°|1.5707963267948966",
             "title|\"10 µm\"|\"10 µm\"",
-            "roughness|a b/1.txt|Measured(file: \"a b/1.txt\", as_line: false)",
+            "roughness|a b/1.txt|Measured(file: \"a b/1.txt\")",
             "roughness|Measured(file: \"a.txt\")|Measured(file: \"a.txt\")",
             "roughness|None|None",
             "roughness.wavelengths|100 µm, 0.2um|(1.0e-4, 2.0e-7)",

@@ -7,14 +7,13 @@ use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
 
 use super::field::Step::{Doubling, Integer, Linear, Typed};
-use super::field::{FILE_NAME, Field, row};
+use super::field::{FILE_NAME, Field, read_adhesion, read_form, read_roughness, read_stages, row};
 use super::range::Range::{self, Band, Choice, List, Text, Wavelengths, Whole};
 use super::stages::{MOST_STAGES, STAGES};
 use super::text::read_ron;
 
-/// Supported versions of the scene file. In version 1 a measured profile is the line itself unless
-/// `roughness.as_line` states otherwise, in version 2 the line is the equivalent one.
-pub const SCENE_VERSIONS: std::ops::RangeInclusive<u32> = 1..=2;
+/// Version of the scene file.
+pub const SCENE_VERSION: u32 = 1;
 
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
@@ -59,7 +58,7 @@ const UNIT: Range = Text { least: 0, most: 20, lines: false };
 // Two or three lines for a row: what it is, and what it means.
 #[rustfmt::skip]
 pub const FIELDS: &[Field] = &[
-    row("version", Whole(*SCENE_VERSIONS.start() as u64, *SCENE_VERSIONS.end() as u64))
+    row("version", Whole(SCENE_VERSION as u64, SCENE_VERSION as u64))
         .meaning("version of the scene file format"),
     row("title", Text { least: 0, most: 200, lines: false }).default("\"\"")
         .meaning("title of the scene, on one line"),
@@ -76,7 +75,7 @@ pub const FIELDS: &[Field] = &[
         .default("None").meaning("effective modulus E/(1 − ν²), in place of E and ν"),
     row("length", Range::closed(1e-9, 10.0)).quantity("apparent diameter", "L", "m")
         .meaning("apparent diameter of the contact: length of the profile"),
-    row("form", FORMS).default("None")
+    row("form", FORMS).default("None").read(read_form)
         .meaning("macroscopic shape of the rigid body; default: nominally flat"),
     row("form.radius", Range::above(0.0, 1e9)).of("Paraboloid").quantity("radius of curvature", "R", "m")
         .meaning("radius of curvature of the paraboloid at its apex"),
@@ -99,7 +98,7 @@ pub const FIELDS: &[Field] = &[
         .meaning("file of the depths f of a body of revolution at ascending radii r from 0, relative to the scene file"),
     row("form.unit", UNIT).of("Table").name("unit of the table").default("\"\"")
         .meaning("unit of lengths where the table states none: m, mm, um, nm; default: m"),
-    row("roughness", ROUGHNESS).default("None")
+    row("roughness", ROUGHNESS).default("None").read(read_roughness)
         .meaning("roughness of the rigid profile; default: smooth"),
     row("roughness.hurst", Range::between(0.0, 1.0)).of("SelfAffine").quantity("Hurst exponent", "H", "1")
         .step(Linear(0.01, 0.1))
@@ -121,8 +120,8 @@ pub const FIELDS: &[Field] = &[
     row("roughness.further_files", List { of: &["\"other.txt\""], least: 0, most: 10_000 }).of("Measured")
         .name("further files of the surface").default("[]")
         .meaning("further files of the same face, samples of one roughness: the spectrum is estimated from all of them"),
-    row("roughness.as_line", SWITCH).of("Measured").name("profile as line").default("None")
-        .meaning("true: the measured profile is the line itself, with 29 % too little slope; false: its equivalent line is, with random phases; default: true in version 1, false in version 2"),
+    row("roughness.as_line", SWITCH).of("Measured").name("profile as line").default("false")
+        .meaning("true: the measured profile is the line itself, with 29 % too little slope; false: its equivalent line is, with random phases"),
     row("roughness.opposite", FILE_NAME).of("Measured").name("measured surface of the opposite face")
         .default("None")
         .meaning("file of the opposite face, relative to the scene file: the spectra of both faces add; default: smooth"),
@@ -161,6 +160,7 @@ pub const FIELDS: &[Field] = &[
     row("roughness.seed", Whole(0, u64::MAX)).of("Measured").name("seed of the equivalent line")
         .step(Integer(1, 100)).default("1").meaning("seed of the random phases of the equivalent line"),
     row("adhesion", Choice(&["(work: 0.05)", "(kappa: 2.0)", "(elastic_energy_ratio: 0.5)"])).default("None")
+        .read(read_adhesion)
         .meaning("adhesion of the surfaces, by work of adhesion, κ or e_el/γ; default: none"),
     row("adhesion.work", Range::closed(0.0, 1e6)).quantity("work of adhesion", "γ", "J/m²").default("None")
         .meaning("energy per unit area needed to separate the interface"),
@@ -177,6 +177,7 @@ pub const FIELDS: &[Field] = &[
     row("loading_stiffness", Range::closed(1e-12, 1e12)).quantity("loading stiffness", "k", "N/m").default("None")
         .meaning("stiffness of the instrument, such as a cantilever, that moves the body: D = d + F/k; default: rigid, D = d"),
     row("loading", List { of: &STAGES, least: 1, most: MOST_STAGES }).default("[ToZeroForce, ToSeparation]")
+        .read(read_stages)
         .meaning("loading stages in their order, from separation"),
     row("numerics", Range::Group).default("()")
         .meaning("resolution and method of the computation"),

@@ -20,11 +20,10 @@ pub struct Measured {
     #[cfg_attr(feature = "tui", arg(skip))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,
-    /// True if the measured profile itself is the line. `None`: true in scenes of version 1, false in those of
-    /// version 2; see [`Scene::measured_as_line`](super::Scene::measured_as_line).
+    /// True if the measured profile itself is the line, false if its equivalent line is.
     #[cfg_attr(feature = "tui", arg(skip))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub as_line: Option<bool>,
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub as_line: bool,
     /// File of the opposite face, relative to the scene file; the spectra of both faces add.
     #[cfg_attr(feature = "tui", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -121,14 +120,14 @@ impl Measured {
         std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
     }
 
-    /// Options of the readers and of the spectrum for a checked surface, whose profile is the line itself or not.
-    pub fn options(&self, as_line: bool) -> MeasuredOptions {
+    /// Options of the readers and of the spectrum for a checked surface.
+    pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
-            as_line: as_line.then(|| self.detrend.unwrap_or(Detrend::None)),
+            as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),
             reading: ReadOptions {
                 unit: self.unit.parse().ok(),
                 height_unit: self.height_unit.parse().ok(),
-                convention: as_line.then_some(Unit::METRE),
+                convention: self.as_line.then_some(Unit::METRE),
                 spacing: self.spacing,
                 interpolate: self.interpolate,
                 channel: self.channel.and_then(|channel| channel.try_into().ok()),

@@ -20,7 +20,7 @@ pub const SPRINGS_PER_WAVE: u64 = 4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Version of the file format, one of [`SCENE_VERSIONS`](super::SCENE_VERSIONS).
+    /// Version of the file format, [`SCENE_VERSION`](super::SCENE_VERSION).
     pub version: u32,
     /// Title of the scene, one line.
     #[serde(default)]
@@ -92,8 +92,7 @@ impl Material {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Roughness {
-    /// Random-phase self-affine profile, eqs. (4)–(9). Its amplitude is set by `rms_height`, by
-    /// `rms_gradient`, or, if neither is given, by work of adhesion and κ together.
+    /// Random-phase self-affine profile, eqs. (4)–(9). Its amplitude is given by `rms_height` or by `rms_gradient`.
     SelfAffine {
         /// Hurst exponent H.
         hurst: f64,
@@ -117,13 +116,6 @@ pub enum Roughness {
     },
     /// Measured surface, profile or map: its equivalent line, or the profile itself.
     Measured(Measured),
-}
-
-impl Roughness {
-    /// Returns true if the roughness, rather than the adhesion, specifies the amplitude.
-    pub(super) fn has_amplitude(&self) -> bool {
-        !matches!(self, Roughness::SelfAffine { rms_height: None, rms_gradient: None, .. })
-    }
 }
 
 impl Scene {
@@ -179,13 +171,12 @@ impl Scene {
 
     /// Returns true if a measured profile is the line itself.
     pub fn measured_as_line(&self) -> bool {
-        self.measured().is_some_and(|measured| measured.as_line.unwrap_or(self.version < 2))
+        self.measured().is_some_and(|measured| measured.as_line)
     }
 
     /// Options of the readers and of the spectrum for the measured surface.
     pub fn measured_options(&self) -> MeasuredOptions {
-        let options = |measured: &Measured| measured.options(self.measured_as_line());
-        self.measured().map_or_else(MeasuredOptions::default, options)
+        self.measured().map_or_else(MeasuredOptions::default, Measured::options)
     }
 
     /// Files of the measured surfaces, and of the table of the form, relative to the scene file.
@@ -219,7 +210,7 @@ impl Scene {
     /// Seed of the random phases; `None` if the profile has none.
     pub fn seed(&self) -> Option<u64> {
         match self.roughness.as_ref()? {
-            Roughness::Measured(_) if self.measured_as_line() => None,
+            Roughness::Measured(Measured { as_line: true, .. }) => None,
             Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. }) => Some(*seed),
         }
     }

@@ -45,6 +45,10 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
 fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
+    // A reason of the scene's own refers to the group that ends here.
+    if let Error::Message(_) = error.code {
+        return (text[..end].trim_end().len().saturating_sub(1), end);
+    }
     // The span starts before the last token read; if that was only blank or punctuation, the error comes after it.
     let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
     (if text[start..end].contains(something) { start } else { end }, end)
@@ -78,6 +82,7 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
             let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
             SceneError::of(path, found, expected.join(", "), &message)
         }
+        Error::Message(reason) => return (text.nearest_value(path), SceneError::of(path, "", "", reason)),
         Error::NoSuchStructField { .. } | Error::DuplicateStructField { .. } => {
             SceneError::of(path, "", "", &plain(error))
         }
@@ -164,6 +169,8 @@ mod tests {
             "numerics: (points: -5),|24|numerics.points|-5|from 1 to 268435456",
             "title: Hello,|12|title|Hello|text in quotes",
             "adhesion: 0.5,|15|adhesion|0.5|(work: 0.05), (kappa: 2.0) or (elastic_energy_ratio: 0.5)",
+            "adhesion: (work: 0.05, kappa: 2.0),|15|adhesion||type adhesion=(work: 0.05) or adhesion=(kappa: 2.0)",
+            "adhesion: (), // none|15|adhesion||give work, kappa or elastic_energy_ratio",
             "roughness: SelfAffine(hurst: 0.7, modes: (1, 2)),|52|roughness.seed||missing; allowed: a whole number",
             "roughness: SelfAffine(hurst: \"x\"),|34|roughness.hurst|\"x\"|above 0 and below 1",
             "roughness: SelfAffine(hurst: 0.7 seed: 1),|38|roughness||a comma is expected",

@@ -5,7 +5,6 @@ use super::quantity::{QuantityError, parse_quantity};
 use super::range::choice_name;
 use super::text::ron_float;
 use crate::contact::Move;
-use crate::text::round_to;
 use std::mem::discriminant;
 
 /// Most stages of a loading.
@@ -90,10 +89,24 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// A loading as text, with runs of stages that repeat as one item: `10 µN, 3 loops 0 N to 10 µN, separation`. With
+/// A loading as text, with minor loops that repeat as one item: `10 µN, 3 loops 0 N to 10 µN, separation`. With
 /// [`exact_quantity`](super::exact_quantity) as format, [`read_loading`] returns the same loading.
 pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String {
-    runs(loading).iter().map(|run| run.text(format)).collect::<Vec<_>>().join(", ")
+    let (mut items, mut rest) = (Vec::new(), loading);
+    while let Some(&first) = rest.first() {
+        let pairs = rest[1..].chunks_exact(2);
+        let loops = pairs.take_while(|pair| pair[0] == rest[1] && pair[1] == first).count();
+        let (item, stages) = match loops {
+            2.. => (
+                format!("{loops} loops {} to {}", stage_text(&rest[1], format), stage_text(&first, format)),
+                loops,
+            ),
+            _ => (stage_text(&first, format), 0),
+        };
+        items.push(item);
+        rest = &rest[1 + 2 * stages..];
+    }
+    items.join(", ")
 }
 
 /// A loading as [`loading_text`] writes it, in brackets or not; stages may be in RON, with units or not.
@@ -103,8 +116,18 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
 pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     let list = text.trim().strip_prefix('[').and_then(|list| list.strip_suffix(']')).unwrap_or(text);
     let mut loading = Vec::new();
-    for item in list.split(',') {
-        loading.extend(Run::read(item.trim())?.stages());
+    for item in list.split(',').map(str::trim) {
+        let loops =
+            item.split_once(" loops ").and_then(|(count, ends)| Some((count, ends.split_once(" to ")?)));
+        if let Some((count, (low, high))) = loops {
+            let count = count.parse().ok().filter(|count| (1..=MOST_STAGES / 2).contains(count));
+            let count = count.ok_or_else(|| refused(item))?;
+            let [low, high] = [read_stage(low, None)?, read_stage(high, None)?];
+            loading.push(high);
+            loading.extend([low, high].repeat(count));
+        } else {
+            loading.push(read_stage(item, None)?);
+        }
         if loading.len() > MOST_STAGES {
             return Err(QuantityError(format!("too many stages; allowed: at most {MOST_STAGES}")));
         }
@@ -135,85 +158,9 @@ pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityErro
 }
 
 fn refused(text: &str) -> QuantityError {
-    let examples = "10 µN, 200 nm, displacement 200 nm, touch, zero force, separation, 3 loops 5 µN to 10 µN, 4 reversals to 10 µN";
+    let examples = "10 µN, 200 nm, displacement 200 nm, touch, zero force, separation, 3 loops 5 µN to 10 µN";
     let most = MOST_STAGES / 2;
-    QuantityError(format!("{:?} is not a stage; such as {examples} (at most {most})", shown(text)))
-}
-
-/// Part of a loading: a stage, or stages that repeat.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Run {
-    /// A single stage.
-    Stage(Move),
-    /// The second stage, then this number of times the first one and the second one: minor loops.
-    Loops(usize, Move, Move),
-    /// This number of turning points, equally spaced up to this one, each followed by a separation.
-    Reversals(usize, Move),
-}
-
-impl Run {
-    /// Its stages.
-    pub fn stages(self) -> Vec<Move> {
-        match self {
-            Run::Stage(stage) => vec![stage],
-            Run::Loops(count, low, high) => {
-                [high].into_iter().chain((0..count).flat_map(|_| [low, high])).collect()
-            }
-            Run::Reversals(count, high) => {
-                let (kind, number) = kind_and_number(&high);
-                let part = |k| round_to(number.unwrap_or_default() * k as f64 / count as f64, 12);
-                let turn = |k| if k == count { high } else { (STAGE_KINDS[kind].stage)(part(k)) };
-                (1..=count).flat_map(|k| [turn(k), Move::ToSeparation]).collect()
-            }
-        }
-    }
-
-    fn text(self, format: fn(f64, &str) -> String) -> String {
-        let text = |stage| stage_text(&stage, format);
-        match self {
-            Run::Stage(stage) => text(stage),
-            Run::Loops(count, low, high) => format!("{count} loops {} to {}", text(low), text(high)),
-            Run::Reversals(count, high) => format!("{count} reversals to {}", text(high)),
-        }
-    }
-
-    fn read(text: &str) -> Result<Run, QuantityError> {
-        let parsed = |count: &str| count.parse().ok().filter(|count| (1..=MOST_STAGES / 2).contains(count));
-        let number = |count| parsed(count).ok_or_else(|| refused(text));
-        let stage = |text| read_stage(text, None);
-        let (loops, reversals) = (text.split_once(" loops "), text.split_once(" reversals to "));
-        let loops = loops.and_then(|(count, ends)| Some((count, ends.split_once(" to ")?)));
-        match (loops, reversals) {
-            (Some((count, (low, high))), _) => Ok(Run::Loops(number(count)?, stage(low)?, stage(high)?)),
-            (None, Some((count, high))) => Ok(Run::Reversals(number(count)?, stage(high)?)),
-            (None, None) => stage(text).map(Run::Stage),
-        }
-    }
-}
-
-/// The runs of a loading.
-pub fn runs(loading: &[Move]) -> Vec<Run> {
-    let (mut runs, mut rest) = (Vec::new(), loading);
-    while let Some(&first) = rest.first() {
-        let pairs = |from: usize| rest.get(from..).unwrap_or_default().chunks_exact(2);
-        let loops = pairs(1).take_while(|pair| *pair == [rest[1], first]).count();
-        let has_number = |stage| kind_and_number(stage).1.is_some();
-        let turns = pairs(0).take_while(|pair| has_number(&pair[0]) && pair[1] == Move::ToSeparation).count();
-        let run = match (loops, turns) {
-            (2.., _) => Run::Loops(loops, rest[1], first),
-            (_, 2..) => Run::Reversals(turns, rest[2 * turns - 2]),
-            _ => Run::Stage(first),
-        };
-        let stages = run.stages();
-        let (these, others) = rest.split_at(stages.len());
-        // Turning points in other distances are single stages.
-        match these == stages {
-            true => runs.push(run),
-            false => runs.extend(these.iter().map(|stage| Run::Stage(*stage))),
-        }
-        rest = others;
-    }
-    runs
+    QuantityError(format!("{:?} is not a stage, such as {examples} (at most {most} loops)", shown(text)))
 }
 
 #[cfg(test)]
@@ -224,30 +171,27 @@ mod tests {
     use super::Move::*;
     use super::*;
 
-    /// Numbers and stages of which some occur again and again.
-    fn run() -> impl Strategy<Value = Run> {
+    /// A stage, or a minor loop that is repeated, of numbers some of which occur again and again.
+    fn stages() -> impl Strategy<Value = Vec<Move>> {
         let number = prop_oneof![
-            prop::sample::select(vec![1e-5, 5e-6, 2.5e-6, 7.5e-6, 0.0, -2e-6]),
+            prop::sample::select(vec![1e-5, 5e-6, 0.0, -2e-6]),
             (-30.0..30.0_f64, -1.0..1.0_f64).prop_map(|(power, digits)| digits * 10.0_f64.powf(power)),
         ];
         let stage =
             (0..STAGE_KINDS.len(), number).prop_map(|(kind, number)| (STAGE_KINDS[kind].stage)(number));
-        let number_of = |stage: &Move| kind_and_number(stage).1.is_some();
-        let turn = stage.clone().prop_filter("a turning point has a number", number_of);
         prop_oneof![
-            4 => stage.clone().prop_map(Run::Stage),
-            1 => (1..4_usize, stage.clone(), stage).prop_map(|(count, low, high)| Run::Loops(count, low, high)),
-            1 => (1..5_usize, turn).prop_map(|(count, high)| Run::Reversals(count, high)),
+            4 => stage.clone().prop_map(|stage| vec![stage]),
+            1 => (1..4_usize, stage.clone(), stage)
+                .prop_map(|(count, low, high)| [vec![high], [low, high].repeat(count)].concat()),
         ]
     }
 
     proptest! {
         #[test]
-        fn what_is_shown_reads_back_as_the_same_loading(parts in prop::collection::vec(run(), 1..8)) {
-            let loading: Vec<Move> = parts.into_iter().flat_map(Run::stages).collect();
+        fn what_is_shown_reads_back_as_the_same_loading(parts in prop::collection::vec(stages(), 1..8)) {
+            let loading: Vec<Move> = parts.concat();
             let text = loading_text(&loading, exact_quantity);
             prop_assert_eq!(&read_loading(&text), &Ok(loading.clone()), "{}", text);
-            prop_assert_eq!(&read_loading(&format!("[{text}]")), &Ok(loading.clone()), "[{}]", text);
             let ron = format!("[{}]", loading.iter().map(stage_in_ron).collect::<Vec<_>>().join(","));
             prop_assert_eq!(ron::from_str(&ron), Ok(loading.clone()), "{}", ron);
             prop_assert_eq!(read_loading(&ron), Ok(loading), "{}", ron);
@@ -255,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loading_is_a_list_of_stages_and_runs() {
+    fn a_loading_is_a_list_of_stages_and_loops() {
         for (text, loading) in [
             (
                 "10 µN, 0 N, -5 nm, separation",
@@ -265,18 +209,11 @@ mod tests {
                 "2 loops 0 N to 10 µN",
                 vec![ToForce(1e-5), ToForce(0.0), ToForce(1e-5), ToForce(0.0), ToForce(1e-5)],
             ),
-            (
-                "2 reversals to 200 nm",
-                vec![ToIndentation(1e-7), ToSeparation, ToIndentation(2e-7), ToSeparation],
-            ),
             ("zero force, touch", vec![ToZeroForce, ToTouch]),
         ] {
             assert_eq!(read_loading(text).as_ref(), Ok(&loading), "{text}");
             assert_eq!(loading_text(&loading, format_quantity), text);
         }
-        // Turning points in other distances.
-        let loading = [ToForce(1e-5), ToSeparation, ToForce(3e-5), ToSeparation];
-        assert_eq!(loading_text(&loading, format_quantity), "10 µN, separation, 30 µN, separation");
         for (text, usual, stage) in [
             ("20", 0, ToForce(20.0)),
             ("20", 1, ToIndentation(20.0)),
@@ -296,12 +233,12 @@ mod tests {
     #[test]
     fn text_that_is_no_loading_is_refused_with_what_is() {
         for (text, why) in [
-            ("", "\"\" is not a stage; such as 10 µN, 200 nm, displacement 200 nm, touch"),
+            ("", "\"\" is not a stage, such as 10 µN, 200 nm, displacement 200 nm, touch"),
             ("10 µN, separaton", "\"separaton\" is not a stage"),
             ("10 kg", "\"10 kg\" is not a stage"),
             ("[ToForce(10 kg)]", "kg is not a unit of force: use N, mN, µN, nN"),
-            ("0 loops 0 N to 1 N", "4 reversals to 10 µN (at most 50000)"),
-            ("99999999999999999999999 reversals to 1 N", "(at most 50000)"),
+            ("0 loops 0 N to 1 N", "3 loops 5 µN to 10 µN (at most 50000 loops)"),
+            ("4 reversals to 1 N", "\"4 reversals to 1 N\" is not a stage"),
             ("50000 loops touch to 1 N", "too many stages; allowed: at most 100000"),
         ] {
             let refused = read_loading(text).unwrap_err().to_string();

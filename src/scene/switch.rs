@@ -1,69 +1,41 @@
 //! Effects of a document switched off, on and to the next choice.
-//!
-//! Amplitude of the roughness, work of adhesion and κ or e_el/γ determine each other, so that switching one of them
-//! off may require a replacement value. That value follows from the profile, which this module does not know: the
-//! caller passes it from the computed scene.
 
-use super::adhesion::{Adhesion, RoughnessParameter};
+use super::adhesion::Adhesion;
 use super::document::{Document, pair};
 use super::effects::{Effect, pressing};
-use super::errors::{SceneError, SceneErrors};
+use super::errors::SceneErrors;
 use super::field::Field;
-use super::model::{Roughness, Scene};
+use super::model::Scene;
 use super::range::{Range, choice_key};
+use super::text::read_ron;
 use super::tree::{Tree, differing};
-use crate::text::round_to;
 
-/// Values that a scene determines through its profile, known after the computation.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Computed {
-    /// Work of adhesion γ, J/m².
-    pub work_of_adhesion: Option<f64>,
-    /// Roughness–adhesion parameter κ.
-    pub kappa: Option<f64>,
-    /// Elastic energy of conformity over the work of adhesion, e_el/γ.
-    pub elastic_energy_ratio: Option<f64>,
-    /// Root mean square height h of the roughness, m.
-    pub rms_height: Option<f64>,
-}
+/// The usual adhesion of a smooth body.
+const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
     /// This document without an effect; unchanged if the effect is off.
     ///
-    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work. Without adhesion, roughness with
-    /// an amplitude set by adhesion keeps it as an rms height. `computed` has these values for this scene. Without
-    /// unloading, the stage that presses most remains.
+    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work: the work that a key has left, else the usual
+    /// one. Without unloading, the stage that presses most remains.
     ///
     /// # Errors
-    /// A replacement value is not in `computed`, or is invalid.
-    pub fn without(&self, effect: Effect, computed: &Computed) -> Result<Document, SceneErrors> {
+    /// The scene does not allow to leave the effect out.
+    pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
             return Ok(self.clone());
         }
-        let adhesion = scene.adhesion.unwrap_or_default();
-        match (effect, &mut scene.roughness) {
-            (Effect::Form, _) => scene.form = None,
-            (Effect::Roughness, roughness) => {
-                *roughness = None;
-                if let Some((parameter, _)) = adhesion.parameter() {
-                    let what = format!("{} requires roughness, and the work of adhesion", parameter.symbol());
-                    let work = self.known(adhesion.work.or(computed.work_of_adhesion), "adhesion", &what)?;
-                    let adhesion = Adhesion { kappa: None, elastic_energy_ratio: None, ..adhesion };
-                    scene.adhesion = Some(adhesion.with_work(work));
+        match effect {
+            Effect::Form => scene.form = None,
+            Effect::Roughness => {
+                scene.roughness = None;
+                if scene.adhesion.is_some_and(|adhesion| adhesion.parameter().is_some()) {
+                    scene.adhesion = self.with_choice("adhesion", BY_WORK)?.scene().adhesion;
                 }
             }
-            (Effect::Adhesion, roughness) => {
-                if let Some(Roughness::SelfAffine { rms_height: height @ None, rms_gradient: None, .. }) =
-                    roughness
-                {
-                    let what = "adhesion sets its amplitude, and the rms height";
-                    *height = Some(self.known(computed.rms_height, "roughness", what)?);
-                }
-                scene.adhesion = None;
-            }
-            (Effect::Unloading, _) => scene.loading = vec![pressing(&scene.loading)],
-            _ => scene.observe.retain(|other| Some(*other) != effect.observer()),
+            Effect::Adhesion => scene.adhesion = None,
+            Effect::Unloading => scene.loading = vec![pressing(&scene.loading)],
         }
         let overrides = overrides_to(self.scene(), &scene);
         let mut new = self.set_all(&overrides)?;
@@ -113,26 +85,21 @@ impl Document {
     /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
     /// other.
     ///
-    /// Omitting an effect switches it off, and the next choice switches it on again. Adhesion by work, by κ and by
-    /// e_el/γ are the same adhesion: `computed` has the values for this scene. Any other choice comes back as it was when
-    /// this document or one that led to it left the choice.
+    /// Omitting an effect switches it off, and the next choice switches it on again. Any choice comes back as it was when
+    /// this document or one that led to it left the choice, and has its usual numbers before.
     ///
     /// # Errors
-    /// No other choice is allowed, or a converted value is not in `computed`.
-    pub fn with_next_choice(
-        &self,
-        field: &Field,
-        forwards: bool,
-        computed: &Computed,
-    ) -> Result<Option<Document>, SceneErrors> {
+    /// No other choice is allowed.
+    pub fn with_next_choice(&self, field: &Field, forwards: bool) -> Result<Option<Document>, SceneErrors> {
         let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
         let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
-        if effect == Some(Effect::Adhesion) && is_on && self.scene().roughness.is_some() {
-            self.known(computed.work_of_adhesion, "adhesion", "the same adhesion given the other way")?;
-        }
         let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
         let mut refused = None;
-        let left = self.leaving(field, &here, computed);
+        let mut left = self.left.clone();
+        if here != "None" {
+            left.retain(|(path, other)| *path != field.path || choice_key(other) != choice_key(&here));
+            left.push((field.path, here.clone()));
+        }
         // The circle holds the choices and `None`; the present one need not be among them.
         let Range::Choice(choices) = field.range else { return Ok(None) };
         for distance in 1..=choices.len() as i32 + 1 {
@@ -146,13 +113,10 @@ impl Document {
                     }
                     back => back,
                 },
-                Some(effect) if next == "None" => self.without(effect, computed),
-                Some(Effect::Adhesion) => self.converted(&next, computed),
+                Some(effect) if next == "None" => self.without(effect),
                 _ => self.with_choice(field.path, &next),
             };
             match chosen {
-                // Work and a parameter given together are two choices already.
-                Ok(document) if document.scene() == self.scene() => {}
                 Ok(mut document) => {
                     document.left = left;
                     return Ok(Some(document));
@@ -161,23 +125,6 @@ impl Document {
             }
         }
         refused.map_or(Ok(None), Err)
-    }
-
-    /// The choices that keys have left and the present one, adhesion in each of its ways.
-    fn leaving(&self, field: &Field, here: &str, computed: &Computed) -> Vec<(&'static str, String)> {
-        let mut left = self.left.clone();
-        let mut leave = |text: String| {
-            left.retain(|(path, other)| *path != field.path || choice_key(other) != choice_key(&text));
-            left.push((field.path, text));
-        };
-        if let (Range::Choice(choices), "adhesion", true) = (field.range, field.path, here != "None") {
-            let same = choices.iter().filter_map(|choice| self.converted(choice, computed).ok());
-            same.filter_map(|same| Some(same.value(field.path)?.to_owned())).for_each(&mut leave);
-        }
-        if here != "None" {
-            leave(here.to_owned());
-        }
-        left
     }
 
     /// A choice as it was left, if that is still allowed, else at values that suit the scene or are usual.
@@ -190,32 +137,14 @@ impl Document {
         let effect = Effect::ALL.into_iter().find(|effect| effect.path() == path);
         let suited = effect.and_then(|effect| self.with_scene(&effect.suited(self.scene())).ok());
         let suited = suited.filter(|suited| suited.value(path).is_some_and(is_same));
-        suited.map_or_else(|| self.set(path, choice), Ok)
-    }
-
-    /// The same adhesion by the next choice, or the usual value of that choice where there is no same one.
-    fn converted(&self, next: &str, computed: &Computed) -> Result<Document, SceneErrors> {
-        // A typed value comes back from a conversion to another one without digits of rounding.
-        let typed =
-            |value| if round_to(value, 10) == round_to(value, 14) { round_to(value, 10) } else { value };
-        let adhesion = self.scene().adhesion.unwrap_or_default();
-        let by = |parameter, value: Option<f64>| Some(adhesion.with_parameter(parameter, typed(value?)));
-        let same = match choice_key(next) {
-            "(kappa" => by(RoughnessParameter::Kappa, computed.kappa),
-            "(elastic_energy_ratio" => {
-                by(RoughnessParameter::ElasticEnergyRatio, computed.elastic_energy_ratio)
+        match (suited, self.scene().adhesion, read_ron::<Adhesion>(choice)) {
+            (Some(suited), ..) => Ok(suited),
+            // The range of the attraction stays.
+            (None, Some(Adhesion { range, .. }), Ok(usual)) if path == "adhesion" => {
+                self.with_adhesion(Adhesion { range, ..usual })
             }
-            _ => computed.work_of_adhesion.map(|work| adhesion.with_work(work)),
-        };
-        same.map_or_else(|| self.set("adhesion", next), |same| self.with_adhesion(same))
-    }
-
-    /// A value of the computed scene for a field.
-    fn known(&self, value: Option<f64>, field: &str, what: &str) -> Result<f64, SceneErrors> {
-        value.ok_or_else(|| {
-            let message = format!("{what} is not known yet: compute the scene first");
-            SceneError::of(field, self.value(field).unwrap_or_default(), "", &message).into()
-        })
+            _ => self.set(path, choice),
+        }
     }
 }
 
@@ -242,37 +171,21 @@ mod tests {
 )
 ";
 
-    const COMPUTED: Computed = Computed {
-        work_of_adhesion: Some(0.0123),
-        kappa: Some(6.000_000_000_000_001),
-        elastic_energy_ratio: Some(0.9),
-        rms_height: Some(1.5e-7),
-    };
-
     fn document() -> Document {
         Document::parse(SCENE, "scene").unwrap()
     }
 
-    /// Roughness whose amplitude follows from work of adhesion and κ.
-    fn both() -> Document {
-        let set = [pair("roughness.rms_height", "None"), pair("adhesion.work", "0.1")];
-        document().set_all(&set).unwrap()
-    }
-
     fn off(document: &Document, effect: Effect) -> Document {
-        document.without(effect, &COMPUTED).unwrap()
+        document.without(effect).unwrap()
     }
 
-    fn adhesion(document: &Document) -> (Option<f64>, Option<f64>) {
-        document
-            .scene()
-            .adhesion
-            .map_or((None, None), |adhesion| (adhesion.work, adhesion.parameter().map(|(_, value)| value)))
+    fn adhesion(document: &Document) -> &str {
+        document.value("adhesion").unwrap_or_default()
     }
 
     fn next(document: &Document, path: &str, forwards: bool) -> Document {
         let field = field(path, None).unwrap();
-        document.with_next_choice(field, forwards, &COMPUTED).unwrap().unwrap()
+        document.with_next_choice(field, forwards).unwrap().unwrap()
     }
 
     #[test]
@@ -286,26 +199,14 @@ mod tests {
             (Effect::Roughness, rough),
             (Effect::Adhesion, "(work: 0.05)"),
             (Effect::Unloading, "[ToForce(1.0e-5), ToSeparation]"),
-            (Effect::Fragments, "[Fragments]"),
         ] {
             assert_eq!(bare.with(effect).unwrap().value(effect.path()), Some(value));
         }
-        let observed = bare.with(Effect::HeightHistogram).unwrap().with(Effect::Fragments).unwrap();
-        assert_eq!(observed.value("observe"), Some("[Fragments, HeightHistogram]"));
         let sticky = bare.set("roughness", rough).unwrap().with(Effect::Adhesion).unwrap();
-        assert_eq!(adhesion(&sticky), (None, Some(2.0)));
+        assert_eq!(adhesion(&sticky), "(kappa: 2.0)");
         // One spring carries no wave at all.
         let one = bare.set("numerics.points", "1").unwrap().with(Effect::Roughness).unwrap_err();
         assert!(one.to_string().contains("points/2 = 0"), "{one}");
-    }
-
-    #[test]
-    fn without_adhesion_the_amplitude_it_set_stays() {
-        let unknown = both().without(Effect::Adhesion, &Computed::default()).unwrap_err();
-        assert!(unknown.to_string().contains("the rms height is not known yet"), "{unknown}");
-        let without = off(&both(), Effect::Adhesion);
-        assert_eq!(without.value("roughness.rms_height"), Some("1.5e-7"));
-        assert_eq!(without.with(Effect::Adhesion).unwrap().scene(), both().scene());
     }
 
     #[test]
@@ -313,30 +214,15 @@ mod tests {
         let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
         let smooth = off(&document(), Effect::Roughness);
         let stickier = back(&smooth.with_adhesion(Adhesion::by_work(0.2)).unwrap());
-        assert_eq!(
-            (adhesion(&stickier), stickier.value("roughness.hurst")),
-            ((Some(0.2), None), Some("0.70"))
-        );
+        assert_eq!((adhesion(&stickier), stickier.value("roughness.hurst")), ("(work: 0.2)", Some("0.70")));
         let longer = back(&smooth.set("length", "2.0e-4").unwrap());
-        assert_eq!((adhesion(&longer), longer.scene().length), ((None, Some(6.0)), 2e-4));
+        assert_eq!((adhesion(&longer), longer.scene().length), ("(kappa: 6.0)", 2e-4));
         let held = off(&document(), Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
         assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
         // A removed text that is no longer valid is replaced by values that suit the scene.
         let coarse = back(&smooth.set("numerics.points", "64").unwrap());
         assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
-    }
-
-    /// A measured surface is typed, not stepped to; here the other kinds of roughness are refused.
-    #[test]
-    fn steps_end_where_every_other_choice_is_refused() {
-        let fields = [("roughness", "Measured(file: \"surface.txt\")"), ("numerics.points", "1")];
-        let measured = document().set_all(&fields.map(|(path, value)| pair(path, value))).unwrap();
-        for forwards in [true, false] {
-            let field = field("roughness", None).unwrap();
-            let refused = measured.with_next_choice(field, forwards, &Computed::default()).unwrap_err();
-            assert!(refused.to_string().contains("points/2 = 0"), "{refused}");
-        }
     }
 
     #[test]
@@ -366,30 +252,30 @@ mod tests {
     }
 
     #[test]
-    fn the_next_choice_of_adhesion_is_the_same_adhesion() {
-        let work = next(&document(), "adhesion", false);
-        assert_eq!(adhesion(&work), (Some(0.0123), None));
-        assert_eq!(next(&work, "adhesion", true).text(), SCENE);
-        let none = next(&work, "adhesion", false);
-        assert_eq!(none.scene().adhesion, None);
-        assert_eq!(next(&none, "adhesion", true).text(), work.text());
-        let ratio = next(&document(), "adhesion", true);
-        assert_eq!(ratio.value("adhesion"), Some("(elastic_energy_ratio: 0.9)"));
-        assert_eq!(next(&ratio, "adhesion", true).scene().adhesion, None);
-        // Off, each choice is reached again.
-        let off = next(&ratio, "adhesion", true);
-        let choices = std::iter::successors(Some(off), |document| Some(next(document, "adhesion", true)));
-        let choices: Vec<String> =
-            choices.skip(1).take(4).map(|one| one.value("adhesion").unwrap_or("-").to_owned()).collect();
-        assert_eq!(choices, ["(work: 0.0123)", "(kappa: 6.0)", "(elastic_energy_ratio: 0.9)", "None"]);
-        // Not before the value has been computed.
-        let field = field("adhesion", None).unwrap();
-        let unknown = document().with_next_choice(field, false, &Computed::default()).unwrap_err();
-        assert!(unknown.to_string().contains("compute the scene first"), "{unknown}");
-        // A smooth body has no κ.
-        let smooth = work.set("roughness", "None").unwrap();
-        assert_eq!(next(&smooth, "adhesion", true).scene().adhesion, None);
-        let ratio = next(&both(), "adhesion", true);
-        assert_eq!(ratio.value("adhesion"), Some("(work: 0.1, elastic_energy_ratio: 0.9)"));
+    fn each_way_of_giving_the_adhesion_keeps_its_own_numbers() {
+        let mut typed = document().set("adhesion.range", "1.0e-9").unwrap();
+        let mut around = Vec::new();
+        for _ in 0..8 {
+            typed = next(&typed, "adhesion", true);
+            around.push(adhesion(&typed).to_owned());
+        }
+        let circle = [
+            "(elastic_energy_ratio: 0.5, range: 1.0e-9)",
+            "None",
+            "(work: 0.05)",
+            "(kappa: 6.0, range: 1.0e-9)",
+        ];
+        assert_eq!(around, [circle, circle].concat());
+        let back = next(&next(&document(), "adhesion", true), "adhesion", false);
+        assert_eq!(back.text(), SCENE);
+        // A smooth body has no κ: its work is the usual one, or that which a key has left.
+        let smooth = |of: &Document| adhesion(&off(of, Effect::Roughness)).to_owned();
+        let sticky = next(&document(), "adhesion", false).set("adhesion.work", "0.3").unwrap();
+        assert_eq!(
+            [smooth(&document()), smooth(&next(&sticky, "adhesion", true))],
+            ["(work: 0.05)", "(work: 0.3)"]
+        );
+        let flat = sticky.set("roughness", "None").unwrap();
+        assert_eq!(next(&flat, "adhesion", true).scene().adhesion, None);
     }
 }

@@ -148,7 +148,8 @@ pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Ve
             continue;
         }
         let [inside, others] = trees.map(|tree| tree.inside(field));
-        let given = |field: &&Field| trees.map(|tree| tree.value(field).is_some());
+        let has_default = |field: &Field| !["", "None"].contains(&field.default);
+        let given = |field: &&Field| trees.map(|tree| tree.value(field).is_some() || has_default(field));
         if inside.is_empty() || inside != others || !inside.iter().map(given).all(|[a, b]| splits(a, b)) {
             found.push(field);
         } else {
@@ -216,7 +217,7 @@ fn contents_mut(value: &mut Value) -> &mut Value {
 
 #[cfg(test)]
 mod tests {
-    use super::super::adhesion::{Adhesion, RoughnessParameter};
+    use super::super::adhesion::Adhesion;
     use super::super::document::Document;
     use super::super::fields::field;
     use super::super::model::Move;
@@ -270,7 +271,7 @@ mod tests {
         for (path, value) in [
             ("roughness.modes.1", 64.0),
             ("loading.0.0", 2e-5),
-            ("adhesion.kappa", 3.0),
+            ("adhesion.work", 3.0),
             ("roughness.rms_gradient", 0.1),
         ] {
             assert!(tree.set(path, value) && tree.get(path) == Some(value), "{path}");
@@ -291,10 +292,7 @@ mod tests {
             assert!(!tree.set(path, 1.0) && tree == before, "{path}");
         }
         let scene = tree.scene().unwrap();
-        assert_eq!(
-            (scene.loading[0], scene.adhesion.unwrap().parameter()),
-            (Move::ToForce(2e-5), Some((RoughnessParameter::Kappa, 3.0)))
-        );
+        assert_eq!((scene.loading[0], scene.adhesion.unwrap().work()), (Move::ToForce(2e-5), Some(3.0)));
         let mut bare = Tree::of(&Scene { adhesion: None, ..sound() });
         assert!(
             bare.set("adhesion.work", 0.1) && bare.scene().unwrap().adhesion == Some(Adhesion::by_work(0.1))

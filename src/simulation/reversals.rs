@@ -2,7 +2,7 @@
 
 use super::reach::{self, Reach};
 use super::stages::Prepared;
-use super::{Plan, RunError, Simulation};
+use super::{RunError, Simulation, Workload};
 use crate::analysis::ReversalMap;
 use crate::contact::{Body, ContactError, Reversal};
 use crate::scene::{CheckedScene, Move, Scene, Solver as SolverChoice};
@@ -34,7 +34,8 @@ impl Simulation {
     ) -> Result<(), RunError> {
         needs_exact_solver(scene)?;
         let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
-        let plan = Plan::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
+        let plan =
+            Workload::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
         reach::check(&contact, ends).map_err(RunError::BeyondFullContact)?;
         let mut see = |index, reversal| {
@@ -49,7 +50,7 @@ impl Simulation {
     /// # Errors
     /// Those of the profile of [`Simulation::run`].
     pub(crate) fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
-        let plan = Plan::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
+        let plan = Workload::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 

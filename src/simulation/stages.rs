@@ -1,7 +1,7 @@
 //! Execution of the stages of a scene whose input has changed since the last run.
 
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
-use super::{LineFacts, Outcome, Plan, RunError, Stage, Timings, reach};
+use super::{LineFacts, Outcome, RunError, Stage, Timings, Workload, reach};
 use crate::analysis::{
     Figures, Governing, InstrumentFigures, Regime, SteepWaves, ideal_adhesion_force, scene_tabor_number,
 };
@@ -26,7 +26,7 @@ const SMALL: u64 = 32 << 20;
 /// The profile, the tree and their inputs: kept from run to run, so that a changed parameter repeats only the
 /// stages that depend on it. Repeated stages reuse their memory.
 ///
-/// Between runs at most four times the memory of the last scene is kept ([`Plan::peak_bytes`], and 20 bytes for each
+/// Between runs at most four times the memory of the last scene is kept ([`Workload::peak_bytes`], and 20 bytes for each
 /// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; that of glibc keeps blocks of less
 /// than 32 MiB, up to 64 MiB for each thread.
 #[derive(Default)]
@@ -189,7 +189,7 @@ impl Simulation {
     /// Makes the heights of a roughness; synthesised ones in this memory.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Plan::of_any(scene).line_bytes()).map_err(SurfaceError::from)?;
+        check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::from)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
             self.maker.synthesizer = Synthesizer::default();
@@ -199,7 +199,7 @@ impl Simulation {
 
     /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
     /// of heights sorted into bins.
-    fn look_at_line(&mut self, plan: &Plan, edges: Edges) -> Result<u64, ContactError> {
+    fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
         let memory = take(&mut self.former_tree);
         if plan.runs(Stage::Tree) {
             self.springs.tree_in(memory, edges)?;
@@ -234,7 +234,7 @@ impl Simulation {
     /// Makes profile and tree of a checked scene for a contact by this plan.
     pub(super) fn prepare(
         &mut self,
-        plan: &Plan,
+        plan: &Workload,
         scene: &Scene,
         stop: &dyn Fn() -> bool,
     ) -> Result<Prepared, RunError> {
@@ -265,7 +265,7 @@ impl Simulation {
     /// Contact of a scene before its loading, and its governing parameters. The scene is a checked one, whose form may
     /// have a radius that a fit tries.
     pub(crate) fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
-        let made = self.prepare(&Plan::of_any(scene), scene, &|| false)?;
+        let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
 
@@ -280,7 +280,7 @@ impl Simulation {
         stop: &dyn Fn() -> bool,
         after: &mut AfterLeg<'_>,
     ) -> Result<Outcome, RunError> {
-        let plan = Plan::of(scene);
+        let plan = Workload::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
         let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
         reach::check(&contact, &scene.loading).map_err(RunError::BeyondFullContact)?;

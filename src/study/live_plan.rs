@@ -48,10 +48,10 @@ pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &
     let adhesion = scene
         .adhesion
         .ok_or("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")?;
-    if adhesion.closing_work.is_some() {
+    if adhesion.closing_work().is_some() {
         return Err("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out");
     }
-    // Without a given amplitude the amplitude follows from γ and κ. The range of the attraction changes no map.
+    // The range of the attraction changes no map.
     let adhesion = Adhesion { range: None, ..adhesion.with_parameter(parameter, ANY.0) };
     let mut scene = scene.clone();
     let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);

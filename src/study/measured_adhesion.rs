@@ -156,7 +156,7 @@ mod tests {
 
     fn scene_and_line(adhesion: &str) -> (CheckedScene, EquivalentLine) {
         let text = format!(
-            "(version: 2, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: {adhesion}, \
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: {adhesion}, \
              roughness: Measured(file: \"none.txt\", seed: 5), numerics: (points: 1024), \
              loading: [ToForce(1.0e-4), ToSeparation])"
         );
@@ -206,7 +206,7 @@ mod tests {
         std::fs::write(folder.path().join("line.txt"), format!("x [um] z [nm]\n{rows}")).unwrap();
         for periodic in [true, false] {
             let text = format!(
-                "(version: 2, material: (effective_modulus: 1.0e6), length: 1.28e-4, adhesion: (work: 0.05), roughness: \
+                "(version: 1, material: (effective_modulus: 1.0e6), length: 1.28e-4, adhesion: (work: 0.05), roughness: \
                  Measured(file: \"line.txt\", periodic: {periodic}), numerics: (points: 512), loading: [ToTouch, \
                  ToSeparation])"
             );

@@ -2,7 +2,9 @@
 
 use super::axis::{Axis, Spacing, Target};
 use crate::analysis::Governing;
-use crate::scene::{Adhesion, Document, FIELDS, Field, Move, Range, Scene, SceneError, SceneErrors, Tree};
+use crate::scene::{
+    Adhesion, Document, FIELDS, Field, Move, Range, RoughnessParameter, Scene, SceneError, SceneErrors, Tree,
+};
 
 impl Axis {
     /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
@@ -56,10 +58,15 @@ pub(super) fn scene_with<'a>(
     }
     let mut scene = tree.scene().map_err(refused)?;
     if let Some((parameter, value)) = by_parameter {
-        let alone = Adhesion::by_parameter(parameter, value);
-        scene.adhesion = Some(scene.adhesion.map_or(alone, |one| one.with_parameter(parameter, value)));
+        scene.adhesion = Some(with_parameter(&scene, parameter, value));
     }
     Ok(scene)
+}
+
+/// The adhesion of a scene by a parameter, with the range of the scene.
+fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> Adhesion {
+    let by_parameter = Adhesion::by_parameter(parameter, value);
+    scene.adhesion.map_or(by_parameter, |adhesion| adhesion.with_parameter(parameter, value))
 }
 
 /// Path and value of the shortest wave with this number of springs, as a mode or, where these are given, as a wavelength.
@@ -128,7 +135,6 @@ pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::RoughnessParameter;
     use crate::scene::open;
     use crate::simulation::Simulation;
     use crate::study::axis::Spacing;
@@ -213,17 +219,12 @@ mod tests {
     #[test]
     fn a_document_is_moved_in_its_own_terms() {
         let by_kappa = open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap();
-        let both = by_kappa.set_all(&[
-            ("roughness".to_owned(), "SelfAffine(hurst: 0.7, modes: (1, 512), seed: 1)".to_owned()),
-            ("adhesion".to_owned(), "(work: 0.05, kappa: 2.0)".to_owned()),
-        ]);
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
         let axes = live_plan(by_kappa.scene(), RoughnessParameter::Kappa).unwrap().axes;
-        for document in [by_kappa.clone(), both.unwrap(), by_work] {
+        for document in [by_kappa.clone(), by_work] {
             let moved = moved(&document, &[(&axes[1], 0.4), (&axes[0], 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
-            assert_eq!(before.work.is_some(), after.work.is_some());
-            assert_eq!(before.parameter().is_some(), after.parameter().is_some());
+            assert_eq!(before.work().is_some(), after.work().is_some());
             let [kappa, hurst] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
             assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
             let governing = Simulation::default().make_line(moved.scene()).map(|(_, _, governing)| governing);

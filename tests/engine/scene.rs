@@ -4,7 +4,7 @@ use asperity::scene::{
     DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Move, Range, Roughness, Scene, Span, Text, open,
     presets, to_ron,
 };
-use asperity::simulation::{Plan, Simulation, Stage};
+use asperity::simulation::{Simulation, Stage, Workload};
 
 fn locate(text: &str, path: &str) -> Option<Span> {
     Text::new(text).ok()?.span(path).cloned()
@@ -73,7 +73,7 @@ fn effects_are_on_where_their_stages_run() {
     for loading in loadings {
         // A loading that begins with a pull is refused.
         let Ok(scene) = document.scene().with(|scene| scene.loading = loading) else { continue };
-        let runs = Plan::of(&scene).runs(Stage::UnloadingPass);
+        let runs = Workload::of(&scene).runs(Stage::UnloadingPass);
         assert_eq!(Effect::Unloading.is_on(&scene), runs, "{:?}", scene.loading);
     }
     for (path, value) in [
@@ -81,19 +81,15 @@ fn effects_are_on_where_their_stages_run() {
         ("adhesion", "None"),
         ("adhesion", "(work: 0.0)"),
         ("adhesion", "(work: 0.1)"),
-        ("observe", "[Fragments]"),
-        ("observe", "[HeightHistogram]"),
         ("roughness", "Measured(file: \"line.csv\")"),
     ] {
         let document = document.set(path, value).unwrap();
-        let plan = Plan::of(document.scene());
+        let plan = Workload::of(document.scene());
         let runs = |stages: &[Stage]| stages.iter().any(|stage| plan.runs(*stage));
         for (effect, stages) in [
             (Effect::Form, &[Stage::Form][..]),
             (Effect::Roughness, &[Stage::Synthesis, Stage::MeasuredProfile]),
             (Effect::Adhesion, &[Stage::RuleOfHess]),
-            (Effect::Fragments, &[Stage::Fragments]),
-            (Effect::HeightHistogram, &[Stage::HeightHistogram]),
         ] {
             assert_eq!(effect.is_on(document.scene()), runs(stages), "{path}={value}: {effect:?}");
         }
@@ -111,7 +107,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
     for (form, rough, solver) in [
         (
             "Paraboloid(radius: 1.0)",
-            "Measured(file: \"x\", further_files: [\"z\"], opposite: \"y\", row: 1, as_line: false, detrend: Tilt, \
+            "Measured(file: \"x\", further_files: [\"z\"], opposite: \"y\", row: 1, detrend: Tilt, \
              periodic: true, unit: \"mm\", height_unit: \"nm\", spacing: 1.0e-6, interpolate: true, resample: true, \
              align_rows: true, robust: true, surface_name: \"y\", channel: 1, continue_to: 1.0e-9, seed: 2)",
             "Stepwise(step: 1.0)",
@@ -122,7 +118,7 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
             "SelfAffine(hurst: 0.5, wavelengths: (1.0e-4, 1.0e-6), roll_off: 1.0e-5, seed: 1, rms_gradient: 1.0)",
             "Exact",
         ),
-        ("Punch(radius: 1.0e-5)", "Measured(file: \"x\", column: 2)", "Exact"),
+        ("Punch(radius: 1.0e-5)", "Measured(file: \"x\", column: 2, as_line: true)", "Exact"),
         ("WavySphere(radius: 1.0e-3, amplitude: 1.0e-9, wavelength: 1.0e-6)", "None", "Exact"),
         ("Table(file: \"x\", unit: \"nm\")", "None", "Exact"),
     ] {

@@ -7,7 +7,7 @@ const ROUGHNESS: &str = "SelfAffine(hurst: 0.7, rms_height: 2.0e-8, modes: (2, 6
 
 fn run(simulation: &mut Simulation, form: &str, roughness: &str, adhesion: &str, loading: &str) -> Outcome {
     let text = format!(
-        "(version: 2, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+        "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
          adhesion: {adhesion}, loading: {loading}, numerics: (points: 2048, samples: 9))"
     );
     let document = Document::parse(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));

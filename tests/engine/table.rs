@@ -20,7 +20,7 @@ fn rows(reach: f64, depth: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>) {
 
 fn scene(form: &str, length: f64) -> Document {
     let text = format!(
-        "(version: 2, material: (effective_modulus: 1.0e6), length: {length:e}, form: {form}, adhesion: (work: 0.05), \
+        "(version: 1, material: (effective_modulus: 1.0e6), length: {length:e}, form: {form}, adhesion: (work: 0.05), \
          loading: [ToForce(5.0e-5), ToSeparation], numerics: (points: 2001, samples: 65))"
     );
     Document::parse(&text, "test").unwrap()

@@ -122,7 +122,7 @@ fn smooth_bodies_keep_their_pull_off_force() {
     let loop_of = "the pull-off force stays (3/2)πγR, and the loop dissipates 16 pJ instead of 12 pJ";
     let two = scene("two-works", &[opening, loop_of]);
     let adhesion = two.scene().adhesion.unwrap();
-    assert!((adhesion.work.unwrap() / adhesion.closing_work.unwrap() - 10.0).abs() < 1e-12);
+    assert!((adhesion.work().unwrap() / adhesion.closing_work().unwrap() - 10.0).abs() < 1e-12);
     let outcomes = [run(&two), run(&with(&two, &[("adhesion.closing_work", "None")]))];
     assert!(outcomes.iter().all(|outcome| (force(outcome) / jkr - 1.0).abs() < 1e-4));
     assert_eq!([picojoules(&outcomes[0]), picojoules(&outcomes[1])], [16.0, 12.0]);

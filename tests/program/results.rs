@@ -132,7 +132,7 @@ fn a_profile_that_is_written_and_measured_gives_the_same_loop() {
         path(name)
     };
     let rough = "SelfAffine(hurst: 0.7, rms_height: 3.0e-7, modes: (1, 100), seed: 4)";
-    let measured = "Measured(file: \"stylus.txt\")";
+    let measured = "Measured(file: \"stylus.txt\", as_line: true)";
     for (form, roughness, numerics) in [
         ("None", rough, "points: 201, edges: SubCell"),
         ("None", measured, "points: 317, edges: Grid"),
@@ -143,7 +143,7 @@ fn a_profile_that_is_written_and_measured_gives_the_same_loop() {
     ] {
         let made = write("made.ron", form, roughness, numerics);
         text(&["line", &made, "--force", "-o", &path("line.csv")]);
-        let measured = write("measured.ron", "None", "Measured(file: \"line.csv\")", numerics);
+        let measured = write("measured.ron", "None", "Measured(file: \"line.csv\", as_line: true)", numerics);
         let curves = [&made, &measured].map(|scene| text(&["run", scene, "--format", "csv"]));
         assert!(
             rows(&curves[0]).eq(rows(&curves[1])) && rows(&curves[0]).count() > 100,

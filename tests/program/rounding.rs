@@ -14,13 +14,13 @@ use std::process::Command;
 const DIRECTIONS: [&str; 4] = ["to nearest", "upward", "downward", "towards zero"];
 
 /// Fewest checks that must change: without any the rounding was not perturbed.
-const MOVED: usize = 20;
+const MOVED: usize = 12;
 
 /// Digits that a case must keep.
 fn least_digits(case: &str) -> f64 {
     match case {
         // The reference is a sum of 20 000 trapezia and more, whose roundings add up where all go the same way.
-        "jkr-energy" | "no-energy-for-nothing" => 11.0,
+        "no-energy-for-nothing" => 11.0,
         // The error is counted in roundings of the indentation.
         "far-loads" => 0.0,
         _ => 13.0,
@@ -38,10 +38,10 @@ fn library(folder: &Path) -> Option<PathBuf> {
     Some(made)
 }
 
-/// Names and errors of all checks except the large ones under one direction of rounding.
+/// Names and errors of all checks under one direction of rounding.
 fn errors(library: &Path, direction: &str) -> Vec<(String, Option<f64>)> {
     let run = Command::new(env!("CARGO_BIN_EXE_asperity"))
-        .args(["check", "--quick", "--format", "json"])
+        .args(["check", "--format", "json"])
         .env("LD_PRELOAD", library)
         .env("ROUNDING", direction)
         .output()

@@ -12,7 +12,7 @@ use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
 use crate::scene::{
-    Computed, Document, Move, Range, SceneErrors, Solver, Step, exact_quantity, kind_and_number,
+    Adhesion, Document, Move, Range, SceneErrors, Solver, Step, exact_quantity, kind_and_number,
     loading_text, parse_quantity, pressing_force, read_stage, ron_float,
 };
 
@@ -114,7 +114,7 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
     if parameter.field.step == Step::Choice {
-        return match app.edit.document.with_next_choice(parameter.field, steps > 0, &computed(app)) {
+        return match app.edit.document.with_next_choice(parameter.field, steps > 0) {
             Ok(Some(document)) => apply(app, Ok(document)),
             Ok(None) => refuse(app, no_step),
             Err(errors) => apply(app, Err(errors)),
@@ -202,7 +202,7 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
     let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
-    let adhesion = document.scene().adhesion.unwrap_or_default();
+    let adhesion = document.scene().adhesion;
     let changed = match parameter.setting {
         Setting::Field | Setting::Heading => {
             // Modes and wavelengths replace each other.
@@ -217,20 +217,25 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
             document
                 .set_all(&replaced.into_iter().chain([pair(&parameter.path, written)]).collect::<Vec<_>>())
         }
-        Setting::WorkOfAdhesion => document.with_adhesion(adhesion.with_work(number()?)),
+        Setting::WorkOfAdhesion => {
+            let work = number()?;
+            document.with_adhesion(adhesion.map_or(Adhesion::by_work(work), |of| of.with_work(work)))
+        }
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
-            match app.governing() {
-                _ if adhesion.work.is_none() || adhesion.sets_amplitude() => {
-                    document.with_adhesion(adhesion.with_parameter(parameter, value))
-                }
-                // The scene has γ alone, which follows from the parameter.
-                Some(governing) => {
+            match (adhesion.filter(|adhesion| adhesion.work().is_some()), app.governing()) {
+                // The scene has γ, which follows from the parameter.
+                (Some(adhesion), Some(governing)) => {
                     let undefined = || format!("{} is not defined without roughness", parameter.symbol());
                     let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
                     document.with_adhesion(adhesion.with_work(work))
                 }
-                None => return Err("the scene is still being computed".to_owned()),
+                (Some(_), None) => return Err("the scene is still being computed".to_owned()),
+                (None, _) => {
+                    let by_parameter = Adhesion::by_parameter(parameter, value);
+                    let changed = adhesion.map_or(by_parameter, |of| of.with_parameter(parameter, value));
+                    document.with_adhesion(changed)
+                }
             }
         }
     };
@@ -270,23 +275,9 @@ pub fn toggle_effect(app: &mut App) {
         return refuse(app, "no effect to switch; form, roughness, adhesion, loading have one".to_owned());
     };
     let document = &app.edit.document;
-    let changed = if effect.is_on(document.scene()) {
-        document.without(effect, &computed(app))
-    } else {
-        document.with(effect)
-    };
+    let changed =
+        if effect.is_on(document.scene()) { document.without(effect) } else { document.with(effect) };
     apply(app, changed)
-}
-
-/// Values of the computed scene, which may replace others in the scene.
-fn computed(app: &App) -> Computed {
-    let governing = app.governing();
-    Computed {
-        work_of_adhesion: governing.and_then(|governing| governing.work_of_adhesion),
-        kappa: governing.and_then(|governing| governing.kappa),
-        elastic_energy_ratio: governing.and_then(|governing| governing.elastic_energy_ratio),
-        rms_height: governing.and_then(|governing| governing.amplitude).map(|amplitude| amplitude.rms_height),
-    }
 }
 
 fn refuse(app: &mut App, why: String) {

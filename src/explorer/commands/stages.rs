@@ -119,7 +119,7 @@ fn pressing_force(app: &App) -> f64 {
     given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
 }
 
-/// Steps the selected value; on a stage without a number, its kind.
+/// Steps the selected value; for a stage in words its kind.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else { return };
     match parameter.leg {

@@ -11,7 +11,7 @@ use crate::explorer::text::{Part, filled};
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::export::{CostReport, work_precision};
 use crate::scene::{Edges, Numerics, Solver, format_rounded};
-use crate::simulation::{Plan, Stage};
+use crate::simulation::{Workload, Stage};
 use crate::text::{grouped, per_cent};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -210,7 +210,7 @@ fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
 fn stages(app: &App) -> Option<Vec<Part>> {
     let computed = app.current()?;
     let (plan, timings, theme) =
-        (Plan::of(&computed.scene), &computed.outcome.timings, app.view.appearance.theme);
+        (Workload::of(&computed.scene), &computed.outcome.timings, app.view.appearance.theme);
     let runs = |stages: &[Stage]| stages.iter().any(|stage| plan.runs(*stage));
     let is_stepwise = runs(&[Stage::Relaxation]);
     let passes = runs(&[Stage::LoadingPass, Stage::UnloadingPass, Stage::Relaxation]);

@@ -92,7 +92,7 @@ fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() 
     driver.press("Ctrl+u");
     driver.type_text("work, offset");
     driver.press("Enter");
-    let work = driver.app.edit.document.scene().adhesion.unwrap().work.unwrap();
+    let work = driver.app.edit.document.scene().adhesion.unwrap().work().unwrap();
     assert!((work - 0.05).abs() < 5e-4, "{work}");
     assert!(driver.text().contains("fit: γ ") && driver.text().contains("u undoes"), "{}", driver.text());
     driver.press(".");
@@ -110,7 +110,7 @@ fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() 
         "# command: asperity fit curve.csv --drift=remove --noise=2e-7N --free=work,offset jkr-sphere"
     ));
     driver.press("u");
-    assert_eq!(driver.app.edit.document.scene().adhesion.unwrap().work, Some(0.049));
+    assert_eq!(driver.app.edit.document.scene().adhesion.unwrap().work(), Some(0.049));
 }
 
 #[test]

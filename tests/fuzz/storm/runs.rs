@@ -196,7 +196,7 @@ fn scenes_over_whole_ranges() {
 fn gaps_far_above_the_stretches() {
     for (modulus, edges) in [("1.0e5", "Grid"), ("1.0e5", "SubCell"), ("1.0e13", "SubCell")] {
         let text = format!(
-            "(version: 2, material: (effective_modulus: {modulus}), length: 1.0e-9, form: Paraboloid(radius: 1.0e-3),
+            "(version: 1, material: (effective_modulus: {modulus}), length: 1.0e-9, form: Paraboloid(radius: 1.0e-3),
             roughness: SelfAffine(hurst: 0.7, rms_height: 100.0, modes: (91, 315), seed: 0),
             adhesion: (work: 1.2563377122730193), loading: [ToForce(1.0e30), ToSeparation],
             numerics: (points: 630, edges: {edges}, samples: 10))"

@@ -70,14 +70,18 @@ impl Place {
         serde_json::from_str(&self.run(&[arguments, &["--format", "json"]].concat())).unwrap()
     }
 
-    /// Rms height of a scene with this roughness; the scene remains as `scene.ron`.
-    fn rms_height(&self, roughness: &str) -> f64 {
+    /// Result of a scene with this version and roughness; the scene remains as `scene.ron`.
+    fn scene(&self, roughness: &str) -> Value {
         let text = format!(
-            "(version: 2, material: (effective_modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 3.0e-5, adhesion: (work: 0.05), \
              roughness: Measured({roughness}), numerics: (points: 2048))"
         );
         self.write("scene.ron", &text);
-        number(&self.json(&["run", "scene.ron"])["line"]["rms_height"])
+        self.json(&["run", "scene.ron"])
+    }
+
+    fn rms_height(&self, roughness: &str) -> f64 {
+        number(&self.scene(roughness)["line"]["rms_height"])
     }
 }
 
@@ -249,6 +253,16 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     assert_equal(table(&lines).next().unwrap()[1], number(&first["adhesion_force"]), 1e-12);
     // Without a work of adhesion there is no adhesion force.
     assert_eq!(place.json(&["surface", "line.txt", "--modulus", "1MPa"])["adhesion"], Value::Null);
+}
+
+#[test]
+fn a_measured_profile_is_the_line_itself_where_a_scene_says_so() {
+    let place = Place::new();
+    let force =
+        |as_line: &str| number(&place.scene(&format!("file: \"line.txt\"{as_line}"))["adhesion_force"]);
+    let [profile, line] = [force(", as_line: true"), force("")];
+    assert_eq!(line, force(", as_line: false"));
+    assert_ne!(profile, line);
 }
 
 #[test]

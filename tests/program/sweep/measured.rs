@@ -11,7 +11,7 @@ const PLAN: &str = r#"(
         version: 1,
         material: (effective_modulus: 2.0e6),
         length: 1.0e-4,
-        roughness: Measured(file: "line.csv"),
+        roughness: Measured(file: "line.csv", as_line: true),
         adhesion: (work: 0.01),
         loading: [ToForce(1.0e-3), ToSeparation],
         numerics: (points: 64, edges: Grid),
@@ -134,7 +134,7 @@ fn the_table_of_a_form_is_a_measured_file() {
     fs::write(
         &plan,
         PLAN.replace(
-            "roughness: Measured(file: \"line.csv\")",
+            "roughness: Measured(file: \"line.csv\", as_line: true)",
             "form: Table(file: \"tip.csv\", unit: \"m\")",
         ),
     )

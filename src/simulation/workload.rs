@@ -1,7 +1,7 @@
 //! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
 
 use crate::contact::CurvePoint;
-use crate::scene::{CheckedScene, Edges, Effect, Roughness, Scene, Solver};
+use crate::scene::{CheckedScene, Edges, Effect, Observer, Roughness, Scene, Solver};
 use serde::Serialize;
 
 /// Bytes per spring: a height of the roughness, or a gap of the profile.
@@ -87,7 +87,7 @@ pub struct PlannedStage {
 
 /// The stages of a scene, in the order of execution.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Plan {
+pub struct Workload {
     /// Springs under the body.
     pub springs: u64,
     /// Approximate peak memory of a run beside the program itself, bytes: all its arrays, and the resulting curves.
@@ -101,20 +101,20 @@ pub struct Plan {
     pub stages: Vec<PlannedStage>,
 }
 
-impl Plan {
+impl Workload {
     /// Resident bytes of the program after a small scene: code, tables and stacks.
     pub const PROGRAM: u64 = 14 << 20;
 
     /// Plans the stages of a scene.
     pub fn of(scene: &CheckedScene) -> Self {
-        Plan::of_any(scene)
+        Workload::of_any(scene)
     }
 
     /// Plans the stages of a checked scene, which may have any other loading.
     pub(super) fn of_any(scene: &Scene) -> Self {
         let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
         let stages = stages(scene, points, springs);
-        let mut plan = Plan { springs, peak_bytes: 0, resident_bytes: 0, stages };
+        let mut plan = Workload { springs, peak_bytes: 0, resident_bytes: 0, stages };
         // At most, if the whole contact under load also exists at first touch.
         let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::ZeroLoadAdhesion];
         let between = scene.numerics.edges == Edges::SubCell && scene.numerics.solver == Solver::Exact;
@@ -125,7 +125,7 @@ impl Plan {
         // The profile is made before the contact is solved: the larger of both amounts of memory.
         let heights = if Effect::Roughness.is_on(scene) { HEIGHT * points } else { 0 };
         plan.peak_bytes = (heights + contact).max(plan.bytes(Stage::Synthesis));
-        plan.resident_bytes = Plan::PROGRAM + contact.max(plan.bytes(Stage::Synthesis));
+        plan.resident_bytes = Workload::PROGRAM + contact.max(plan.bytes(Stage::Synthesis));
         plan
     }
 
@@ -191,9 +191,9 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         (true, true) => Ok("adhesion with a loading that goes back"),
     };
     let hess = when(adhesive, "adhesion", "no adhesion: nothing is stretched");
-    let observed = |effect: Effect, field| when(effect.is_on(scene), field, "not in observe");
-    let fragments = observed(Effect::Fragments, "observe: Fragments");
-    let histogram = observed(Effect::HeightHistogram, "observe: HeightHistogram");
+    let observed = |observer, field| when(scene.observe.contains(&observer), field, "not in observe");
+    let fragments = observed(Observer::Fragments, "observe: Fragments");
+    let histogram = observed(Observer::HeightHistogram, "observe: HeightHistogram");
     let (touch, touch_bytes) = if exact { ((Some(2), springs), 0) } else { (each_stage, RELAXED * springs) };
     // F_smooth of a form without a closed form takes springs of its own.
     let has_smooth = scene.roughness.is_some()
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn each_stage_is_planned_and_has_its_name() {
-        let planned = Plan::of(crate::scene::open("jkr-sphere").unwrap().scene()).stages;
+        let planned = Workload::of(crate::scene::open("jkr-sphere").unwrap().scene()).stages;
         let names: Vec<_> = planned.iter().map(|planned| planned.stage.name()).collect();
         assert_eq!(names, Stage::NAMES);
     }
