@@ -2,7 +2,7 @@
 
 use crate::scene::{
     Document, Effect, Field, Move, Range, RoughnessParameter, STAGE, Scene, choice_in_words, field,
-    format_quantity, loading_text, ron_float, stage_in_ron,
+    format_quantity, loading_text, ron_float, stage_in_ron, target_field,
 };
 use crate::text::grouped;
 
@@ -215,7 +215,7 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
 /// A row for each loading stage, at the path of its number if it has one.
 fn stage_rows(loading: &[Move]) -> impl Iterator<Item = Parameter> {
     loading.iter().enumerate().map(|(index, stage)| {
-        let number = stage.field();
+        let number = target_field(*stage);
         let path = format!("loading.{index}{}", if number.is_some() { ".0" } else { "" });
         Parameter {
             leg: Some(index),

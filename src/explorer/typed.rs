@@ -5,7 +5,7 @@ use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
 use crate::scene::{
     format_quantity, in_unit, kind_and_number, loading_text, parse_quantity, pressing_force, read_stage,
-    unit_of,
+    target_field, unit_of,
 };
 
 /// Force whose prefix a loading without a force has, N.
@@ -57,7 +57,7 @@ pub fn reading(app: &App) -> Option<String> {
             if let Some(leg) = parameter.leg {
                 let kind = kind_and_number(app.edit.document.scene().loading.get(leg)?).0;
                 let stage = read_stage(&typed, Some(kind)).ok()?;
-                (stage.field()?.0.unit, loading_text(&[stage], format_quantity))
+                (target_field(stage)?.0.unit, loading_text(&[stage], format_quantity))
             } else {
                 let written = parameter.field.read_typed(&typed).ok()?;
                 (parameter.field.unit, parameter.field.quantities(&written, format_quantity)?)

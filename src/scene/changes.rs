@@ -1,7 +1,7 @@
 //! Differences between two scenes, by technical names.
 
 use super::document::Document;
-use super::field::Field;
+use super::field::{Field, target_field};
 use super::model::{Move, Scene};
 use super::quantity::format_quantity;
 use super::stages::loading_text;
@@ -85,7 +85,7 @@ fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
 
 fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
     let [from, to] = [one, other].map(|stage| loading_text(&[*stage], format_quantity));
-    let symbol = match (one.field(), other.field()) {
+    let symbol = match (target_field(*one), target_field(*other)) {
         (Some((field, _)), Some((same, _))) if field == same => format!(" {}", field.symbol),
         _ => String::new(),
     };

@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
-use super::field::{FILE_NAME, Field, LEG_INDENTATION};
+use super::field::{FILE_NAME, Field, LEG_INDENTATION, target_field};
 use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Edges, Material, Move, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
@@ -129,7 +129,7 @@ impl Found<'_> {
     fn check_targets(&mut self) {
         let scene = self.scene;
         for (index, stage) in scene.loading.iter().enumerate() {
-            if let Some((field, value)) = stage.field()
+            if let Some((field, value)) = target_field(*stage)
                 && !field.range.contains(value)
             {
                 let path = format!("loading.{index}.0");

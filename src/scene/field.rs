@@ -184,15 +184,13 @@ pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
 /// The fields of the targets of loading stages.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-impl Move {
-    /// Field and value of the target, if the stage has a numeric target.
-    pub fn field(&self) -> Option<(&'static Field, f64)> {
-        match *self {
-            Move::ToForce(force) => Some((&LEG_FORCE, force)),
-            Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
-            Move::ToDisplacement(displacement) => Some((&LEG_DISPLACEMENT, displacement)),
-            Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
-        }
+/// Returns the field and the value of the target of a loading stage, if the stage has a numeric target.
+pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
+    match stage {
+        Move::ToForce(force) => Some((&LEG_FORCE, force)),
+        Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
+        Move::ToDisplacement(displacement) => Some((&LEG_DISPLACEMENT, displacement)),
+        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
     }
 }
 

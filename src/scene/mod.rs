@@ -51,7 +51,7 @@ pub use document::{Document, LONGEST_TEXT};
 pub use effects::Effect;
 pub use errors::{Origin, SceneError, SceneErrors};
 pub(crate) use errors::{did_you_mean, nearest};
-pub use field::{Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, Step};
+pub use field::{Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, Step, target_field};
 pub(crate) use field::{STAGE, choice_in_words};
 pub use fields::{FIELDS, MOST_POINTS, SCENE_VERSION, field};
 pub(crate) use library::built_in;

@@ -22,7 +22,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
 /// Reason why a typed text is not a quantity.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct QuantityError(pub(super) String);
+pub struct QuantityError(pub(crate) String);
 
 impl QuantityError {
     fn no_number(typed: &str, unit: &str) -> Self {

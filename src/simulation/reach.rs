@@ -1,7 +1,7 @@
 //! Forces that a contact does not reach or is not to reach, in words, with the nearest force within reach.
 
 use crate::contact::{Contact, ContactError};
-use crate::scene::{Move, format_quantity};
+use crate::scene::{Move, format_quantity, target_field};
 use crate::text::round_to;
 
 /// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. From full
@@ -30,7 +30,7 @@ impl Reach {
 
     /// Reason against a stage beyond the deepest state.
     pub fn refusal(&self, stage: Move) -> Option<String> {
-        let (field, value) = stage.field()?;
+        let (field, value) = target_field(stage)?;
         let (full, most) = match stage {
             Move::ToForce(_) => (self.full_contact.0, self.force),
             Move::ToDisplacement(_) => (self.full_contact.1, self.displacement),

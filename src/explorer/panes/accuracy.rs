@@ -11,7 +11,7 @@ use crate::explorer::text::{Part, filled};
 use crate::explorer::theme::{Appearance, Meaning};
 use crate::export::{CostReport, work_precision};
 use crate::scene::{Edges, Numerics, Solver, format_rounded};
-use crate::simulation::{Workload, Stage};
+use crate::simulation::{Stage, Workload};
 use crate::text::{grouped, per_cent};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::scene::{Edges, Form, Move, Roughness, format_quantity, parse_quantity};
+use asperity::scene::{Edges, Form, Move, Roughness, format_quantity, parse_quantity, target_field};
 use asperity::simulation::{Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use std::time::{Duration, Instant};
@@ -44,7 +44,7 @@ fn within_reach(document: &Document, why: &str) -> Option<Document> {
     let (target, most) = why.split_once(" is far beyond full contact at ").expect("the refused target");
     let most = most.rsplit_once("; allowed: at most ").expect("the largest target").1;
     let is_refused = |stage: &Move| {
-        stage.field().is_some_and(|(field, value)| format_quantity(value, field.unit) == target)
+        target_field(*stage).is_some_and(|(field, value)| format_quantity(value, field.unit) == target)
     };
     let mut stages = document.stages();
     let (_, stage) = stages.iter_mut().find(|(_, stage)| is_refused(stage)).expect("the refused stage");
