@@ -9,6 +9,8 @@ mod cells;
 mod chart;
 mod colour;
 mod contour;
+#[cfg(test)]
+mod judge;
 mod label;
 #[cfg(feature = "tui")]
 mod pdf;
@@ -29,4 +31,4 @@ pub use scale::{AxisScale, Span};
 pub(crate) use svg::{Svg, escaped};
 
 #[cfg(test)]
-pub(crate) use svg::{check_picture, parsed};
+pub(crate) use judge::{check_picture, parsed};

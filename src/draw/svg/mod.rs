@@ -5,15 +5,12 @@ mod frame;
 mod layers;
 mod legend;
 
-pub(crate) use elements::{Svg, escaped};
-#[cfg(test)]
-pub(crate) use tests::{check_picture, parsed};
-
 use super::axis::Axes;
 use super::chart::{Chart, Figure, HeatMap};
 use super::colour::Shades;
 use super::label::Label;
 use elements::{Anchor, PAPER, Pen, Place, TEXT};
+pub(crate) use elements::{Svg, escaped};
 use frame::{Frame, LABEL, Side};
 
 /// Fonts of figures, with nearly the same letters on all systems.
@@ -170,63 +167,8 @@ mod tests {
     use super::*;
     use crate::draw::chart::{Layer, Shape, Sign, Stroke};
     use crate::draw::colour::{Ink, hex};
+    use crate::draw::judge::{attribute, elements, parsed};
     use crate::draw::{Axis, AxisScale, Span};
-    use roxmltree::Document;
-
-    /// Tags of a document with their attributes, and its text. Panics if the document is not well-formed.
-    pub(crate) fn parsed(svg: &str) -> (Vec<String>, String) {
-        let document = Document::parse(svg).unwrap();
-        let tag = |element: roxmltree::Node<'_, '_>| {
-            let tag = svg[element.range()].split('>').next().unwrap_or_default();
-            tag.trim_start_matches('<').trim_end_matches('/').to_owned()
-        };
-        let elements = document.descendants().filter(roxmltree::Node::is_element).map(tag).collect();
-        let text = document.descendants().filter(roxmltree::Node::is_text).filter_map(|node| node.text());
-        (elements, text.collect())
-    }
-
-    /// Elements of a kind.
-    fn elements(svg: &str, tag: &str) -> Vec<String> {
-        let is_kind = |element: &String| element.split(' ').next() == Some(tag);
-        parsed(svg).0.into_iter().filter(is_kind).collect()
-    }
-
-    /// Checks that all numbers of a document are finite, and that its words lie within the picture and not on each other.
-    pub(crate) fn check_picture(svg: &str) {
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        let paper = &elements(svg, "rect")[0];
-        let size = (attribute(paper, "width"), attribute(paper, "height"));
-        let mut boxes: Vec<[f64; 4]> = Vec::new();
-        for (element, rest) in svg.split("<text").skip(1).map(|rest| rest.split_once('>').unwrap()) {
-            let words = rest.split("</text>").next().unwrap_or_default();
-            let plain: String = words.split('<').map(|part| part.rsplit('>').next().unwrap_or("")).collect();
-            let [x, y, height] = ["x", "y", "font-size"].map(|name| attribute(element, name));
-            let width = 0.9 * Label::plain(plain.trim()).width() * height;
-            let left = match () {
-                () if element.contains("\"middle\"") => x - width / 2.0,
-                () if element.contains("\"end\"") => x - width,
-                () => x,
-            };
-            let (middle, half) = (y - 0.35 * height, 0.4 * height);
-            let place = match element.contains("rotate") {
-                true => [x - half, middle - width / 2.0, x + half, middle + width / 2.0],
-                false => [left, middle - half, left + width, middle + half],
-            };
-            let is_inside = place[0] > 0.0 && place[1] > 0.0 && place[2] < size.0 && place[3] < size.1;
-            assert!(is_inside, "{plain}: {place:?} {size:?}");
-            let is_over = |other: &&[f64; 4]| {
-                place[0] < other[2] && other[0] < place[2] && place[1] < other[3] && other[1] < place[3]
-            };
-            assert_eq!(boxes.iter().find(is_over), None, "{plain}: {place:?}");
-            boxes.push(place);
-        }
-    }
-
-    /// Number in an attribute.
-    fn attribute(element: &str, name: &str) -> f64 {
-        let value = element.split_once(&format!(" {name}=\"")).and_then(|(_, rest)| rest.split('"').next());
-        value.and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)
-    }
 
     fn axis(scale: AxisScale, low: f64, high: f64, symbol: &str, unit: &str) -> Axis {
         Axis::new(scale, Span { low, high }, "", symbol, unit)
