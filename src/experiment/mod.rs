@@ -382,6 +382,6 @@ mod coverage {
         let first = Held { held: all[0].held + all[1].held, all: all[0].all + all[1].all };
         assert!([first, again[0], again[1]].iter().all(|one| one.share() >= 0.93));
         let docs = include_str!("../../docs/experiment.md");
-        assert!(count != 64 || docs.contains(&table));
+        assert!(count < 200 || docs.contains(&table));
     }
 }
