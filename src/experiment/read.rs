@@ -175,14 +175,11 @@ fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogr
     let mut columns = vec![Column::default(); values.len()];
     columns.iter_mut().zip(names).for_each(|(column, name)| column.name = name);
     let mut points = Points::new(&columns, is_own, options)?;
-    for point in 0..values.first().map_or(0, Vec::len) {
+    (0..values.first().map_or(0, Vec::len)).try_for_each(|point| {
         let value = |column: usize| values[column][point];
-        points.take(
-            &Place::Point(point + 1),
-            |column| Ok(value(column)),
-            |column| value(column).to_string().into(),
-        )?;
-    }
+        let text = |column: usize| value(column).to_string().into();
+        points.take(&Place::Point(point + 1), |column| Ok(value(column)), text)
+    })?;
     Ok(points.parts)
 }
 
