@@ -3,7 +3,7 @@
 //!
 //! The forces jump with the parameters, so neither derivatives nor a linearised fit say how well a curve determines them. A
 //! population can: its members are drawn over the ranges and weighted as if the noise were large, where jumps count little.
-//! Then the noise falls step by step to that of the curve. At each step likely members are doubled, unlikely ones are left
+//! Then the noise falls step by step to the noise of the curve. At each step likely members are doubled, unlikely ones are left
 //! out, and all move by differences of others, which have the extent and the directions of the population, and now and then
 //! by a random step of any size, so that copies of one member part again. In the end the members are distributed as the
 //! parameters are by the noise. The start is no member: a start close to the values would be copied to the whole population.
@@ -22,18 +22,18 @@ use std::ops::Range;
 const SEED: u64 = 29;
 /// Members drawn at first for each free parameter.
 const SCAN: usize = 60;
-/// Members of a population beside those for each free parameter.
+/// Members of a population, and further ones for each free parameter.
 const MEMBERS: usize = 24;
 const FOR_EACH: usize = 8;
 /// Share of the members that count after a step of the noise.
 const EFFECTIVE: f64 = 0.3;
-/// Moves of the population at each step, and those at the end, after which all members are samples.
+/// Moves of the population at each step, and moves at the end, after each of which all members are samples.
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
 /// Share of the moves that are random steps, and decades over which their lengths extend down from the whole range.
 const RANDOM: f64 = 0.02;
 const DECADES: f64 = 6.0;
-/// Noise in units of that of the curve down to which the forces are coarse, and factor of the members until then.
+/// Noise over the noise of the curve down to which the forces are coarse, and factor of the members until then.
 const COARSE: f64 = 10.0;
 const MORE: usize = 2;
 /// Part of the residual of the best member down to which the noise falls, if that residual exceeds the noise of the curve.
@@ -43,7 +43,7 @@ const EXPECTED: f64 = 1.2;
 /// Populations at most, and cost by which a start is better than a population that missed it.
 const ATTEMPTS: usize = 3;
 const MISSED: f64 = 3.0;
-/// Largest noise in units of that of the curve, and halvings of its logarithm in a step.
+/// Largest noise over the noise of the curve, and halvings of its logarithm in a step.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
 /// Largest factor of the noise in a step.
@@ -61,13 +61,13 @@ const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 pub(super) struct Found {
     /// The member of the least residuals.
     pub best: Member,
-    /// Noise of the samples in units of that of the curve: the residual where it is larger.
+    /// Noise of the samples over the noise of the curve: the residual where it is larger.
     pub noise: f64,
     /// Members that are distributed as the noise has it.
     pub samples: Vec<Vec<f64>>,
     /// Costs of each sample at its noise over each block of the curve; empty where the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
-    /// Least cost without adhesion in addition to that of the best member; infinite if no sample comes close to it.
+    /// Least cost without adhesion less the cost of the best member; infinite if no sample comes close to no adhesion.
     pub without_adhesion: f64,
 }
 
@@ -93,7 +93,7 @@ impl Search<'_> {
         Ok(Member { at, rests })
     }
 
-    /// Residuals without the lines of zero and drift, where those beyond a limit count as that limit.
+    /// Residuals without the lines of zero and drift, for which residuals beyond a limit count as the limit.
     pub fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
         let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
         let mut refined = rests.to_vec();
@@ -109,7 +109,7 @@ impl Search<'_> {
         self.space.misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
     }
 
-    /// Sum of the [`loss`] of all points at a noise in units of that of the curve.
+    /// Sum of the [`loss`] of all points at a noise over the noise of the curve.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
         self.refined(&member.rests, WRONG_SIDE * noise).iter().map(|rest| loss(rest / noise)).sum()
     }
@@ -189,12 +189,12 @@ impl Search<'_> {
         Ok(Found { best: population.best, noise, samples, blocks, without_adhesion })
     }
 
-    /// Coordinates of small residuals: those of one population.
+    /// Coordinates of the best member of one population.
     pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
         Ok(self.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
     }
 
-    /// Least cost without adhesion in addition to that of the best member; infinite if no sample comes close to it.
+    /// Least cost without adhesion less the cost of the best member; infinite if no sample comes close to no adhesion.
     fn without_adhesion(
         &mut self,
         population: &Population,
