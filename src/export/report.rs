@@ -233,7 +233,10 @@ mod tests {
             ("jkr-sphere", &[few][..]),
             ("jkr-sphere", &[few, ("adhesion", "None"), ("loading", "[ToTouch]")]),
             ("pressure-sensitive", &rough),
-            ("pressure-sensitive", &[few, ("roughness", "None"), ("title", "\"a <&> b\"")]),
+            (
+                "pressure-sensitive",
+                &[few, ("roughness", "None"), ("adhesion", "(work: 0.05)"), ("title", "\"a <&> b\"")],
+            ),
         ] {
             let overrides = overrides.iter().map(|(path, value)| (path.to_string(), value.to_string()));
             let document = open(name).unwrap().set_all(&overrides.collect::<Vec<_>>()).unwrap();

@@ -57,7 +57,7 @@ impl Report for ScenesReport<'_> {
         let mut sheet = Sheet::default();
         let (first, _) = self.scenes.first()?;
         for (number, (document, _)) in self.scenes.iter().enumerate() {
-            sheet.paragraph(&format!("{}  {}", letter(number), document.title()));
+            sheet.paragraph(&format!("{} {}", letter(number), document.title()));
         }
         for (number, (document, _)) in self.scenes.iter().enumerate().skip(1) {
             let changes: Vec<String> = first.changes_to(document).iter().map(ToString::to_string).collect();
@@ -106,18 +106,11 @@ mod tests {
         let scenes = [(&first, outcome(&first)), (&second, outcome(&second)), (&first, outcome(&first))];
         let report = ScenesReport { scenes: &scenes, panels: false };
         let text = report.text().unwrap();
-        assert!(text.starts_with(&format!("A  {}\nB  ", first.title())), "{text}");
+        assert!(text.starts_with(&format!("A {}\nB ", first.title())), "{text}");
         assert!(text.contains("Different from A to B: γ 50 mJ/m² → 100 mJ/m²\n"), "{text}");
         assert!(text.contains("Different from A to C: nothing\n"), "{text}");
-        let row = text.lines().find(|line| line.starts_with("adhesion force F_a")).unwrap();
         // The pull-off force of a sphere is proportional to the work of adhesion.
-        assert!(
-            row.split_whitespace()
-                .collect::<Vec<_>>()
-                .join(" ")
-                .contains("23.56 µN 47.12 µN (×2) 23.56 µN (×1)"),
-            "{text}"
-        );
+        assert!(text.contains("adhesion force F_a     23.56 µN              47.12 µN (×2)\n"), "{text}");
         let named: Vec<String> =
             report.drawn(true).legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(named, ["A: ", "B: ", "C: "].map(|letter| format!("{letter}{}", first.title())));

@@ -1,6 +1,6 @@
 //! Errors of studies.
 
-use super::plan::Plan;
+use super::plan::{ONE_PROFILE, Plan};
 use super::plan_text::PlanErrors;
 use crate::io::WriteError;
 use crate::simulation::RunError;
@@ -95,10 +95,8 @@ pub enum StudyError {
 pub(super) const NO_PROFILES: StudyError =
     StudyError::NotAllowed { found: "no profiles", allowed: "at least one" };
 /// Error for several profiles of a scene that has a single one.
-pub(super) const ONE_PROFILE: StudyError = StudyError::NotAllowed {
-    found: "more than one profile, and the profile of this scene is fixed",
-    allowed: "random roughness (SelfAffine, or an equivalent line)",
-};
+pub(super) const FIXED_PROFILE: StudyError =
+    StudyError::NotAllowed { found: ONE_PROFILE.0, allowed: ONE_PROFILE.1 };
 
 impl StudyError {
     /// Error of a profile of a study of one cell, or one at each preload.

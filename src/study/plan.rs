@@ -1,7 +1,6 @@
 //! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
 
 use super::axis::Axis;
-use super::error::ONE_PROFILE;
 use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
 use crate::scene::{CheckedScene, Scene, SceneError, SceneErrors, ron_float};
@@ -29,6 +28,12 @@ const SAME: [&[&str]; 2] = [
     &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
+
+/// Why a scene has a single profile, and which scenes have several.
+pub(super) const ONE_PROFILE: (&str, &str) = (
+    "more than one profile, and the profile of this scene is fixed",
+    "random roughness (SelfAffine, or an equivalent line)",
+);
 
 /// A checked plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -190,7 +195,7 @@ impl Plan {
             wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
         }
         if self.lines > 1 && self.scene.seed().is_none() {
-            wrong.push(format!("lines = {}: {}", self.lines, ONE_PROFILE));
+            wrong.push(format!("lines = {}: {}; allowed: {}", self.lines, ONE_PROFILE.0, ONE_PROFILE.1));
         }
         if self.record.is_empty() {
             wrong.push("record = []: allowed: at least one quantity".into());

@@ -165,7 +165,7 @@ impl Results {
 
 #[cfg(test)]
 mod tests {
-    use super::super::error::ONE_PROFILE;
+    use super::super::error::FIXED_PROFILE;
     use super::*;
     use crate::scene::{Document, open};
 
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn smooth_bodies_have_but_one_profile() {
         let (smooth, preloads) = (open("jkr-sphere").unwrap(), preloads((0.0, 1e-6), 2));
-        assert_eq!(solved(&smooth, &preloads, 2, 1), Err(ONE_PROFILE.to_string()));
+        assert_eq!(solved(&smooth, &preloads, 2, 1), Err(FIXED_PROFILE.to_string()));
         let one = solved(&smooth, &preloads, 1, 1).unwrap();
         assert_eq!((one.plan().cells(), one.spread_of_adhesion()), (2, Vec::new()));
         let stepwise = smooth.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();

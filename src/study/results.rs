@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::axis::Axis;
 use super::cells::Streak;
-use super::error::{NO_PROFILES, ONE_PROFILE};
+use super::error::{FIXED_PROFILE, NO_PROFILES};
 use super::grid::{Cell, Grid, Layer};
 use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
@@ -111,7 +111,7 @@ impl Results {
             return Err(NO_PROFILES);
         }
         if lines > 1 && scene.seed().is_none() {
-            return Err(ONE_PROFILE);
+            return Err(FIXED_PROFILE);
         }
         if preloads.is_some() && scene.numerics.solver != Solver::Exact {
             return Err(StudyError::Run { place: String::new(), error: RunError::NeedsExactSolver });
