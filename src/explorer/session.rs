@@ -115,7 +115,7 @@ pub fn open(opening: Opening, options: Options, solve: Solve, draw: Draw) -> io:
         theme: options.theme.or(options.config.theme).unwrap_or(environment.theme),
         marker: options.marker.or(options.config.markers).unwrap_or(environment.marker),
     };
-    let mut app = begin(opening, (size.width, size.height), appearance, options.config);
+    let mut app = begin(opening.into(), (size.width, size.height), appearance, options.config);
     let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
     let frame_rate = app.config.frame_rate;
     if let Some(warning) = options.warning {

@@ -38,7 +38,6 @@ pub static ROW: PaneRow = PaneRow {
              study and the live map",
         ),
     ],
-    ..PaneRow::EMPTY
 };
 
 /// Most springs for the map of a demo, of hundreds of scenes.

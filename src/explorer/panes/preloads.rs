@@ -37,7 +37,6 @@ pub static ROW: PaneRow = PaneRow {
          the present preload. On the right the share of profiles up to each force, at the crosshair or the present \
          preload. X changes the scale",
     )],
-    ..PaneRow::EMPTY
 };
 
 /// The drawn curves, with the command that computes the same table.

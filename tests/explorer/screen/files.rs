@@ -187,7 +187,7 @@ fn every_pane_is_exported_as_a_figure() {
             super::sensitivity::computed_sensitivity(rough()),
             Pane::Sensitivity,
             "asperity sensitivity",
-            "change",
+            "path,value,",
         ),
         (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,kappa,lines,regime,"),
     ];

@@ -53,7 +53,7 @@ fn a_command_is_found_by_words_and_runs_as_its_key_does() {
         query(&mut by_list, typed);
         if keys.is_empty() {
             // No command has all these words.
-            assert!(by_list.text().contains("no command fits"), "{}", by_list.text());
+            assert!(by_list.text().contains("nothing fits"), "{}", by_list.text());
             continue;
         }
         by_list.press("Enter");
