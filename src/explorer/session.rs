@@ -88,7 +88,12 @@ enum Message {
 }
 
 /// Opens the explorer on a scene or a finished study, with a solver and a view, and returns its final state.
-pub fn open(opening: Opening, options: Options, solve: Solve, draw: Draw) -> io::Result<SessionEnd> {
+pub fn open(
+    opening: impl Into<Opening>,
+    options: Options,
+    solve: Solve,
+    draw: Draw,
+) -> io::Result<SessionEnd> {
     let size = terminal::window()?;
     let guard = TerminalGuard::take(!options.no_mouse)?;
     let (sender, inbox) = channel();
