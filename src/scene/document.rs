@@ -96,7 +96,7 @@ impl Document {
                     new.text = text;
                     remember(&mut new.overrides, path, value);
                 }
-                Err(error) => errors.push(error.at(Origin::Overrides(vec![format!("{path}={value}")]))),
+                Err(refused) => errors.extend(refused.0),
             }
         }
         let origin = |error: &SceneError| overrides_behind(error, overrides);
@@ -237,19 +237,22 @@ impl Document {
 }
 
 /// The text with another value of a field.
-fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneError> {
+fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || {
         field(parent, None).filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
     };
     let known = field_at(text, path).or_else(band);
-    let wrong = |known: &Field, why: &str| SceneError::of(path, value, known.allowed(), why);
+    let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
+    let refused = |message| SceneErrors::from(SceneError::whole(origin(), message));
+    let wrong = |known: &Field, why: &str| {
+        SceneErrors::from(SceneError::of(path, value, known.allowed(), why).at(origin()))
+    };
     let typed = match known {
         Some(known) => known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?,
         None => value.to_string(),
     };
     let typed = group_in_ron(path, &typed).unwrap_or(typed);
-    let refused = |message| SceneError::whole(Origin::Scene, message);
     let text = set(text, path, &typed).map_err(|message| match known {
         Some(known) if message == NOT_ONE_VALUE => wrong(known, ""),
         _ => refused(message),
