@@ -198,7 +198,16 @@ pub const FIELDS: &[Field] = &[
 #[cfg(test)]
 mod tests {
     use super::super::field::LEG_FIELDS;
+    use super::super::quantity::parse_quantity;
     use super::*;
+
+    #[test]
+    fn every_number_is_typed_with_its_unit() {
+        for field in FIELDS {
+            let text = format!("1 {}", if field.unit == "1" { "" } else { field.unit });
+            assert_eq!(parse_quantity(&text, field.unit), Ok(1.0), "{}", field.path);
+        }
+    }
 
     fn all() -> impl Iterator<Item = &'static Field> {
         FIELDS.iter().chain(LEG_FIELDS)
