@@ -9,6 +9,7 @@ mod stages;
 mod workload;
 
 pub use outcome::{LineFacts, Outcome, RunError, Timings};
+pub use reach::BeyondFullContact;
 pub(crate) use reversals::FEW_SAMPLES;
 pub use reversals::{SeeReversal, TURNING_POINTS};
 pub use roughness::equivalent_springs;

@@ -1,6 +1,6 @@
 //! Outcome of a computed scene, or the reason why there is none.
 
-use super::reach::{out_of_reach, rounded_up};
+use super::reach::{BeyondFullContact, out_of_reach, rounded_up};
 use crate::analysis::{Figures, Governing, InstrumentFigures, Regime, SteepWaves};
 use crate::contact::{ContactError, History, Patch};
 use crate::scene::{Move, SceneErrors, format_quantity};
@@ -129,9 +129,9 @@ pub enum RunError {
         /// Force at first touch, N.
         touch: f64,
     },
-    /// A stage that presses the body deeper than its length beyond full contact: target, full contact, and what is allowed.
-    #[error("{0}")]
-    BeyondFullContact(String),
+    /// A stage that presses the body deeper than its length beyond full contact.
+    #[error(transparent)]
+    BeyondFullContact(#[from] BeyondFullContact),
     /// The contact could not be computed.
     #[error("{}", out_of_reach(.0, Move::ToTouch))]
     Contact(#[from] ContactError),

@@ -3,6 +3,7 @@
 use crate::contact::{Contact, ContactError};
 use crate::scene::{Move, format_quantity, target_field};
 use crate::text::round_to;
+use thiserror::Error;
 
 /// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. From full
 /// contact on the force curve is a straight line, and so deep a body is no longer on a half-space that deforms little.
@@ -28,25 +29,44 @@ impl Reach {
         Reach { full_contact, force, indentation, displacement }
     }
 
-    /// Reason against a stage beyond the deepest state.
+    /// Reason against a stage beyond the deepest state, in words.
     pub fn refusal(&self, stage: Move) -> Option<String> {
-        let (field, value) = target_field(stage)?;
-        let (full, most) = match stage {
+        self.beyond(stage).map(|beyond| beyond.to_string())
+    }
+
+    fn beyond(&self, stage: Move) -> Option<BeyondFullContact> {
+        let (field, found) = target_field(stage)?;
+        let (full_contact, most) = match stage {
             Move::ToForce(_) => (self.full_contact.0, self.force),
             Move::ToDisplacement(_) => (self.full_contact.1, self.displacement),
             _ => (self.full_contact.1, self.indentation),
         };
-        let [value_text, full, most_text] =
-            [value, full, -rounded_up(-most)].map(|value| format_quantity(value, field.unit));
-        let why = "deeper by more than the length of the profile";
-        (value > most).then(|| {
-            format!("{value_text} is far beyond full contact at {full}, {why}; allowed: at most {most_text}")
-        })
+        let allowed = -rounded_up(-most);
+        (found > most).then_some(BeyondFullContact { found, full_contact, allowed, unit: field.unit })
     }
 }
 
+/// A stage that presses the body deeper than its length beyond full contact.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error(
+    "{} is far beyond full contact at {}, deeper by more than the length of the profile; allowed: at most {}",
+    format_quantity(*found, unit),
+    format_quantity(*full_contact, unit),
+    format_quantity(*allowed, unit)
+)]
+pub struct BeyondFullContact {
+    /// Target of the stage, in `unit`.
+    pub found: f64,
+    /// The same quantity at full contact.
+    pub full_contact: f64,
+    /// Largest allowed target, rounded to four digits.
+    pub allowed: f64,
+    /// Unit of the three numbers: N or m.
+    pub unit: &'static str,
+}
+
 /// Refuses a loading with a stage out of reach.
-pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), String> {
+pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFullContact> {
     let length = contact.foundation().length;
     // Even without the way to full contact most loadings are within reach.
     let is_near = |stage: &Move| match *stage {
@@ -58,7 +78,7 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), String> {
         return Ok(());
     }
     let reach = Reach::of(contact);
-    loading.iter().find_map(|stage| reach.refusal(*stage)).map_or(Ok(()), Err)
+    loading.iter().find_map(|stage| reach.beyond(*stage)).map_or(Ok(()), Err)
 }
 
 /// Force by which full contact resists one length of the profile more, N.

@@ -37,7 +37,7 @@ impl Simulation {
         let plan =
             Workload::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
-        reach::check(&contact, ends).map_err(RunError::BeyondFullContact)?;
+        reach::check(&contact, ends)?;
         let mut see = |index, reversal| {
             see(index, reversal)?;
             if stop() { Err(ContactError::Interrupted) } else { Ok(()) }

@@ -283,7 +283,7 @@ impl Simulation {
         let plan = Workload::of(scene);
         let made = self.prepare(&plan, scene, stop)?;
         let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
-        reach::check(&contact, &scene.loading).map_err(RunError::BeyondFullContact)?;
+        reach::check(&contact, &scene.loading)?;
         let on_foundation =
             |patch: Patch| Patch { first: patch.first + facts.first, last: patch.last + facts.first };
 

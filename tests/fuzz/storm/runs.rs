@@ -2,8 +2,8 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::scene::{Edges, Form, Move, Roughness, format_quantity, parse_quantity, target_field};
-use asperity::simulation::{Outcome, RunError, Simulation};
+use asperity::scene::{Edges, Form, Move, Roughness, target_field};
+use asperity::simulation::{BeyondFullContact, Outcome, RunError, Simulation};
 use asperity::surface::SurfaceError;
 use std::time::{Duration, Instant};
 
@@ -31,8 +31,8 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
                 .try_for_each(|(leg, start)| assert_leg(leg, &start, &outcome))?;
             assert_energy(&outcome, scene.numerics.edges)
         }
-        Err(RunError::BeyondFullContact(why)) => {
-            within_reach(document, &why).map_or(Ok(()), |document| compute(&document, folder))
+        Err(RunError::BeyondFullContact(beyond)) => {
+            within_reach(document, &beyond).map_or(Ok(()), |document| compute(&document, folder))
         }
         Err(error) => assert_refused(&error, scene),
     }
@@ -40,19 +40,16 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
 
 /// The document with the refused stage at the largest target that the refusal names; `None` where the scene does not allow
 /// it.
-fn within_reach(document: &Document, why: &str) -> Option<Document> {
-    let (target, most) = why.split_once(" is far beyond full contact at ").expect("the refused target");
-    let most = most.rsplit_once("; allowed: at most ").expect("the largest target").1;
+fn within_reach(document: &Document, beyond: &BeyondFullContact) -> Option<Document> {
     let is_refused = |stage: &Move| {
-        target_field(*stage).is_some_and(|(field, value)| format_quantity(value, field.unit) == target)
+        target_field(*stage).is_some_and(|(field, value)| (field.unit, value) == (beyond.unit, beyond.found))
     };
     let mut stages = document.stages();
     let (_, stage) = stages.iter_mut().find(|(_, stage)| is_refused(stage)).expect("the refused stage");
-    let most = |unit| parse_quantity(most, unit).expect("a quantity");
     *stage = match *stage {
-        Move::ToForce(_) => Move::ToForce(most("N")),
-        Move::ToDisplacement(_) => Move::ToDisplacement(most("m")),
-        _ => Move::ToIndentation(most("m")),
+        Move::ToForce(_) => Move::ToForce(beyond.allowed),
+        Move::ToDisplacement(_) => Move::ToDisplacement(beyond.allowed),
+        _ => Move::ToIndentation(beyond.allowed),
     };
     document.with_stages(&stages).ok()
 }
