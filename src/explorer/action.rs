@@ -37,7 +37,7 @@ pub enum Action {
 pub enum Task {
     /// Ask the solver for the state that the screen waits for.
     Ask,
-    /// Perform the remaining studies of the scene, see [`super::update::studies`], and no others.
+    /// Perform the remaining studies of the scene, and no others.
     Study,
     Write(OutputFile),
     List,
