@@ -50,10 +50,10 @@ pub struct Options {
     pub tip_radius: Option<f64>,
 }
 
-/// PointStatistics, spectra and equivalent line of measured surfaces.
+/// Statistics, spectra and equivalent line of measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// PointStatistics of the points.
+    /// Statistics of the points.
     pub statistics: PointStatistics,
     /// Rms height of each surface, m.
     pub rms_heights: Vec<f64>,

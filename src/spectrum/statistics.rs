@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// PointStatistics of the points of one or more surfaces, after detrending.
+/// Statistics of the points of one or more surfaces, after detrending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PointStatistics {
     /// Number of points.

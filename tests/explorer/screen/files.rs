@@ -189,7 +189,7 @@ fn every_pane_is_exported_as_a_figure() {
             "asperity sensitivity",
             "path,value,",
         ),
-        (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,kappa,lines,regime,"),
+        (super::map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,adhesion.kappa,lines,regime,"),
     ];
     for (mut driver, pane, command, column) in tables {
         driver.app.view.pane = pane;

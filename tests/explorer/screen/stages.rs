@@ -140,7 +140,7 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
     // What was typed stays in the editor.
     for (stage, typed, why) in [
         (0, "separation", "cannot pull before contact"),
-        (0, "10 µN, pull", "\"pull\" is not a stage; such as"),
+        (0, "10 µN, pull", "\"pull\" is not a stage, such as"),
         (1, "separation", "cannot pull before contact"),
         (1, "1 kN", "is far beyond full contact at "),
         (0, "2 loops 0 N to 1 kN, separation", "is far beyond full contact at "),
