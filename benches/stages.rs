@@ -7,12 +7,13 @@
 //! `--hurst 0.2` and `--kappa 100` take other lines and another adhesion, with ten times this κ beside it. Without
 //! `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
-use asperity::analysis::ideal_adhesion_force;
 use asperity::contact::{
     Body, Contact, ContactTree, Foundation, HessRule, Leg, LegRecord, Solver, Springs, Work,
 };
-use asperity::scene::{Adhesion, CheckedScene, Document, Edges, Move, RoughnessParameter};
-use asperity::simulation::Simulation;
+use asperity::contact::{Edges, Move};
+use asperity::scene::Simulation;
+use asperity::scene::ideal_adhesion_force;
+use asperity::scene::{Adhesion, CheckedScene, Document, RoughnessParameter};
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;

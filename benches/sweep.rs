@@ -5,8 +5,9 @@
 //! `cargo bench --bench sweep` prints the figures and fails if a bar is missed. After `--`: `--quick` takes fewer lines
 //! and cells. Without `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
-use asperity::scene::{Adhesion, Move, Roughness, RoughnessParameter, Scene};
-use asperity::simulation::Simulation;
+use asperity::contact::Move;
+use asperity::scene::Simulation;
+use asperity::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
 use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
 use realfft::RealFftPlanner;
 use std::hint::black_box;

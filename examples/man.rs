@@ -1,6 +1,6 @@
 //! Writes the manual pages of the program and its commands into a folder: `cargo run --example man -- man1`.
 
-use asperity::cli::Arguments;
+use asperity::cli::arguments::Arguments;
 use clap::CommandFactory;
 use std::process::ExitCode;
 

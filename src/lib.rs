@@ -1,7 +1,5 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-// Much of the library serves the program alone.
-#![cfg_attr(not(feature = "tui"), allow(dead_code, unused_imports))]
 //! Adhesion of rough elastic contacts: pull-off force, dissipated energy and the whole hysteretic force curve of a
 //! rigid rough profile on an elastic half-space, for any loading history, exactly and in linear time.
 //!
@@ -38,7 +36,7 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! [`simulation::Simulation`] computes many scenes and repeats only the stages whose input has changed.
+//! [`scene::Simulation`] computes many scenes and repeats only the stages whose input has changed.
 //!
 //! # Conventions
 //!
@@ -46,93 +44,32 @@
 //! undeformed profile and grows on pressing; compressive forces are positive. N points at a distance Δx cover the
 //! length N Δx.
 //!
-//! # Rooms
+//! # Crates
 //!
 //! Data flows one way:
 //!
-//! | from | by | to |
+//! | crate | from | to |
 //! | --- | --- | --- |
-//! | a file | [`scene::open`] | [`scene::CheckedScene`] |
-//! | measured files | [`topography::read`] and [`spectrum::analyse`] | equivalent line, its moments |
-//! | form and roughness | [`surface`] | [`surface::Line`], gaps c at a distance Δx |
-//! | gaps | [`contact::Springs`] | merge tree of the local maxima of the gap |
-//! | tree, E\*, γ, loading | [`contact::Body`] or [`contact::Stepwise`] | [`contact::History`], legs and curves |
-//! | history | [`analysis`] | figures and the regime of adhesion |
+//! | [`data`] | text | values with units, tables, files |
+//! | [`contact`] | gaps c at a distance Δx, E\*, γ, a loading | [`contact::History`], legs and curves |
+//! | [`surface`] | measured files, forms, spectra | moments, equivalent lines |
+//! | [`scene`] | a scene file | [`scene::Outcome`] with figures and regime |
+//! | [`study`] | many scenes, measured curves | tables, fits |
 //!
-//! # Features
-//!
-//! `tui` (default) adds the program: explorer, command line and figures of studies. Without default features the crate
-//! has no terminal packages.
+//! Charts, the command line and the explorer belong to the program alone.
 
-pub mod accuracy;
-pub mod analysis;
-mod check;
-#[cfg(feature = "tui")]
 pub mod cli;
-pub mod contact;
-mod contact_cycle;
-mod draw;
-pub mod experiment;
-#[cfg(feature = "tui")]
 pub mod explorer;
-#[cfg(feature = "tui")]
 pub mod export;
-mod io;
-mod memory;
-mod numerics;
-mod parallel;
-mod profile;
-pub mod reference;
-pub mod scene;
-pub mod simulation;
-pub mod spectrum;
-pub mod study;
-pub mod surface;
-mod text;
-pub mod topography;
 
-pub use contact_cycle::{Contact, ContactBuilder, Cycle};
-pub use profile::Profile;
-pub use scene::{Document, Edges, Material, Move, Scene};
-pub use surface::SelfAffine;
-
-use simulation::{Outcome, RunError, Simulation};
-use thiserror::Error;
-
-/// Error of the functions at the root of this crate.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum Error {
-    /// Values out of their ranges: field, value and allowed range of each.
-    #[error(transparent)]
-    Values(#[from] scene::SceneErrors),
-    /// A value of a profile or a contact out of its range.
-    #[error("{name} = {}; allowed: {allowed}", shown(*value))]
-    Value {
-        /// Name of the value.
-        name: String,
-        /// The value.
-        value: f64,
-        /// Allowed range.
-        allowed: &'static str,
-    },
-    /// A force out of reach, a file that cannot be read, or not enough memory.
-    #[error(transparent)]
-    Run(#[from] RunError),
-}
-
-/// A value as a user would write it: a count without an exponent.
-fn shown(value: f64) -> String {
-    let is_plain = value == 0.0 || (1e-3..1e10).contains(&value.abs());
-    if is_plain { value.to_string() } else { format!("{value:e}") }
-}
-
-/// Computes the scene of a document. Its measured files are looked for in the folder of the scene file.
-///
-/// # Errors
-/// [`Error::Run`] for a scene that cannot be computed.
-pub fn run(document: &Document) -> Result<Outcome, Error> {
-    Ok(Simulation::new(document.resolve("")).run(document.scene(), &|| false, &mut |_, _, _| Ok(()))?)
-}
+pub use asperity_contact as contact;
+pub use asperity_contact::{Edges, Move};
+pub use asperity_data as data;
+pub use asperity_scene as scene;
+pub use asperity_scene::{Contact, ContactBuilder, Cycle, Document, Error, Material, Profile, Scene, run};
+pub use asperity_study as study;
+pub use asperity_surface as surface;
+pub use asperity_surface::SelfAffine;
 
 /// The example of the README, compiled and run as a test.
 #[cfg(doctest)]

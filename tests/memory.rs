@@ -7,8 +7,9 @@ mod allocations;
 mod peak;
 
 use asperity::contact::{Body, Contact, Foundation, HessRule};
-use asperity::scene::{Document, Edges, Move, open};
-use asperity::simulation::{Simulation, Workload};
+use asperity::contact::{Edges, Move};
+use asperity::scene::{Document, open};
+use asperity::scene::{Simulation, Workload};
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use peak::{Changed, arguments, peak};
 use std::mem::take;

@@ -1,6 +1,7 @@
 //! The scenes whose instructions are counted.
 
-use asperity::scene::{Document, Edges};
+use asperity::contact::Edges;
+use asperity::scene::Document;
 
 /// Springs of every line.
 pub const POINTS: usize = 1 << 16;

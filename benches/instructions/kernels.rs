@@ -5,8 +5,9 @@ use super::cases::{
     Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT, SAMPLES,
     SEED, WORK_OF_ADHESION,
 };
+use asperity::contact::Move;
 use asperity::contact::{Body, Contact, Foundation, HessRule, History, Leg, LegRecord, Patch, run};
-use asperity::scene::{Form, Move};
+use asperity::surface::Form;
 use asperity::surface::{Histogram, Line, SelfAffine, Synthesizer};
 use std::sync::Arc;
 

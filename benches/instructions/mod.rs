@@ -8,7 +8,7 @@ mod kernels;
 pub use cases::Case;
 
 use asperity::contact::{History, Work};
-use asperity::simulation::{Outcome, Simulation};
+use asperity::scene::{Outcome, Simulation};
 use callgrind::Profile;
 use executed::EFFECTS;
 use std::fmt::Write;

@@ -2,7 +2,7 @@
 
 use crate::instructions::callgrind;
 use asperity::contact::{Body, Contact, Foundation, HessRule, Solver};
-use asperity::scene::{Edges, Move};
+use asperity::contact::{Edges, Move};
 use asperity::surface::{Line, SelfAffine};
 use std::hint::black_box;
 use std::sync::Arc;

@@ -75,7 +75,7 @@ fn assert_place(text: &str, line: usize, column: usize) {
 /// Asserts the properties of every document.
 fn assert_document(document: &Document) {
     let scene = document.scene();
-    assert_eq!(asperity::Scene::clone(scene).checked().as_ref(), Ok(scene), "{}", document.text());
+    assert_eq!(asperity::scene::Scene::clone(scene).checked().as_ref(), Ok(scene), "{}", document.text());
     let read =
         |text: &str| Document::parse(text, "again").unwrap_or_else(|errors| panic!("{errors}\n{text}"));
     assert_eq!(read(document.text()).scene(), scene, "the text is that of the scene");

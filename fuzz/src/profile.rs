@@ -2,7 +2,7 @@
 
 use super::{assert_message, text};
 use asperity::surface::{Amplitude, MeasuredOptions, MeasuredProfile};
-use asperity::topography::{ReadOptions, TopographyError, Unit};
+use asperity::surface::{ReadOptions, TopographyError, Unit};
 
 /// An accepted profile has finite points in ascending order and can be sampled; a refusal is one line that states the
 /// allowed values.

@@ -1,7 +1,8 @@
 //! Typed numbers with units.
 
 use super::{assert_message, text};
-use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION, format_quantity, parse_quantity};
+use asperity::data::{format_quantity, parse_quantity};
+use asperity::scene::{FIELDS, LEG_FORCE, LEG_INDENTATION};
 
 /// The largest number allowed by any field.
 const LARGEST: f64 = 1.0e300;

@@ -1,8 +1,8 @@
 //! The text of a scene.
 
 use super::{assert_document, assert_errors, assert_place, text};
+use asperity::scene::Workload;
 use asperity::scene::{Document, Effect, LONGEST_TEXT, Origin};
-use asperity::simulation::Workload;
 
 const NAME: &str = "fuzzed.ron";
 

@@ -1,8 +1,8 @@
 //! Measured surfaces.
 
 use super::assert_message;
-use asperity::spectrum::{Options, analyse};
-use asperity::topography::{ReadOptions, Topography, TopographyError, Unit, parse};
+use asperity::surface::{Options, analyse};
+use asperity::surface::{ReadOptions, Topography, TopographyError, Unit, parse};
 
 /// Most points of an analysed surface, so that no input takes long.
 const MOST_ANALYSED: usize = 128;

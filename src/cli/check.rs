@@ -3,8 +3,8 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
-use crate::check::{Case, Check, Verdict, catalogue, checks, judge};
-use crate::export::Format;
+use crate::export::report::Format;
+use asperity_scene::{Case, Check, Verdict, catalogue, checks, judge};
 use clap::Args;
 use std::io::Write;
 

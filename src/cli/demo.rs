@@ -9,11 +9,12 @@ use crate::explorer::demo::script::{ONE_SCENE, TOUR};
 use crate::explorer::demo::watch::play;
 use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};
-use crate::explorer::{picture_of, screenshot};
-use crate::io::write_new;
-use crate::scene::{open_argument, presets};
+use crate::explorer::writing::{picture_of, screenshot};
+use asperity_data::write_new;
+use asperity_scene::{open_argument, presets};
 use clap::Args;
-use std::io::{self, IsTerminal, Write, stdout};
+use std::io;
+use std::io::{IsTerminal, Write, stdout};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\

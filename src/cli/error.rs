@@ -1,8 +1,9 @@
 //! Errors of commands.
 
-use crate::io::WriteError;
+use asperity_data::WriteError;
 use std::error::Error;
-use std::fmt::{self, Display};
+use std::fmt;
+use std::fmt::Display;
 use std::io;
 
 /// Exit code of a failed run or wrong input.

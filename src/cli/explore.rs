@@ -3,20 +3,21 @@
 use super::error::CliError;
 use super::removed;
 use super::scene::{Overrides, compute};
-use crate::experiment::{CurveOptions, MeasuredCurve};
-use crate::explorer;
 use crate::explorer::autosave;
 use crate::explorer::autosave::Kept;
 use crate::explorer::commands::table::bindings;
 use crate::explorer::config::{Config, default_path};
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::Measured;
+use crate::explorer::opening::{Opening, OpeningError};
+use crate::explorer::session::Options;
 use crate::explorer::theme::{Marker, Theme};
-use crate::explorer::{Opening, OpeningError, Options, view};
-use crate::export::brief_summary;
-use crate::scene::{did_you_mean, open_argument, quoted};
-use crate::simulation::Simulation;
-use crate::text::path_name;
+use crate::explorer::view;
+use crate::export::summary::brief_summary;
+use asperity_data::path_name;
+use asperity_scene::Simulation;
+use asperity_scene::{did_you_mean, open_argument, quoted};
+use asperity_study::{CurveOptions, MeasuredCurve};
 use clap::Args;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -139,9 +140,10 @@ fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), C
             quoted(opening.document.name())
         )));
     }
-    let left = explorer::open(opening, options, Simulation::run, view::draw).map_err(failed)?;
+    let left =
+        crate::explorer::session::open(opening, options, Simulation::run, view::draw).map_err(failed)?;
     if let Some(signal) = left.signal {
-        explorer::end_by(signal);
+        crate::explorer::signals::end_by(signal);
     }
     if let Some(computed) = &left.computed {
         out.write_all(brief_summary(left.document.scene(), &computed.outcome).as_bytes())?;

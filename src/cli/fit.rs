@@ -3,11 +3,13 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{MOST_LINES, Overrides, threads};
-use crate::experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as find};
-use crate::export::{FitReport, Format, named_from};
-use crate::io::write_new;
-use crate::scene::open_argument;
-use crate::text::path_name;
+use crate::export::fit::FitReport;
+use crate::export::provenance::named_from;
+use crate::export::report::Format;
+use asperity_data::path_name;
+use asperity_data::write_new;
+use asperity_scene::open_argument;
+use asperity_study::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as find};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -3,7 +3,7 @@
 //! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the input
 //! or the run failed, 2 wrong usage.
 
-mod arguments;
+pub mod arguments;
 mod check;
 mod completions;
 mod cost;
@@ -25,17 +25,18 @@ mod sensitivity;
 mod surface;
 mod sweep;
 
-pub use arguments::{Arguments, Command};
+use arguments::{Arguments, Command};
 
 use error::CliError;
 
-use crate::scene::did_you_mean;
-use crate::text::{printable, printable_lines};
+use asperity_data::{printable, printable_lines};
+use asperity_scene::did_you_mean;
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Parser};
 use std::borrow::Cow;
 use std::ffi::OsString;
-use std::io::{self, BufWriter, Write};
+use std::io;
+use std::io::{BufWriter, Write};
 use std::process::ExitCode;
 
 /// Bytes gathered before a write to standard output.

@@ -1,17 +1,18 @@
 //! Formats and destinations of results.
 
 use super::error::CliError;
-use crate::draw::{Colours, Figure, figure_text};
-use crate::export::{
-    self, Format, Report, check_extension, files_provenance, parameter_lines, scene_provenance,
-    scenes_provenance,
-};
-use crate::io::{check_writable, write_new};
-use crate::scene::{Document, Scene, parse_quantity, quoted};
-use crate::text::path_name;
+use crate::export::parameters::parameter_lines;
+use crate::export::provenance::{files_provenance, scene_provenance, scenes_provenance};
+use crate::export::report::{Format, Report, check_extension};
+use asperity_data::parse_quantity;
+use asperity_data::path_name;
+use asperity_data::{check_writable, write_new};
+use asperity_plot::{Colours, Figure, figure_text};
+use asperity_scene::{Document, Scene, quoted};
 use clap::{Arg, ArgGroup, Args};
 use serde::Serialize;
-use std::io::{self, IsTerminal, Write};
+use std::io;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
@@ -126,7 +127,7 @@ impl OutputArguments {
         };
         let provenance = provenance.map_err(CliError::message)?;
         let Some(figure) = report.figure().filter(|_| format.is_picture()) else {
-            return self.fill(stdout, |out| export::write(out, report, format, &provenance));
+            return self.fill(stdout, |out| crate::export::report::write(out, report, format, &provenance));
         };
         let parameters = match origin {
             _ if !self.parameters => Vec::new(),
@@ -135,7 +136,7 @@ impl OutputArguments {
             Origin::Files(_) => return Err(CliError::named("--parameters", "this figure has no scene")),
         };
         let figure = Figure { parameters, width: self.width.map(|width| PX * width), ..figure };
-        self.fill(stdout, |out| export::write(out, &figure, format, &provenance))
+        self.fill(stdout, |out| crate::export::report::write(out, &figure, format, &provenance))
     }
 
     /// Writes a figure, as a picture or as text, to its destination.
@@ -188,7 +189,7 @@ impl AnswerFormat {
     ) -> Result<(), CliError> {
         let format = Format::of_file(None, Some(self.format), TEXT_OR_JSON, Format::Text);
         match format.map_err(CliError::message)? {
-            Format::Json => crate::io::write_json(stdout, answer, &[])?,
+            Format::Json => asperity_data::write_json(stdout, answer, &[])?,
             _ => stdout.write_all(text().as_bytes())?,
         }
         Ok(())

@@ -4,8 +4,8 @@ use super::error::CliError;
 use super::output::AnswerFormat;
 use super::scene::SceneArguments;
 use crate::export::sheet::Sheet;
-use crate::simulation::{PlannedStage, Workload};
-use crate::text::{grouped, memory_size};
+use asperity_data::{grouped, memory_size};
+use asperity_scene::{PlannedStage, Workload};
 use clap::Args;
 use std::io::Write;
 

@@ -1,10 +1,12 @@
 //! Preloads on the command line: `1uN..20uN`, their number, and `log` for equal ratios.
 
 use super::error::CliError;
-use crate::draw::AxisScale;
-use crate::scene::{CheckedScene, Document, Move, parse_quantity};
-use crate::simulation::Simulation;
-use crate::study::Axis;
+use asperity_contact::Move;
+use asperity_data::AxisScale;
+use asperity_data::parse_quantity;
+use asperity_scene::Simulation;
+use asperity_scene::{CheckedScene, Document};
+use asperity_study::Axis;
 
 const USUAL: usize = 64;
 const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";

@@ -3,12 +3,13 @@
 use super::error::CliError;
 use super::output::AnswerFormat;
 use crate::export::sheet::Sheet;
-use crate::io::object;
-use crate::scene::{self, Document, Entry};
-use crate::simulation::Simulation;
-use crate::text::{printable, printable_lines};
+use asperity_data::object;
+use asperity_data::{printable, printable_lines};
+use asperity_scene::Simulation;
+use asperity_scene::{Document, Entry};
 use clap::Subcommand;
-use std::io::{self, IsTerminal, Write};
+use std::io;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 const CHECK_EXAMPLES: &str = "\
@@ -49,7 +50,7 @@ pub enum PresetsCommand {
 pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Result<(), CliError> {
     match command {
         PresetsCommand::List { format } => list(*format, stdout),
-        PresetsCommand::Show { name } => show(scene::open(name)?.text(), stdout),
+        PresetsCommand::Show { name } => show(asperity_scene::open(name)?.text(), stdout),
         PresetsCommand::Check { files } => check(files, stdout),
     }
 }
@@ -61,7 +62,7 @@ fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
 }
 
 fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let entries = scene::scenes(scene::own_folder().as_deref(), Path::new("."));
+    let entries = asperity_scene::scenes(asperity_scene::own_folder().as_deref(), Path::new("."));
     let row = |entry: &Entry| [entry.name.clone(), entry.error().unwrap_or_else(|| entry.title().to_owned())];
     let text = || Sheet::of_table(&entries.iter().map(row).collect::<Vec<_>>());
     let objects = entries.iter().map(|entry| {
@@ -90,7 +91,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
 
 /// The name of a valid scene with its warning, or all its errors, line by line.
 fn checked(file: &str) -> Result<(String, Option<String>), String> {
-    let document = scene::open_argument(file).map_err(|errors| errors.to_string())?;
+    let document = asperity_scene::open_argument(file).map_err(|errors| errors.to_string())?;
     match profile_error(&document) {
         None => Ok((document.name().into(), document.scene().warning())),
         Some(error) => Err(error),

@@ -1,6 +1,7 @@
 //! Progress on standard error: on a terminal one line that changes.
 
-use std::io::{self, IsTerminal, Write};
+use std::io;
+use std::io::{IsTerminal, Write};
 
 #[derive(Default)]
 pub(super) struct ProgressLine {

@@ -4,10 +4,11 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES};
 use super::preloads::{check_reach, parse_range};
 use super::scene::{SceneArguments, simulation_of};
-use crate::draw::AxisScale;
-use crate::export::{Format, ReversalReport};
-use crate::simulation::{RunError, TURNING_POINTS};
-use crate::study::{Axis, PRELOADS, Results, Staircase};
+use crate::export::report::Format;
+use crate::export::reversals::ReversalReport;
+use asperity_data::AxisScale;
+use asperity_scene::{RunError, TURNING_POINTS};
+use asperity_study::{Axis, PRELOADS, Results, Staircase};
 use clap::Args;
 use std::io::Write;
 

@@ -5,17 +5,22 @@ use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE, WITHOUT_
 use super::preloads::{check_reach, parse_preloads};
 use super::progress::ProgressLine;
 use super::scene::{MOST_LINES, SceneArguments, compute, simulation_of, threads};
-use crate::accuracy::{Choice, choose, estimate, parse_tolerance};
-use crate::contact::{Leg, LegRecord};
-use crate::draw::Figure;
-use crate::export::{
-    ContactSets, Format, LinesReport, PreloadReport, Report, RunReport, ScenesReport, check_measured_files,
-};
-use crate::scene::{CheckedScene, Document, Scene, open_argument};
-use crate::study::{Axis, Quantity, Results, Staircase};
-use crate::text::{grouped, wrap};
+use crate::export::ensemble::LinesReport;
+use crate::export::preloads::PreloadReport;
+use crate::export::provenance::check_measured_files;
+use crate::export::report::{Format, Report};
+use crate::export::run::RunReport;
+use crate::export::scene_figure::ContactSets;
+use crate::export::scenes::ScenesReport;
+use asperity_contact::{Leg, LegRecord};
+use asperity_data::{grouped, wrap};
+use asperity_plot::Figure;
+use asperity_scene::{CheckedScene, Document, Scene, open_argument};
+use asperity_scene::{Choice, choose, estimate, parse_tolerance};
+use asperity_study::{Axis, Quantity, Results, Staircase};
 use clap::Args;
-use std::io::{self, Write};
+use std::io;
+use std::io::Write;
 
 const EXAMPLES: &str = "\
 Examples:

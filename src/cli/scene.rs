@@ -1,12 +1,13 @@
 //! Scene of a command, and its overrides.
 
 use super::error::CliError;
-use crate::parallel;
-use crate::scene::{CheckedScene, Document, open_argument};
-use crate::simulation::{Outcome, Simulation};
-use crate::text::printable;
+use asperity_data::parallel;
+use asperity_data::printable;
+use asperity_scene::{CheckedScene, Document, open_argument};
+use asperity_scene::{Outcome, Simulation};
 use clap::Args;
-use std::io::{self, Write};
+use std::io;
+use std::io::Write;
 
 /// Most random profiles of a scene.
 pub(super) const MOST_LINES: i64 = 1_000_000;

@@ -3,8 +3,9 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::scene::{SceneArguments, simulation_of};
-use crate::export::{Format, SensitivityReport};
-use crate::study::Sensitivity;
+use crate::export::report::Format;
+use crate::export::sensitivity::SensitivityReport;
+use asperity_study::Sensitivity;
 use clap::Args;
 use std::io::Write;
 

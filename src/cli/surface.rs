@@ -3,17 +3,20 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{MOST_LINES, threads};
-use crate::export::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
-use crate::io::write_new;
-use crate::scene::{
-    Adhesion, Document, Material, Measured, Move, Numerics, Roughness, SCENE_VERSION, Scene, parse_quantity,
-};
-use crate::simulation::equivalent_springs;
-use crate::spectrum::analyse;
-use crate::study::MeasuredAdhesion;
-use crate::surface::{EquivalentLine, MeasuredOptions};
-use crate::text::{path_name, round_to};
-use crate::topography::{Unit, read};
+use crate::export::measured_face::{MeasuredFace, SurfaceFile};
+use crate::export::provenance::named_from;
+use crate::export::report::Format;
+use crate::export::surface::SurfaceReport;
+use asperity_contact::Move;
+use asperity_data::parse_quantity;
+use asperity_data::write_new;
+use asperity_data::{path_name, round_to};
+use asperity_scene::equivalent_springs;
+use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, SCENE_VERSION, Scene};
+use asperity_study::MeasuredAdhesion;
+use asperity_surface::analyse;
+use asperity_surface::{EquivalentLine, MeasuredOptions};
+use asperity_surface::{Unit, read};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};

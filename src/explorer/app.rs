@@ -17,14 +17,15 @@ use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::studies::Findings;
 use super::theme::Appearance;
-use crate::analysis::{Governing, marks};
-use crate::contact::{CurvePoint, LegRecord};
-use crate::draw::AxisScale;
-use crate::export::LoopQuantities;
+use crate::export::loop_chart::LoopQuantities;
 use crate::export::section::Section;
-use crate::scene::{Document, Move, Observer, ron_float};
-use crate::simulation::Outcome;
-use crate::study::{Axis, Grid, Place, Quantity};
+use asperity_contact::Move;
+use asperity_contact::{CurvePoint, LegRecord};
+use asperity_data::AxisScale;
+use asperity_scene::Outcome;
+use asperity_scene::{Document, Observer, ron_float};
+use asperity_scene::{Governing, marks};
+use asperity_study::{Axis, Grid, Place, Quantity};
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Copies of unsaved changes, in case the process or its connection ends first: one file for each session, locked while
 //! the session runs. Files of the user are never written.
 
-use crate::io::{into_text, open_regular, read_limited};
-use crate::scene::Document;
+use asperity_data::{into_text, open_regular, read_limited};
+use asperity_scene::Document;
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
@@ -130,7 +130,7 @@ impl Autosave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use asperity_scene::open;
 
     #[test]
     fn copies_are_read_back_as_they_were_once_their_session_has_ended() {

@@ -3,8 +3,8 @@
 
 use super::app::App;
 use super::request::Drive;
-use crate::analysis::Branch;
-use crate::contact::{CurvePoint, Direction, LegRecord};
+use asperity_contact::{CurvePoint, Direction, LegRecord};
+use asperity_scene::Branch;
 
 /// Share of the indentation range of a branch within which a point is at its end or at its smallest force.
 const NEAR: f64 = 0.01;
@@ -57,9 +57,9 @@ fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'sta
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::History;
-    use crate::scene::open;
-    use crate::simulation::Simulation;
+    use asperity_contact::History;
+    use asperity_scene::Simulation;
+    use asperity_scene::open;
 
     fn history(name: &str, loading: Option<&str>) -> History {
         let mut document = open(name).unwrap();

@@ -2,8 +2,8 @@
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, PatchFacts};
-use crate::contact::{Leg, Patch};
 use crate::export::section::{Contact, LineColumns, Part};
+use asperity_contact::{Leg, Patch};
 
 /// The requested part of the line, and the patch nearest to its middle.
 pub fn close_up(

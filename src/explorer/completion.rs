@@ -1,7 +1,7 @@
 //! Completion of a typed path by existing files and folders.
 
-use crate::scene::typed_path;
-use crate::text::is_control;
+use asperity_data::is_control;
+use asperity_scene::typed_path;
 use std::fs::read_dir;
 use std::path::{MAIN_SEPARATOR, Path, is_separator};
 

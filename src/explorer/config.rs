@@ -2,8 +2,8 @@
 
 use super::keys::bindings::Bindings;
 use super::theme::{Marker, Theme};
-use crate::io::read_regular_text;
-use crate::scene::{DEFAULT, Text, explain, line_column, read_ron};
+use asperity_data::read_regular_text;
+use asperity_scene::{DEFAULT, Text, explain, line_column, read_ron};
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::Deserialize;
 use std::io::ErrorKind::NotFound;

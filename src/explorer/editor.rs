@@ -1,7 +1,7 @@
 //! The scene as edited: its list of parameters, its history, and its state on disk.
 
 use super::parameters::{Parameter, parameters};
-use crate::scene::{CheckedScene, Document};
+use asperity_scene::{CheckedScene, Document};
 use std::collections::BTreeMap;
 use std::iter::successors;
 use std::mem::replace;

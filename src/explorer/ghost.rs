@@ -1,7 +1,7 @@
 //! Computed scenes kept for comparison.
 
-use crate::scene::{Change, Document};
-use crate::simulation::Outcome;
+use asperity_scene::Outcome;
+use asperity_scene::{Change, Document};
 use std::sync::Arc;
 
 /// A computed scene kept for comparison.

@@ -2,10 +2,10 @@
 
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
-use crate::contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
-use crate::scene::Move;
-use crate::simulation::reach::{Reach, out_of_reach};
-use crate::text::round_to;
+use asperity_contact::Move;
+use asperity_contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
+use asperity_data::round_to;
+use asperity_scene::{Reach, out_of_reach};
 
 /// Points of the curve along the way of one order.
 const POINTS: u32 = 16;

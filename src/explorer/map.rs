@@ -1,7 +1,7 @@
 //! State of the shown map, over H and κ or over the axes of a study.
 
-use crate::scene::{RoughnessParameter, Scene};
-use crate::study::{Grid, LiveMap, Plan, Quantity, StudyMap, live_plan};
+use asperity_scene::{RoughnessParameter, Scene};
+use asperity_study::{Grid, LiveMap, Plan, Quantity, StudyMap, live_plan};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]

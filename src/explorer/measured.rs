@@ -1,8 +1,8 @@
 //! A measured force curve beside the scene, in its place over the displacement.
 
 use super::studies::Findings;
-use crate::contact::CurvePoint;
-use crate::experiment::{CurveOptions, Fit, Free, MeasuredCurve};
+use asperity_contact::CurvePoint;
+use asperity_study::{CurveOptions, Fit, Free, MeasuredCurve};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]

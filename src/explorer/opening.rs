@@ -2,8 +2,8 @@
 
 use super::ghost::Ghost;
 use super::measured::Measured;
-use crate::scene::{Document, SceneErrors, open, open_argument};
-use crate::study::{Folder, StudyError, StudyMap};
+use asperity_scene::{Document, SceneErrors, open, open_argument};
+use asperity_study::{Folder, StudyError, StudyMap};
 use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;

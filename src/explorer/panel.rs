@@ -4,8 +4,8 @@
 use super::layout::{inside, is_framed, split_profile};
 use super::text::{Part, filled, fitted, wrapped};
 use super::theme::{Appearance, Meaning};
-use crate::draw::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, key, legend};
-use crate::scene::{format_range, format_rounded};
+use asperity_data::{format_range, format_rounded};
+use asperity_plot::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, key, legend};
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
@@ -100,7 +100,7 @@ impl Panel {
                 _ => {}
             }
         }
-        layers.insert(0, crate::draw::Layer::unnamed(Ink::Cursor, Shape::Upright(x)));
+        layers.insert(0, asperity_plot::Layer::unnamed(Ink::Cursor, Shape::Upright(x)));
         let style = look.theme.style(Meaning::Cursor);
         let parts: Vec<Part> = parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect();
         let lines = filled(parts.clone(), "  ", usize::from(width.saturating_sub(2)));
@@ -343,8 +343,9 @@ pub fn under(panel: &Panel, area: Rect, cell: Position) -> Under {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::{AxisScale, Layer, Span as Range, Stroke};
     use crate::explorer::theme::{Marker, Theme};
+    use asperity_data::AxisScale;
+    use asperity_plot::{Layer, Span as Range, Stroke};
 
     #[test]
     fn the_crosshair_reads_curves_and_both_ends_of_bands() {

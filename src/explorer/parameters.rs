@@ -1,10 +1,12 @@
 //! The list of parameters: the fields of the present scene that can be changed, in groups, by use.
 
-use crate::scene::{
-    Document, Effect, Field, Move, Range, RoughnessParameter, STAGE, Scene, choice_in_words, field,
-    format_quantity, loading_text, ron_float, stage_in_ron, target_field,
+use asperity_contact::Move;
+use asperity_data::format_quantity;
+use asperity_data::grouped;
+use asperity_scene::{
+    Document, Effect, Field, Range, RoughnessParameter, STAGE, Scene, choice_in_words, field, loading_text,
+    ron_float, stage_in_ron, target_field,
 };
-use crate::text::grouped;
 
 /// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
 /// number of springs that resolves the roughness. Form and material are chosen once for a scene.

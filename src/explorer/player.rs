@@ -1,6 +1,6 @@
 //! State of the animation, and its indentation.
 
-use crate::contact::LegRecord;
+use asperity_contact::LegRecord;
 
 /// Share of the whole range of indentations by which the body is lifted before first touch.
 const LIFT: f64 = 0.12;

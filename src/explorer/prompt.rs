@@ -6,7 +6,7 @@ use super::pane::Pane;
 use super::parameters::Parameter;
 use super::search::find;
 use super::text_line::TextLine;
-use crate::scene::{Entry, Source};
+use asperity_scene::{Entry, Source};
 use std::path::is_separator;
 
 /// A prompt: keys act on it until it is closed.

@@ -1,7 +1,7 @@
 //! Requests from the explorer to the solver.
 
 use super::player::At;
-use crate::scene::CheckedScene;
+use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
 /// State that the screen waits for: the scene, solved unless it is the last one, after the manual moves, reduced to a

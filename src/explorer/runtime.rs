@@ -12,8 +12,8 @@ use super::solver::{Solve, Solver, SolverThread};
 use super::studies::{Study, StudyThread};
 use super::update::{request, update};
 use super::writing;
-use crate::scene::{own_folder, scenes};
-use crate::simulation::Simulation;
+use asperity_scene::Simulation;
+use asperity_scene::{own_folder, scenes};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 

@@ -14,7 +14,7 @@ use super::studies::StudyThread;
 use super::terminal::{FrameWriter, TerminalGuard};
 use super::theme::{Appearance, Marker, Theme};
 use super::{autosave, input, terminal};
-use crate::scene::Document;
+use asperity_scene::Document;
 use crossterm::clipboard::CopyToClipboard;
 use crossterm::event::Event;
 use crossterm::queue;

@@ -2,12 +2,13 @@
 //! already reduced to the resolution of a pane.
 
 use super::request::{Drive, Focus, LineView, SnapshotRequest};
-use crate::contact::{CurvePoint, Patch, PatchState, Springs};
 use crate::export::section::Section;
 use crate::export::section::{Contact, LineColumns, Part};
-use crate::scene::{CheckedScene, Move};
-use crate::simulation::reach::Reach;
-use crate::simulation::{LineFacts, Outcome};
+use asperity_contact::Move;
+use asperity_contact::{CurvePoint, Patch, PatchState, Springs};
+use asperity_scene::CheckedScene;
+use asperity_scene::Reach;
+use asperity_scene::{LineFacts, Outcome};
 use std::sync::{Arc, Weak};
 
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 //! pane, the curve of a typed value. The explorer knows one value of each type, with the key of what it was computed
 //! from. A thread of its own performs the newest order; a newer one ends it.
 
-use crate::simulation::Simulation;
+use asperity_scene::Simulation;
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};

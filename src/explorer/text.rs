@@ -3,7 +3,7 @@
 //! ratatui breaks lines as well, but overruns its area, and panics, where a word has wide characters or
 //! begins with a combining mark, as in titles and typed values.
 
-use crate::text::belong_together;
+use asperity_data::belong_together;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
 

@@ -1,7 +1,7 @@
 //! A line of text being typed.
 
 use super::theme::{Meaning, Theme};
-use crate::text::is_control;
+use asperity_data::is_control;
 use ratatui::style::Modifier;
 use ratatui::text::Span;
 use tui_input::{Input, InputRequest};

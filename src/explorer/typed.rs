@@ -3,10 +3,8 @@
 use crate::explorer::app::App;
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
-use crate::scene::{
-    format_quantity, in_unit, kind_and_number, loading_text, parse_quantity, pressing_force, read_stage,
-    target_field, unit_of,
-};
+use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
+use asperity_scene::{kind_and_number, loading_text, pressing_force, read_stage, target_field};
 
 /// Force whose prefix a loading without a force has, N.
 const USUAL_FORCE: f64 = 1e-5;

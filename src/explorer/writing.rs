@@ -10,11 +10,11 @@ use super::picture::svg::svg;
 use super::picture::text;
 use super::theme::Theme;
 use super::view;
-use crate::draw::{Figure, Palette};
-use crate::export;
-use crate::export::{Format, Report, scene_provenance};
-use crate::io::{WriteError, write_new_file};
-use crate::scene::command_line;
+use crate::export::provenance::scene_provenance;
+use crate::export::report::{Format, Report};
+use asperity_data::{WriteError, write_new_file};
+use asperity_plot::{Figure, Palette};
+use asperity_scene::command_line;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -48,7 +48,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
         Content::Scene => out.write_all(app.edit.document.text().as_bytes()),
         Content::Pane(Format::Text) => out.write_all(text(&picture_of(app)).as_bytes()),
         Content::Pane(format) if format.is_picture() => {
-            export::write(out, &figure(app).ok_or_else(missing)?, format, "")
+            crate::export::report::write(out, &figure(app).ok_or_else(missing)?, format, "")
         }
         Content::Pane(format) => {
             let curves = || {
@@ -66,7 +66,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
                 _ => scene_provenance(&command, document.scene(), &folder, destination)
                     .map_err(io::Error::other)?,
             };
-            export::write(out, &*report, format, &provenance)
+            crate::export::report::write(out, &*report, format, &provenance)
         }
     }
 }

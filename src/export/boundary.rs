@@ -2,9 +2,9 @@
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
-use crate::io::{Kind, Table};
-use crate::scene::RoughnessParameter;
-use crate::study::{Boundaries, Boundary, Crossing, protocol_name};
+use asperity_data::{Kind, Table};
+use asperity_scene::RoughnessParameter;
+use asperity_study::{Boundaries, Boundary, Crossing, protocol_name};
 use serde_json::{Map, Value, json};
 use std::cmp::Ordering;
 

@@ -2,8 +2,8 @@
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
-use crate::check::{Check, Verdict, catalogue};
-use crate::io::object;
+use asperity_data::object;
+use asperity_scene::{Check, Verdict, catalogue};
 
 impl Report for [Verdict] {
     /// One row for each check, then the claims of the cases, then the failures.
@@ -86,8 +86,8 @@ fn figure(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::checks;
-    use crate::export::{Format, write};
+    use crate::export::report::{Format, write};
+    use asperity_scene::checks;
     use serde_json::Value;
 
     #[test]

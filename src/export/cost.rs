@@ -3,11 +3,12 @@
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::work_precision::work_precision;
-use crate::accuracy::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
-use crate::draw::Figure;
-use crate::io::{Kind, Table};
-use crate::scene::{Scene, format_quantity, format_rounded};
-use crate::text::grouped;
+use asperity_data::grouped;
+use asperity_data::{Kind, Table};
+use asperity_data::{format_quantity, format_rounded};
+use asperity_plot::Figure;
+use asperity_scene::Scene;
+use asperity_scene::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
 use serde::Serialize;
 
 /// Headings of the errors, in the order of [`QUANTITIES`].

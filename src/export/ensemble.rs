@@ -4,13 +4,13 @@ use super::preloads::MEAN_INTERVAL;
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::summary::tabor_number;
-use crate::accuracy::Choice;
-use crate::analysis::Regime;
-use crate::io::{Kind, Table, object};
-use crate::numerics::root_mean_square;
-use crate::scene::{format_range, format_rounded};
-use crate::study::{Quantity, Results, Statistics};
-use crate::text::grouped;
+use asperity_data::grouped;
+use asperity_data::root_mean_square;
+use asperity_data::{Kind, Table, object};
+use asperity_data::{format_range, format_rounded};
+use asperity_scene::Choice;
+use asperity_scene::Regime;
+use asperity_study::{Quantity, Results, Statistics};
 
 /// Results of a scene on random profiles: a study of one cell.
 #[derive(Clone, Copy, Debug)]

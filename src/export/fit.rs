@@ -3,11 +3,12 @@
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::summary::tabor_number;
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use crate::experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
-use crate::io::Table;
-use crate::scene::{format_quantity, format_rounded};
-use crate::text::grouped;
+use asperity_data::AxisScale;
+use asperity_data::Table;
+use asperity_data::grouped;
+use asperity_data::{format_quantity, format_rounded};
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_study::{Fit, FittedParameter, MeasuredCurve, Parameter};
 use serde::Serialize;
 use std::f64::consts::PI;
 

@@ -1,11 +1,10 @@
 //! The chart of force loops: the same in figures of scenes and in the explorer.
 
-use crate::analysis::{DisplacementCurve, DisplacementPoint, Mark, marks};
-use crate::contact::{CurvePoint, Direction, LegRecord};
-use crate::draw::{
-    Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label,
-};
-use crate::simulation::Outcome;
+use asperity_contact::{CurvePoint, Direction, LegRecord};
+use asperity_data::AxisScale;
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
+use asperity_scene::Outcome;
+use asperity_scene::{DisplacementCurve, DisplacementPoint, Mark, marks};
 
 /// Two quantities, one over the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -302,12 +301,12 @@ fn mark_name(mark: Mark, force: f64) -> Label {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use asperity_scene::open;
 
     #[test]
     fn a_force_curve_has_its_marks_where_the_figures_are() {
         let document = open("jkr-sphere").unwrap();
-        let outcome = crate::run(&document).unwrap();
+        let outcome = asperity_scene::run(&document).unwrap();
         let figure = force_figure(&[("Rough <&>", &outcome)]);
         let named: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(named[..2], ["loading", "unloading"]);

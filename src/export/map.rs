@@ -1,9 +1,9 @@
 //! Cells of a map as a table.
 
 use super::report::Report;
-use crate::analysis::Regime;
-use crate::io::{Kind, Table};
-use crate::study::{Cell, Grid, Quantity, Statistics};
+use asperity_data::{Kind, Table};
+use asperity_scene::Regime;
+use asperity_study::{Cell, Grid, Quantity, Statistics};
 
 impl Report for Grid {
     /// The computed cells: values of the axes by their paths, profiles, regimes, and the statistics of each quantity, in SI

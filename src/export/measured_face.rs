@@ -1,9 +1,9 @@
 //! Surfaces of one face, samples of the same roughness: facts of their files, and warnings about their analysis.
 
-use crate::scene::format_quantity;
-use crate::spectrum::{Analysis, End};
-use crate::text::{grouped, path_name, printable};
-use crate::topography::Topography;
+use asperity_data::format_quantity;
+use asperity_data::{grouped, path_name, printable};
+use asperity_surface::Topography;
+use asperity_surface::{Analysis, End};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 

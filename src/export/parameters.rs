@@ -1,7 +1,7 @@
 //! The parameter box of a figure: the numbers that define its scenes.
 
-use crate::draw::{Label, statement};
-use crate::scene::{Scene, Statement, statements};
+use asperity_plot::{Label, statement};
+use asperity_scene::{Scene, Statement, statements};
 
 /// Lines with the numbers that all scenes have, and for each scene with a name those of its own.
 pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
@@ -22,7 +22,7 @@ pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use asperity_scene::open;
 
     #[test]
     fn common_numbers_are_stated_once() {

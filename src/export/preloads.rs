@@ -2,12 +2,13 @@
 
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use crate::accuracy::Choice;
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use crate::io::{Kind, Table, object};
-use crate::scene::{format_quantity, format_range, format_rounded};
-use crate::study::{Results, Staircase, Statistics};
-use crate::text::grouped;
+use asperity_data::AxisScale;
+use asperity_data::grouped;
+use asperity_data::{Kind, Table, object};
+use asperity_data::{format_quantity, format_range, format_rounded};
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_scene::Choice;
+use asperity_study::{Results, Staircase, Statistics};
 use std::ops::Range;
 
 const MOST_ROWS: usize = 32;

@@ -2,9 +2,9 @@
 //!
 //! In CSV the text fills the first lines, each after `# `; SVG has it as metadata, JSON its version and command in front.
 
-use crate::io::sha256_of;
-use crate::scene::{Document, Scene, to_ron};
-use crate::text::{path_name, printable};
+use asperity_data::sha256_of;
+use asperity_data::{path_name, printable};
+use asperity_scene::{Document, Scene, to_ron};
 use std::path::{Path, PathBuf};
 
 /// Prefix of the line of a measured file.

@@ -1,11 +1,12 @@
 //! A result in up to four shapes, and the formats in which these are written.
 
 use super::provenance::entries;
-use crate::draw::{Axis, Chart, Figure, Layer};
-use crate::io::{Kind, Table, write_json};
-use crate::text::{path_name, printable};
+use asperity_data::{Kind, Table, write_json};
+use asperity_data::{path_name, printable};
+use asperity_plot::{Axis, Chart, Figure, Layer};
 use serde::Serialize;
-use std::io::{self, Write};
+use std::io;
+use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
@@ -220,13 +221,16 @@ mod tests {
     /// Figures of every kind, of usual scenes and of scenes without adhesion, roughness or contact.
     #[test]
     fn every_figure_lies_within_its_picture() {
-        use crate::draw::check_picture;
-        use crate::export::{
-            ContactSets, PreloadReport, ReversalReport, RunReport, SceneSpectra, ScenesReport,
-        };
-        use crate::scene::open;
-        use crate::simulation::Simulation;
-        use crate::study::{Axis, Results, Staircase};
+        use crate::export::preloads::PreloadReport;
+        use crate::export::reversals::ReversalReport;
+        use crate::export::run::RunReport;
+        use crate::export::scene_figure::ContactSets;
+        use crate::export::scene_spectra::SceneSpectra;
+        use crate::export::scenes::ScenesReport;
+        use asperity_plot::judge::check_picture;
+        use asperity_scene::Simulation;
+        use asperity_scene::open;
+        use asperity_study::{Axis, Results, Staircase};
         let few = ("numerics.points", "512");
         let rough = [few, ("roughness.modes", "(1, 64)")];
         for (name, overrides) in [
@@ -260,7 +264,7 @@ mod tests {
                 Figure::of_chart(title, spectra.spectra.chart()),
             ];
             if let Ok(map) = simulation.reversal_map(scene, None, 16, &|| false) {
-                let preloads = Axis::of_preloads((0.0, 1e-5), 8, crate::draw::AxisScale::Linear).unwrap();
+                let preloads = Axis::of_preloads((0.0, 1e-5), 8, asperity_data::AxisScale::Linear).unwrap();
                 let record = &Results::OF_PRELOADS;
                 let results = Results::of_scene(scene, Path::new(""), record, 1, Some(&preloads), 1).unwrap();
                 let staircase = Staircase::find(scene, &preloads, &mut simulation, &|| false, &mut |_| ());

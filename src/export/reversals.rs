@@ -3,12 +3,13 @@
 use super::preloads::{preload_chart, preload_table, unloadings};
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
-use crate::analysis::ReversalMap;
-use crate::draw::{Axis, AxisScale, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
-use crate::io::{Table, object};
-use crate::scene::Scene;
-use crate::study::{Results, Staircase};
-use crate::text::grouped;
+use asperity_data::AxisScale;
+use asperity_data::grouped;
+use asperity_data::{Table, object};
+use asperity_plot::{Axis, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
+use asperity_scene::ReversalMap;
+use asperity_scene::Scene;
+use asperity_study::{Results, Staircase};
 
 const MOST_ROWS: usize = 16;
 /// Most cells of a map on either axis of a figure.

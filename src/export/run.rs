@@ -3,14 +3,15 @@
 use super::loop_chart::force_figure;
 use super::report::{Json, Report};
 use super::summary::{summary, warning};
-use crate::accuracy::{Choice, Estimate};
-use crate::analysis::displacements;
-use crate::contact::CurvePoint;
-use crate::draw::Figure;
-use crate::io::{Table, TableOf, object};
-use crate::scene::{Move, Observer, Scene};
-use crate::simulation::Outcome;
-use crate::surface::Line;
+use asperity_contact::CurvePoint;
+use asperity_contact::Move;
+use asperity_data::{Table, TableOf, object};
+use asperity_plot::Figure;
+use asperity_scene::Outcome;
+use asperity_scene::displacements;
+use asperity_scene::{Choice, Estimate};
+use asperity_scene::{Observer, Scene};
+use asperity_surface::Line;
 
 /// Result of a scene.
 #[derive(Clone, Copy, Debug)]

@@ -1,11 +1,12 @@
 //! Figures of the contact: the profile with its contact, contact patches over the indentation.
 
-use crate::analysis::preload_point;
-use crate::contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use crate::export::section::{Contact, LineColumns, Part};
-use crate::simulation::Outcome;
-use crate::surface::Line;
+use asperity_contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
+use asperity_data::AxisScale;
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Span, value_label};
+use asperity_scene::Outcome;
+use asperity_scene::preload_point;
+use asperity_surface::Line;
 use std::slice;
 
 /// Indentations of a loading stage at which contact patches are drawn.
@@ -129,8 +130,8 @@ fn position(outcome: &Outcome) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Document;
-    use crate::simulation::Simulation;
+    use asperity_scene::Document;
+    use asperity_scene::Simulation;
 
     const SCENE: &str = "(
     version: 1,

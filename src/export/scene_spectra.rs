@@ -1,11 +1,12 @@
 //! Spectra of a computed scene: of its measured files, as expected of the line, and of the heights of the line.
 
 use super::spectrum_figure::{Spectra, SpectrumPoint};
-use crate::memory::check_room;
-use crate::scene::{CheckedScene, Form, Scene};
-use crate::simulation::{Outcome, RunError, Simulation};
-use crate::spectrum::{Analysis, LineMoments, line_spectrum};
-use crate::surface::{EquivalentLine, Line, read_faces};
+use asperity_data::check_room;
+use asperity_scene::{CheckedScene, Scene};
+use asperity_scene::{Outcome, RunError, Simulation};
+use asperity_surface::Form;
+use asperity_surface::{Analysis, LineMoments, line_spectrum};
+use asperity_surface::{EquivalentLine, Line, read_faces};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -102,7 +103,7 @@ fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Document;
+    use asperity_scene::Document;
 
     fn spectra(roughness: &str, form: &str) -> SceneSpectra {
         let text = format!(

@@ -3,10 +3,11 @@
 use super::loop_chart::{force_figure, force_panels};
 use super::report::Report;
 use super::sheet::{Sheet, WIDTH};
-use crate::analysis::Regime;
-use crate::draw::{Colours, Figure, figure_text};
-use crate::scene::{Document, format_quantity};
-use crate::simulation::Outcome;
+use asperity_data::format_quantity;
+use asperity_plot::{Colours, Figure, figure_text};
+use asperity_scene::Document;
+use asperity_scene::Outcome;
+use asperity_scene::Regime;
 
 /// Computed scenes with their documents, two at least.
 #[derive(Clone, Copy, Debug)]
@@ -96,13 +97,13 @@ impl Report for ScenesReport<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::open;
+    use asperity_scene::open;
 
     #[test]
     fn scenes_are_compared_with_the_first() {
         let first = open("jkr-sphere").unwrap();
         let second = first.set("adhesion.work", "0.1").unwrap();
-        let outcome = |document| crate::run(document).unwrap();
+        let outcome = |document| asperity_scene::run(document).unwrap();
         let scenes = [(&first, outcome(&first)), (&second, outcome(&second)), (&first, outcome(&first))];
         let report = ScenesReport { scenes: &scenes, panels: false };
         let text = report.text().unwrap();

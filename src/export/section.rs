@@ -1,8 +1,9 @@
 //! A profile and its contact, reduced to the columns of a chart.
 
-use crate::contact::Patch;
-use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span};
-use crate::simulation::LineFacts;
+use asperity_contact::Patch;
+use asperity_data::AxisScale;
+use asperity_plot::{Axis, Chart, Ink, Layer, Shape, Span};
+use asperity_scene::LineFacts;
 use std::ops::Range;
 
 /// The rigid profile and its contact at one indentation.

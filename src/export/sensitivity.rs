@@ -2,11 +2,13 @@
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
-use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer, Shape, Sign, Span};
-use crate::io::{Table, object};
-use crate::scene::{Scene, format_quantity, format_rounded};
-use crate::study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
-use crate::text::grouped;
+use asperity_data::AxisScale;
+use asperity_data::grouped;
+use asperity_data::{Table, object};
+use asperity_data::{format_quantity, format_rounded};
+use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span};
+use asperity_scene::Scene;
+use asperity_study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
 
 /// Changes from here on are stated as a factor.
 const LARGE: f64 = 2.0;
@@ -205,7 +207,7 @@ impl Report for SensitivityReport<'_> {
             std::iter::once(("", None, self.sensitivity.present)).chain(sides)
         };
         let longest = self.sensitivity.influences.iter().map(|one| one.axis.path.len()).max().unwrap_or(0);
-        let mut table = Table::of(rows).with("path", crate::io::Kind::Text(longest), |row| row.0);
+        let mut table = Table::of(rows).with("path", asperity_data::Kind::Text(longest), |row| row.0);
         table = table.real("value", |row| row.1);
         for (index, quantity) in Sensitivity::RESULTS.iter().enumerate() {
             table = table.real(quantity.name(), move |row| row.2[index]);
@@ -230,10 +232,10 @@ mod tests {
     /// A whole number changes by a whole step, what is not allowed is said, and a bar beyond the frame has an arrow.
     #[test]
     fn each_change_has_a_row_and_a_bar_of_its_own() {
-        let scene = crate::scene::open("jkr-sphere").unwrap().scene().clone();
+        let scene = asperity_scene::open("jkr-sphere").unwrap().scene().clone();
         let influence = |path: &str, value: f64, sides| {
             let axis =
-                crate::study::Axis::new(path, crate::study::Spacing::List, Vec::new(), &scene).unwrap();
+                asperity_study::Axis::new(path, asperity_study::Spacing::List, Vec::new(), &scene).unwrap();
             Influence { axis, value, sides }
         };
         let force = |force: f64| Some([Some(force), None, Some(1.0)]);

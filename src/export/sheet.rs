@@ -1,7 +1,7 @@
 //! Plain text in aligned columns that fits a terminal of 80 columns.
 
-use crate::scene::format_quantity;
-use crate::text::{printable, wrap};
+use asperity_data::format_quantity;
+use asperity_data::{printable, wrap};
 
 /// Characters on a line: those of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;

@@ -1,8 +1,9 @@
 //! Spectra over the wave number: measured, fitted, and those of the equivalent line.
 
-use crate::draw::{Axis, AxisScale, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use crate::spectrum::{Along, Analysis, Bin, End};
-use crate::surface::EquivalentLine;
+use asperity_data::AxisScale;
+use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_surface::EquivalentLine;
+use asperity_surface::{Along, Analysis, Bin, End};
 use std::f64::consts::TAU;
 
 /// Points of a curve for each decade of wave numbers.
@@ -127,9 +128,10 @@ impl Spectra {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::{Figure, check_picture};
-    use crate::spectrum::{Estimate, Options, PowerLaw, analyse};
-    use crate::topography::{ReadOptions, parse};
+    use asperity_plot::Figure;
+    use asperity_plot::judge::check_picture;
+    use asperity_surface::{Estimate, Options, PowerLaw, analyse};
+    use asperity_surface::{ReadOptions, parse};
 
     fn analysis(end: End) -> Analysis {
         let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();

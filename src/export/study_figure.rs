@@ -1,11 +1,12 @@
 //! Figures of studies: a map over two axes, or curves along one.
 
-use crate::analysis::{Regime, VANISHING_SHARE};
-use crate::draw::{
-    Axis, AxisScale, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span,
-    Stroke, value_label,
+use asperity_data::AxisScale;
+use asperity_plot::{
+    Axis, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span, Stroke,
+    value_label,
 };
-use crate::study::{self, Grid, Quantity, Statistics};
+use asperity_scene::{Regime, VANISHING_SHARE};
+use asperity_study::{Grid, Quantity, Statistics};
 
 /// Fewest decades of a quantity with a second, logarithmic chart.
 const DECADES_FOR_SECOND: f64 = 1.5;
@@ -105,11 +106,11 @@ fn means(estimates: &[Option<Statistics>]) -> Vec<Option<f64>> {
     estimates.iter().map(|estimate| Some((*estimate)?.mean)).collect()
 }
 
-fn coordinates(axis: &study::Axis) -> Vec<f64> {
+fn coordinates(axis: &asperity_study::Axis) -> Vec<f64> {
     axis.values.iter().map(|value| axis.scale().coordinate(*value)).collect()
 }
 
-fn axis_over(axis: &study::Axis, span: Span) -> Axis {
+fn axis_over(axis: &asperity_study::Axis, span: Span) -> Axis {
     Axis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
 }
 
@@ -249,9 +250,9 @@ fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::check_picture;
-    use crate::scene::open;
-    use crate::study::{Axis as StudyAxis, Cell, Layer as Quantities, RegimeCounts, Spacing, Spread};
+    use asperity_plot::judge::check_picture;
+    use asperity_scene::open;
+    use asperity_study::{Axis as StudyAxis, Cell, Layer as Quantities, RegimeCounts, Spacing, Spread};
 
     const SHARE: Quantity = Quantity::ZeroLoadAdhesionShare;
     const COEFFICIENT: Quantity = Quantity::AdhesionCoefficient;
@@ -446,7 +447,7 @@ mod tests {
 
     #[test]
     fn figures_as_text_stay_as_they_are() {
-        use crate::draw::{Colours, figure_text};
+        use asperity_plot::{Colours, figure_text};
         let mut foreign = phase_map();
         foreign.title = "\u{1b}]52;c;eA==\u{7} a\u{202e}b \u{9b}2J".into();
         for study in [phase_map(), sections(), foreign] {
@@ -454,7 +455,7 @@ mod tests {
                 let text = figure_text(&figure(&study), columns, Colours::None);
                 let widest = text.lines().map(|line| line.chars().count()).max();
                 assert!(widest <= Some(columns), "{columns}: {widest:?}\n{text}");
-                assert!(text.chars().all(|c| c == '\n' || !crate::text::is_control(c)), "{text}");
+                assert!(text.chars().all(|c| c == '\n' || !asperity_data::is_control(c)), "{text}");
             }
         }
         assert!(figure_text(&figure(&phase_map()), 80, Colours::All).contains("\x1b[38;2;"));

@@ -2,14 +2,17 @@
 
 use super::measured_face::steep;
 use super::sheet::Sheet;
-use crate::accuracy::{Choice, Estimate};
-use crate::analysis::{
+use asperity_contact::Move;
+use asperity_contact::Work;
+use asperity_data::format_quantity;
+use asperity_data::grouped;
+use asperity_scene::{Choice, Estimate};
+use asperity_scene::{
     INSENSITIVE_SHARE, LEAST_TABOR_NUMBER, NEGLIGIBLE_COEFFICIENT, Regime, SteepWaves, VANISHING_SHARE,
 };
-use crate::contact::Work;
-use crate::scene::{Form, Move, Scene, format_quantity, loading_text};
-use crate::simulation::{Outcome, Timings};
-use crate::text::grouped;
+use asperity_scene::{Outcome, Timings};
+use asperity_scene::{Scene, loading_text};
+use asperity_surface::Form;
 
 /// Largest number of loading stages, or runs of them, that are listed; further ones are counted.
 const MOST_STAGES: usize = 8;
@@ -299,8 +302,8 @@ fn counts(work: &Work) -> [(&'static str, u64); 15] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Document;
-    use crate::simulation::Simulation;
+    use asperity_scene::Document;
+    use asperity_scene::Simulation;
 
     const ROUGH: &str = r#"(
     version: 1,
@@ -354,7 +357,7 @@ mod tests {
 
     #[test]
     fn an_adhesion_force_has_its_error() {
-        use crate::accuracy::{Evidence, Target};
+        use asperity_scene::{Evidence, Target};
         let document = Document::parse(ROUGH, "test").unwrap();
         let outcome = Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
         let with = |target, error| {

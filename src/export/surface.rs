@@ -4,13 +4,15 @@ use super::measured_face::{MeasuredFace, SurfaceFile};
 use super::report::{Json, Report};
 use super::sheet::Sheet;
 use super::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
-use crate::draw::Figure;
-use crate::io::{Kind, Table};
-use crate::scene::{CheckedScene, Move, Scene, format_quantity, format_range};
-use crate::spectrum::{Along, Analysis, Bin, End, Estimate, LineMoments, Moment, Node, PointStatistics};
-use crate::study::{self, MeasuredAdhesion, ProfileAdhesion, RegimeCounts};
-use crate::surface::EquivalentLine;
-use crate::text::{grouped, path_name, per_cent};
+use asperity_contact::Move;
+use asperity_data::{Kind, Table};
+use asperity_data::{format_quantity, format_range};
+use asperity_data::{grouped, path_name, per_cent};
+use asperity_plot::Figure;
+use asperity_scene::{CheckedScene, Scene};
+use asperity_study::{MeasuredAdhesion, ProfileAdhesion, RegimeCounts};
+use asperity_surface::EquivalentLine;
+use asperity_surface::{Along, Analysis, Bin, End, Estimate, LineMoments, Moment, Node, PointStatistics};
 use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;
@@ -282,7 +284,7 @@ struct AdhesionJson<'a> {
     length: f64,
     springs: u64,
     preload: Option<f64>,
-    adhesion_force: Option<study::Statistics>,
+    adhesion_force: Option<asperity_study::Statistics>,
     fit_deviation: Option<f64>,
     regimes: RegimeCounts,
     regimes_after_zero_force: RegimeCounts,

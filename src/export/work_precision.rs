@@ -1,7 +1,8 @@
 //! Work–precision diagram: error over computing time for each setting that affects accuracy.
 
-use crate::accuracy::{CostTable, Knob};
-use crate::draw::{Axis, AxisScale, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_data::AxisScale;
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_scene::{CostTable, Knob};
 
 /// Relative errors over the least time of a run, one curve for each setting: errors of the adhesion force, or of
 /// the force curve if there is no adhesion force.
@@ -40,7 +41,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::{ErrorFigure, Reference, Row, Timing};
+    use asperity_scene::{ErrorFigure, Reference, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {

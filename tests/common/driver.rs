@@ -1,19 +1,19 @@
 //! An explorer without a terminal, in a folder of its own. It performs effects as the program does, but at once: results
 //! do not depend on speed.
 
-use asperity::explorer::Opening;
 use asperity::explorer::action::Action;
 use asperity::explorer::action::Task;
 use asperity::explorer::commands::opening::begin;
 use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
+use asperity::explorer::opening::Opening;
 use asperity::explorer::runtime::{Engine, Runtime};
 use asperity::explorer::snapshot::Preview;
 use asperity::explorer::solver::Solve;
 use asperity::explorer::studies::Study;
 use asperity::explorer::theme::{Appearance, Marker, Theme};
-use asperity::export::SceneSpectra;
-use asperity::simulation::{Outcome, Simulation, Timings};
+use asperity::export::scene_spectra::SceneSpectra;
+use asperity::scene::{Outcome, Simulation, Timings};
 use std::any::Any;
 use std::fs;
 use std::ops::{Deref, DerefMut};

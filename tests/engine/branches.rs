@@ -1,10 +1,10 @@
 //! Figures of one path of the body, however the path is cut into stages.
 
 use super::body::*;
-use asperity::analysis::{Figures, Regime};
 use asperity::contact::{Direction, Edges, History, LegRecord, Move, Solver};
 use asperity::scene::open;
-use asperity::simulation::{Outcome, Simulation};
+use asperity::scene::{Figures, Regime};
+use asperity::scene::{Outcome, Simulation};
 use proptest::prelude::*;
 
 /// A scene with this loading.

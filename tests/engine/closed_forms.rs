@@ -7,7 +7,7 @@ mod waves;
 use super::body::{Body, end};
 use super::numerics::observed_order;
 use asperity::contact::{Edges, Foundation, LegRecord, Move};
-use asperity::scene::Form;
+use asperity::surface::Form;
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use one_piece::{Loop, OnePiece};
 

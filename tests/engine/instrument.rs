@@ -1,12 +1,12 @@
 //! A compliant instrument: stages to a displacement, and the force over it, against running extrema by brute force.
 
 use super::body::{Body, bodies, cases, end};
-use asperity::analysis::{DisplacementCurve, Figures, InstrumentFigures, displacements};
 use asperity::contact::{
     self, Contact, CurvePoint, Direction, Edges, Foundation, HessRule, History, LegRecord, Move, Solver, run,
 };
-use asperity::reference::PowerLaw;
-use asperity::scene::Form;
+use asperity::scene::PowerLaw;
+use asperity::scene::{DisplacementCurve, Figures, InstrumentFigures, displacements};
+use asperity::surface::Form;
 use asperity::surface::Line;
 use proptest::prelude::*;
 
@@ -238,7 +238,7 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
             .map(|leg| {
                 let curve = DisplacementCurve::new(leg.direction, &leg.curve, stiffness);
                 let work = |pair: &[_]| {
-                    let [one, next]: [asperity::analysis::DisplacementPoint; 2] = [pair[0], pair[1]];
+                    let [one, next]: [asperity::scene::DisplacementPoint; 2] = [pair[0], pair[1]];
                     0.5 * (one.force + next.force) * (next.displacement - one.displacement)
                 };
                 curve.points().windows(2).map(work).sum::<f64>()

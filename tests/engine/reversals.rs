@@ -1,8 +1,8 @@
 //! Reversals of one loading against separate loadings and unloadings, bit for bit.
 
 use super::body::*;
-use asperity::analysis::Figures;
 use asperity::contact::{self, ContactError, Edges, Foundation, Move, Reversal, Solver, run};
+use asperity::scene::Figures;
 use proptest::prelude::*;
 
 /// Targets of turning points in contact: forces as shares of those of a body.

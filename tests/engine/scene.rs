@@ -1,10 +1,11 @@
 //! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
 
+use asperity::contact::Move;
 use asperity::scene::{
-    DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Move, Range, Roughness, Scene, Span, Text, open,
-    presets, to_ron,
+    DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Range, Roughness, Scene, Span, Text, open, presets,
+    to_ron,
 };
-use asperity::simulation::{Simulation, Stage, Workload};
+use asperity::scene::{Simulation, Stage, Workload};
 
 fn locate(text: &str, path: &str) -> Option<Span> {
     Text::new(text).ok()?.span(path).cloned()

@@ -2,7 +2,7 @@
 
 use asperity::contact::{Move, Work};
 use asperity::scene::{CheckedScene, Document};
-use asperity::simulation::{Outcome, Simulation, Timings};
+use asperity::scene::{Outcome, Simulation, Timings};
 
 /// A rough rubber face; each scene of these tests differs from it by its overrides.
 const SCENE: &str = r#"(

@@ -1,7 +1,7 @@
 //! F_smooth against runs of the same bodies without roughness.
 
 use asperity::scene::Document;
-use asperity::simulation::{Outcome, Simulation};
+use asperity::scene::{Outcome, Simulation};
 
 const ROUGHNESS: &str = "SelfAffine(hurst: 0.7, rms_height: 2.0e-8, modes: (2, 64), seed: 3)";
 

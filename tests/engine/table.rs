@@ -1,8 +1,9 @@
 //! Forms from a table of rows against the forms that they were computed from.
 
-use asperity::reference::PowerLaw;
-use asperity::scene::{Document, Form};
-use asperity::simulation::{RunError, Simulation};
+use asperity::scene::Document;
+use asperity::scene::PowerLaw;
+use asperity::scene::{RunError, Simulation};
+use asperity::surface::Form;
 use asperity::surface::{FormTable, Line, SurfaceError};
 use dashu_float::{FBig, round::mode::HalfEven};
 use std::fmt::Write as _;
@@ -55,7 +56,7 @@ fn a_thousand_rows_are_their_closed_form() {
             simulation.run(scene(form, 2.0 * reach).scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
         };
         let [exact, table] = [form, "Table(file: \"tip.csv\")"].map(run);
-        let pull_off = |outcome: &asperity::simulation::Outcome| outcome.figures.adhesion_force.unwrap();
+        let pull_off = |outcome: &asperity::scene::Outcome| outcome.figures.adhesion_force.unwrap();
         let share = pull_off(&table) / pull_off(&exact);
         assert!((share - 1.0).abs() < 1e-6, "{form}: pull-off {share}");
         for (one, other) in exact.history.legs.iter().zip(&table.history.legs) {

@@ -9,7 +9,7 @@ use asperity::explorer::request::{Drive, Focus, LineView, ManualMove, Request, S
 use asperity::explorer::snapshot::{ContactSnapshot, Reply, SolvedScene};
 use asperity::explorer::solver::{Solve, Solver, SolverThread, serve};
 use asperity::scene::{Document, Observer};
-use asperity::simulation::{Outcome, Simulation};
+use asperity::scene::{Outcome, Simulation};
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

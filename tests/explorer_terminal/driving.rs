@@ -1,7 +1,7 @@
 //! Driving the explorer and reading its screen.
 
 use crate::common::terminal::{Program, Terminal};
-use asperity::scene::parse_quantity;
+use asperity::data::parse_quantity;
 use std::fs;
 
 pub const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");

@@ -4,13 +4,13 @@
 
 use super::generated::{check, compare, pages_in, read, root};
 use super::program::{asperity_in, table};
-use asperity::analysis::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::row;
+use asperity::scene::Simulation;
 use asperity::scene::{Document, FIELDS, LEG_FIELDS, LEG_FORCE, Range, presets};
-use asperity::simulation::Simulation;
+use asperity::scene::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::study::{Changes, Plan, Quantity, Statistics};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -295,7 +295,8 @@ fn links_and_paths_lead_somewhere() {
         }
         let code = text.split('`').skip(1).step_by(2);
         for word in code.filter_map(|code| code.split_whitespace().next()) {
-            let is_path = ["src/", "tests/", "docs/", "fuzz/"].iter().any(|folder| word.starts_with(folder));
+            let is_path =
+                ["src/", "crates/", "tests/", "docs/", "fuzz/"].iter().any(|folder| word.starts_with(folder));
             let exists = || root().join(word).exists() || word.contains('*') || page == "CHANGELOG.md";
             assert!(!is_path || exists(), "{page}: there is no {word}");
         }

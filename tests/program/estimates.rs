@@ -6,9 +6,9 @@
 use super::common::effort::cases;
 use super::documentation::markdown;
 use super::generated::check;
-use asperity::accuracy::estimate;
 use asperity::scene::Document;
-use asperity::simulation::{Outcome, Simulation};
+use asperity::scene::estimate;
+use asperity::scene::{Outcome, Simulation};
 use proptest::prelude::Rng;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::path::Path;

@@ -5,8 +5,8 @@ mod generate;
 
 use super::documentation::markdown;
 use super::generated::check;
-use asperity::spectrum::{Analysis, End, Moment, Options, PowerLaw, analyse};
-use asperity::topography::{ReadOptions, Topography, Unit, parse};
+use asperity::surface::{Analysis, End, Moment, Options, PowerLaw, analyse};
+use asperity::surface::{ReadOptions, Topography, Unit, parse};
 use generate::{Normal, Profiles, Spectrum, cut, map, read, topography};
 use std::f64::consts::TAU;
 

@@ -1,9 +1,10 @@
 //! Parameter studies: results equal to those of single runs, for any division of the work and any interruption.
 
 use super::common::effort::cases;
-use asperity::analysis::Regime;
-use asperity::scene::{Adhesion, Material, Move, Roughness, RoughnessParameter, Scene};
-use asperity::simulation::{Outcome, Simulation};
+use asperity::contact::Move;
+use asperity::scene::Regime;
+use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
+use asperity::scene::{Outcome, Simulation};
 use asperity::study::{
     Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status,
     StudyError, StudyMap, merge, run,

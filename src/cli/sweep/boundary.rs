@@ -2,9 +2,9 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
-use crate::export::Format;
-use crate::scene::RoughnessParameter;
-use crate::study::{USUAL_LEVELS, boundaries};
+use crate::export::report::Format;
+use asperity_scene::RoughnessParameter;
+use asperity_study::{USUAL_LEVELS, boundaries};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;

@@ -1,8 +1,8 @@
 //! `asperity sweep merge`: the tables of a study.
 
 use crate::cli::error::CliError;
-use crate::study::{Folder, Merged, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
-use crate::text::path_name;
+use asperity_data::path_name;
+use asperity_study::{Folder, Merged, RESULTS, SIDECAR, SUMMARY, merge as merge_records};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;

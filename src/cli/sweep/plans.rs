@@ -3,8 +3,8 @@
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
 use crate::export::sheet::Sheet;
-use crate::io::object;
-use crate::study::{Changes, PLANS, Plan};
+use asperity_data::object;
+use asperity_study::{Changes, PLANS, Plan};
 use clap::Args;
 use std::io::Write;
 

@@ -2,9 +2,10 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::OutputArguments;
-use crate::export::{Format, study_curves, study_figure, study_map};
-use crate::scene::Scene;
-use crate::study::{Results, Selected, Selection};
+use crate::export::report::Format;
+use crate::export::study_figure::{study_curves, study_figure, study_map};
+use asperity_scene::Scene;
+use asperity_study::{Results, Selected, Selection};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;

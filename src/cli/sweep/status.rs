@@ -3,8 +3,8 @@
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
 use crate::export::sheet::Sheet;
-use crate::study::{Folder, Status};
-use crate::text::grouped;
+use asperity_data::grouped;
+use asperity_study::{Folder, Status};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;

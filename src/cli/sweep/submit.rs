@@ -7,12 +7,13 @@
 
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
-use crate::scene::quoted;
-use crate::study::{Changes, Folder, Plan};
-use crate::text::{is_control, path_name, printable_lines};
+use asperity_data::{is_control, path_name, printable_lines};
+use asperity_scene::quoted;
+use asperity_study::{Changes, Folder, Plan};
 use clap::Args;
 use std::ffi::OsString;
-use std::io::{self, Write};
+use std::io;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 

@@ -2,7 +2,6 @@
 //! of a typed value.
 
 use super::{edit, measured};
-use crate::accuracy::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::editor::scene_of;
@@ -10,9 +9,11 @@ use crate::explorer::panes;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::Study;
-use crate::scene::{CheckedScene, Document, Move};
-use crate::simulation::RunError;
-use crate::simulation::reach::out_of_reach;
+use asperity_contact::Move;
+use asperity_scene::RunError;
+use asperity_scene::out_of_reach;
+use asperity_scene::{CheckedScene, Document};
+use asperity_scene::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
 use std::path::Path;
 use std::sync::Arc;
 

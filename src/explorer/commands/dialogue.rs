@@ -9,7 +9,7 @@ use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
 use crate::explorer::prompt::{Prompt, Purpose, Topic};
-use crate::scene::{Entry, typed_path};
+use asperity_scene::{Entry, typed_path};
 use tui_input::InputRequest;
 
 /// Opens the search of the list of parameters, in its pane.

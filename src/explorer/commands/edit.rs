@@ -11,9 +11,11 @@ use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
-use crate::scene::{
-    Adhesion, Document, Move, Range, SceneErrors, Solver, Step, exact_quantity, kind_and_number,
-    loading_text, parse_quantity, pressing_force, read_stage, ron_float,
+use asperity_contact::Move;
+use asperity_data::{exact_quantity, parse_quantity};
+use asperity_scene::{
+    Adhesion, Document, Range, SceneErrors, Solver, Step, kind_and_number, loading_text, pressing_force,
+    read_stage, ron_float,
 };
 
 /// Moves the selection in the list of parameters, as far as there are rows.

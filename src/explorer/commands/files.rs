@@ -5,9 +5,9 @@ use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::editor::Editor;
 use crate::explorer::prompt::Purpose;
-use crate::export::{Format, check_extension};
-use crate::scene::{Document, Preset, command_line, presets};
-use crate::text::is_control;
+use crate::export::report::{Format, check_extension};
+use asperity_data::is_control;
+use asperity_scene::{Document, Preset, command_line, presets};
 use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {

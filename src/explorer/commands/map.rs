@@ -4,8 +4,8 @@ use super::edit;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::map::OpenStudy;
-use crate::scene::{Document, RoughnessParameter, SceneErrors};
-use crate::study::{Axis, Place, live_plan, moved};
+use asperity_scene::{Document, RoughnessParameter, SceneErrors};
+use asperity_study::{Axis, Place, live_plan, moved};
 use std::sync::Arc;
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";

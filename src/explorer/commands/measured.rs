@@ -1,13 +1,13 @@
 //! A measured force curve beside the scene: its first touch, the residual of the scene, and the fit of parameters.
 
 use super::edit;
-use crate::experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::measured::{Fitting, fitted};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
-use crate::scene::{format_quantity, one_unit};
+use asperity_data::{format_quantity, one_unit};
+use asperity_study::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
 use std::sync::Arc;
 
 /// Number of computed curves between two reports of a fit.

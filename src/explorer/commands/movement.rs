@@ -1,13 +1,13 @@
 //! Movement of the body: animation of the scene's loading, or manual loading.
 
-use crate::analysis::pull_off_point;
 use crate::explorer::app::{App, ManualState};
 use crate::explorer::player::{At, Player};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::typed::unit_of_force;
-use crate::scene::{in_unit, parse_quantity};
+use asperity_data::{in_unit, parse_quantity};
+use asperity_scene::pull_off_point;
 use std::sync::Arc;
 use std::time::Duration;
 

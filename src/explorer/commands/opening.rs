@@ -8,8 +8,8 @@ use crate::explorer::measured::Measured;
 use crate::explorer::opening::Opening;
 use crate::explorer::pane::Pane;
 use crate::explorer::theme::Appearance;
-use crate::export::LoopQuantities;
-use crate::study::StudyMap;
+use crate::export::loop_chart::LoopQuantities;
+use asperity_study::StudyMap;
 use std::sync::Arc;
 
 /// The explorer in a window of this size, opened on the arguments of the program.

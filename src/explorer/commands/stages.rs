@@ -3,9 +3,9 @@
 use super::edit;
 use crate::explorer::app::App;
 use crate::explorer::player::{At, Player};
-use crate::scene;
-use crate::scene::{Document, Move, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
-use crate::text::round_to;
+use asperity_contact::Move;
+use asperity_data::round_to;
+use asperity_scene::{Document, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
 
 /// Stages, those of the present loading with their places in it.
 type Stages = Vec<(Option<usize>, Move)>;
@@ -109,7 +109,7 @@ fn pressing_force(app: &App) -> f64 {
     let given = [&app.edit.document]
         .into_iter()
         .chain(before)
-        .map(|document| scene::pressing_force(&document.scene().loading));
+        .map(|document| asperity_scene::pressing_force(&document.scene().loading));
     let computed = app.current().map_or(0.0, |solved| {
         round_to(
             solved.outcome.figures.preload.unwrap_or_default().max(0.01 * solved.reach.full_contact.0),

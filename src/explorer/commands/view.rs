@@ -1,12 +1,12 @@
 //! Changes of the view: panes, close-up, parts of the line, quantities, colours.
 
-use crate::draw::AxisScale;
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget};
 use crate::explorer::pane::Pane;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Cycle;
+use asperity_data::AxisScale;
 use std::sync::Arc;
 
 /// Fewest springs that fill a pane.

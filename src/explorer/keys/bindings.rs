@@ -1,7 +1,7 @@
 //! The rows of the table of keys, and the keys in use: those of the table, or of the configuration.
 
 use super::key::Key;
-use crate::scene::nearest;
+use asperity_scene::nearest;
 use crossterm::event::{KeyCode, KeyEvent};
 use std::fmt;
 

@@ -1,6 +1,6 @@
 //! A key with its modifiers, by its name.
 
-use crate::text::is_control;
+use asperity_data::is_control;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 /// A key with its modifiers, or a range of characters: `Ctrl+p`, `1–9`.

@@ -1,18 +1,21 @@
 //! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
 
 use super::row::{Exported, PaneRow};
-use crate::accuracy::{CostTable, Estimate, Knob, Progress, measure};
-use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled};
 use crate::explorer::theme::{Appearance, Meaning};
-use crate::export::{CostReport, work_precision};
-use crate::scene::{Edges, Numerics, Solver, format_rounded};
-use crate::simulation::{Stage, Workload};
-use crate::text::{grouped, per_cent};
+use crate::export::cost::CostReport;
+use crate::export::work_precision::work_precision;
+use asperity_contact::Edges;
+use asperity_data::format_rounded;
+use asperity_data::{grouped, per_cent};
+use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
+use asperity_scene::{CostTable, Estimate, Knob, Progress, measure};
+use asperity_scene::{Numerics, Solver};
+use asperity_scene::{Stage, Workload};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::path::Path;

@@ -3,13 +3,13 @@
 
 use super::row::PaneRow;
 use super::section;
-use crate::draw::{Chart, Ink, Layer, Shape, Sign, Span};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::{ContactSnapshot, PatchFacts};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::export::section::{Part as LinePart, Section};
-use crate::scene::format_quantity;
+use asperity_data::format_quantity;
+use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 

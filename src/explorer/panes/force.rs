@@ -1,9 +1,6 @@
 //! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
 
 use super::row::{Exported, PaneRow, outcome};
-use crate::analysis::{LEAST_TABOR_NUMBER, Mark, marks};
-use crate::contact::{CurvePoint, Direction};
-use crate::draw::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
 use crate::explorer::app::App;
 use crate::explorer::caption::caption;
 use crate::explorer::ghost::{Ghost, letter};
@@ -11,8 +8,14 @@ use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
 use crate::explorer::text::filled;
 use crate::explorer::theme::Meaning;
-use crate::export::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart, sign};
-use crate::scene::{format_rounded, quoted};
+use crate::export::fit::FitReport;
+use crate::export::loop_chart::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
+use crate::export::report::Report;
+use asperity_contact::{CurvePoint, Direction};
+use asperity_data::format_rounded;
+use asperity_plot::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
+use asperity_scene::quoted;
+use asperity_scene::{LEAST_TABOR_NUMBER, Mark, marks};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 

@@ -1,7 +1,6 @@
 //! The map: shades in the colours of the regimes, the mark of the scene, and the values at the mark.
 
 use super::row::{Exported, PaneRow};
-use crate::draw::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::map::{Live, OpenStudy};
 use crate::explorer::panel::{Panel, in_theme, names, shades};
@@ -9,10 +8,12 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
-use crate::export::{study_curves, study_figure, study_map};
-use crate::scene::{RoughnessParameter, format_range, format_rounded};
-use crate::study::{Axis, Cell, Grid, LiveMap, MAP_LINES, Place, Quantity, Statistics, live_plan};
-use crate::text::grouped;
+use crate::export::study_figure::{study_curves, study_figure, study_map};
+use asperity_data::grouped;
+use asperity_data::{format_range, format_rounded};
+use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
+use asperity_scene::RoughnessParameter;
+use asperity_study::{Axis, Cell, Grid, LiveMap, MAP_LINES, Place, Quantity, Statistics, live_plan};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 

@@ -14,13 +14,13 @@ mod sensitivity;
 mod spectrum;
 
 use self::row::PaneRow;
-use crate::draw::Figure;
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::Context;
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::pane::Pane;
 use crate::explorer::panel;
 use crate::explorer::panel::{Panel, Under};
+use asperity_plot::Figure;
 use ratatui::layout::{Position, Size};
 
 /// Size within the frame of a pane that is exported.

@@ -10,7 +10,8 @@ use crate::explorer::text::{filled, fitted, wrapped_within};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
-use crate::scene::{Effect, format_quantity, unit_of};
+use asperity_data::{format_quantity, unit_of};
+use asperity_scene::Effect;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 

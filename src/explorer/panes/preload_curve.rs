@@ -1,11 +1,13 @@
 //! Adhesion against preload of the scene: first the staircase of its own profile, then the spread over random profiles.
 
-use crate::analysis::Figures;
-use crate::draw::{AxisScale, Span};
 use crate::explorer::snapshot::SolvedScene;
-use crate::scene::{Move, Solver};
-use crate::simulation::Simulation;
-use crate::study::{Axis, Results, Staircase, Statistics};
+use asperity_contact::Move;
+use asperity_data::AxisScale;
+use asperity_plot::Span;
+use asperity_scene::Figures;
+use asperity_scene::Simulation;
+use asperity_scene::Solver;
+use asperity_study::{Axis, Results, Staircase, Statistics};
 
 /// Number of preloads, and place of the preload of the scene among them: on a linear axis from the force at first touch to
 /// twice the preload, on a logarithmic one of six decades two decades below the end.
@@ -119,7 +121,8 @@ impl PreloadCurve {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Edges, open};
+    use asperity_contact::Edges;
+    use asperity_scene::open;
     use std::cell::Cell;
     use std::sync::Arc;
 

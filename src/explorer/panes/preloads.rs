@@ -3,13 +3,14 @@
 
 use super::preload_curve::{PROFILES, PreloadCurve};
 use super::row::{Exported, PaneRow};
-use crate::draw::{AxisScale, Chart, Ink, Layer, Shape, Sign};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::studies::Study;
 use crate::explorer::text::{filled, wrapped};
 use crate::explorer::theme::Meaning;
-use crate::export::{PreloadReport, distribution, preload_chart, preload_figure, warning};
+use crate::export::preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
+use asperity_data::AxisScale;
+use asperity_plot::{Chart, Ink, Layer, Shape, Sign};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::sync::Arc;

@@ -2,14 +2,15 @@
 
 use super::row::PaneRow;
 use super::section;
-use crate::draw::{Axis, AxisScale, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Appearance;
 use crate::export::section::Part as LinePart;
-use crate::scene::format_quantity;
-use crate::surface::Histogram;
+use asperity_data::AxisScale;
+use asperity_data::format_quantity;
+use asperity_plot::{Axis, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
+use asperity_surface::Histogram;
 use std::f64::consts::TAU;
 
 pub static ROW: PaneRow = PaneRow {

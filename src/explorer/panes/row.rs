@@ -1,11 +1,12 @@
 //! Properties of one pane.
 
-use crate::draw::Figure;
 use crate::explorer::app::{App, ManualState};
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
-use crate::export::{PathReport, Report, RunReport};
+use crate::export::report::Report;
+use crate::export::run::{PathReport, RunReport};
+use asperity_plot::Figure;
 use ratatui::layout::Size;
 use std::borrow::Cow;
 use std::sync::Arc;

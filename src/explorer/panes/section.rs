@@ -1,16 +1,16 @@
 //! Part of the profile on its axes: rigid profile, elastic surface and contact of the profile pane and the close-up.
 
 use super::row::{Exported, OPEN_COMMAND};
-use crate::draw::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text::Part;
 use crate::explorer::theme::{Appearance, Meaning};
-use crate::export::Report;
+use crate::export::report::Report;
 use crate::export::section::{Part as LinePart, Section};
-use crate::scene::format_quantity;
-use crate::simulation::LineFacts;
+use asperity_data::format_quantity;
+use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
+use asperity_scene::LineFacts;
 use ratatui::text::Span as Text;
 
 /// A section over the position, heights within `z`; on the lower edge the names of the lines, or readings of the crosshair.

@@ -1,13 +1,13 @@
 //! Sensitivity of the results to the numbers of the scene: bars of the changes of the adhesion force, beside all changes.
 
 use super::row::{Exported, PaneRow};
-use crate::draw::Label;
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
 use crate::explorer::text::filled;
-use crate::export::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
-use crate::study::Sensitivity;
+use crate::export::sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
+use asperity_plot::Label;
+use asperity_study::Sensitivity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 use std::sync::Arc;

@@ -7,13 +7,15 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{filled, wrapped};
 use crate::explorer::theme::Meaning;
-use crate::export::{SceneSpectra, measured_adhesion_text};
-use crate::scene::{Roughness, Scene, Solver, format_quantity};
-use crate::simulation::RunError;
-use crate::spectrum::Moment;
-use crate::study::{MeasuredAdhesion, ProfileAdhesion};
-use crate::surface::{EquivalentLine, read_faces};
-use crate::text::per_cent;
+use crate::export::scene_spectra::SceneSpectra;
+use crate::export::surface::measured_adhesion_text;
+use asperity_data::format_quantity;
+use asperity_data::per_cent;
+use asperity_scene::RunError;
+use asperity_scene::{Roughness, Scene, Solver};
+use asperity_study::{MeasuredAdhesion, ProfileAdhesion};
+use asperity_surface::Moment;
+use asperity_surface::{EquivalentLine, read_faces};
 use ratatui::layout::Size;
 use ratatui::text::Line;
 use std::path::Path;
@@ -80,7 +82,7 @@ fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     if shown.moments.is_some() {
         words.extend(adhesion(app));
     }
-    if words.is_empty() && shown.spectra == crate::export::Spectra::default() {
+    if words.is_empty() && shown.spectra == crate::export::spectrum_figure::Spectra::default() {
         words.push("the profile has no roughness and no spectrum".to_owned());
     }
     words

@@ -4,7 +4,7 @@
 //! with any font.
 
 use super::{Glyph, dots, glyphs};
-use crate::draw::{Palette, Rgb, Svg, escaped, hex};
+use asperity_plot::{Palette, Rgb, Svg, escaped, hex};
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
@@ -160,7 +160,7 @@ fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::parsed;
+    use asperity_plot::judge::parsed;
     use ratatui::layout::Rect;
     use ratatui::style::Style;
 

@@ -1,9 +1,5 @@
 //! The lines around the panes: title, status, footer.
 
-use crate::accuracy::Estimate;
-use crate::analysis::SteepWaves;
-use crate::contact::CurvePoint;
-use crate::experiment::Fit;
 use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
 use crate::explorer::commands::accuracy::Choosing;
@@ -17,9 +13,13 @@ use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text::{filled, wrapped_within};
 use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::typed;
-use crate::scene::{format_quantity, format_range, format_rounded};
-use crate::study::{MeasuredAdhesion, Statistics};
-use crate::text::grouped;
+use asperity_contact::CurvePoint;
+use asperity_data::grouped;
+use asperity_data::{format_quantity, format_range, format_rounded};
+use asperity_scene::Estimate;
+use asperity_scene::SteepWaves;
+use asperity_study::Fit;
+use asperity_study::{MeasuredAdhesion, Statistics};
 use ratatui::text::{Line, Span};
 use std::f64::consts::PI;
 use std::path::is_separator;

@@ -3,7 +3,7 @@
 //! body with a hysteresis due to its shape.
 
 use crate::numerics::{integral, invert};
-use asperity::scene::Form;
+use asperity::surface::Form;
 use asperity::surface::{power_law_factor, struve_0};
 use std::f64::consts::PI;
 

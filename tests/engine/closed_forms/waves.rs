@@ -3,10 +3,11 @@
 use super::one_piece::{Loop, OnePiece};
 use super::{BOTH, Problem, judge};
 use crate::body::end;
-use asperity::analysis::SteepWaves;
 use asperity::contact::{Edges, Move};
-use asperity::scene::{Form, open};
-use asperity::simulation::Simulation;
+use asperity::scene::Simulation;
+use asperity::scene::SteepWaves;
+use asperity::scene::open;
+use asperity::surface::Form;
 use std::f64::consts::PI;
 
 const MODULUS: f64 = 1.0e6;

@@ -3,15 +3,16 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, without_adhesion};
 use super::is_up_to_date;
-use asperity::accuracy::{
-    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
-};
+use asperity::contact::Edges;
 use asperity::explorer::action::Task;
 use asperity::explorer::app::Message;
 use asperity::explorer::commands::accuracy::Choosing;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::accuracy::Costs;
-use asperity::scene::{Document, Edges};
+use asperity::scene::Document;
+use asperity::scene::{
+    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
+};
 
 /// Springs of 4e-4 at best, as found by a search.
 fn chosen(tolerance: f64) -> Result<Choosing, String> {

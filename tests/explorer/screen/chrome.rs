@@ -3,8 +3,8 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough, smooth};
 use super::{SIZES, default_scene, mid_retraction, pressed};
+use asperity::data::format_quantity;
 use asperity::explorer::commands::table::bindings;
-use asperity::scene::format_quantity;
 
 #[test]
 fn an_unfinished_scene_says_that_it_computes() {

@@ -3,9 +3,9 @@
 use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::{is_up_to_date, pressed};
-use asperity::explorer::Opening;
 use asperity::explorer::app::Message;
 use asperity::explorer::ghost::Ghost;
+use asperity::explorer::opening::Opening;
 use asperity::scene::Document;
 
 /// The scenes of the ghosts, the newest last.

@@ -3,11 +3,11 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, punch, rough};
 use super::{default_scene, mid_retraction};
+use asperity::data::{format_quantity, parse_quantity};
 use asperity::explorer::action::Gesture;
 use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::snapshot::Probe;
-use asperity::scene::{format_quantity, parse_quantity};
 
 fn probe(driver: &Driver) -> Probe {
     driver.snapshot().probe.unwrap()

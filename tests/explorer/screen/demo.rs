@@ -3,7 +3,8 @@
 use super::common::driver::APPEARANCE;
 use asperity::explorer::demo::Demo;
 use asperity::explorer::demo::script::TOUR;
-use asperity::explorer::{picture, picture_of};
+use asperity::explorer::picture;
+use asperity::explorer::writing::picture_of;
 use asperity::scene::{Document, open, presets};
 
 /// Columns and rows of the large window, and frames in a second, for which the bytes are counted.

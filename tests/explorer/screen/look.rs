@@ -3,8 +3,8 @@
 use super::common::driver::Driver;
 use super::common::scenes::{rough, smooth, without_adhesion};
 use super::{mid_retraction, pressed};
+use asperity::data::format_quantity;
 use asperity::explorer::pane::Pane;
-use asperity::scene::format_quantity;
 
 fn seen(driver: &Driver) -> (usize, usize) {
     let section = &driver.snapshot().profile;

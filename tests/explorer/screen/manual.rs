@@ -131,7 +131,7 @@ fn a_force_out_of_reach_is_stated_and_nothing_is_lost() {
     assert!(driver.app.prompt.is_none(), "{:?}", driver.refusal());
     let after = driver.point();
     assert!(driver.app.manual.is_some() && after.springs > 0, "{after:?}");
-    let newtons = asperity::scene::parse_quantity(&format!("{least} {unit}"), "N").unwrap();
+    let newtons = asperity::data::parse_quantity(&format!("{least} {unit}"), "N").unwrap();
     assert!(after.force <= newtons * (1.0 - 1e-9), "{} {newtons}", after.force);
     driver.press("d d");
     // The body can be moved as before.

@@ -2,14 +2,14 @@
 
 use super::common::driver::Driver;
 use super::is_up_to_date;
-use asperity::experiment::{CurveOptions, Drift, Fit, MeasuredCurve};
-use asperity::explorer::Opening;
 use asperity::explorer::action::Task;
 use asperity::explorer::measured::Fitting;
 use asperity::explorer::measured::Measured;
+use asperity::explorer::opening::Opening;
 use asperity::explorer::pane::Pane;
+use asperity::scene::Simulation;
 use asperity::scene::{Document, open};
-use asperity::simulation::Simulation;
+use asperity::study::{CurveOptions, Drift, Fit, MeasuredCurve};
 use std::fmt::Write;
 use std::sync::Arc;
 

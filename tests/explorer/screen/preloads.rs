@@ -6,7 +6,7 @@ use asperity::explorer::action::Action;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::panes::preload_curve::{PROFILES, PreloadCurve};
 use asperity::scene::Document;
-use asperity::simulation::Simulation;
+use asperity::scene::Simulation;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Computes the curve up to this number of profiles.

@@ -6,7 +6,7 @@ use asperity::explorer::action::Task;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::studies::Study;
 use asperity::scene::Document;
-use asperity::simulation::Simulation;
+use asperity::scene::Simulation;
 use asperity::study::Sensitivity;
 
 /// The explorer with the sensitivities computed, and shown.

@@ -6,9 +6,9 @@ use super::pressed;
 use asperity::explorer::action::Task;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::studies::Study;
-use asperity::export::SceneSpectra;
+use asperity::export::scene_spectra::SceneSpectra;
 use asperity::scene::Document;
-use asperity::simulation::Simulation;
+use asperity::scene::Simulation;
 use asperity::study::MeasuredAdhesion;
 use std::path::Path;
 

@@ -3,9 +3,10 @@
 use super::common::driver::Driver;
 use super::common::scenes::{changed, rough, smooth, without_adhesion};
 use super::{is_up_to_date, pressed};
+use asperity::contact::Move;
 use asperity::explorer::app::{App, Message};
-use asperity::scene::{Document, Move, open, to_ron};
-use asperity::simulation::Simulation;
+use asperity::scene::Simulation;
+use asperity::scene::{Document, open, to_ron};
 
 /// The rough scene with a loading, the row of one of its stages selected, of the loading as a whole for 0.
 fn loaded(loading: &str, stage: usize) -> Driver {

@@ -2,7 +2,7 @@
 
 use super::common::deadline::within;
 use asperity::explorer::studies::{Finding, Findings, Study, StudyThread};
-use asperity::simulation::Simulation;
+use asperity::scene::Simulation;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 

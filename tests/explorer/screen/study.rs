@@ -4,13 +4,14 @@ use super::common::driver::Driver;
 use super::common::scenes::rough;
 use super::common::study::{PLAN, begun, merged};
 use super::{is_up_to_date, pressed};
-use asperity::explorer::Opening;
+use asperity::contact::Move;
 use asperity::explorer::action::Action;
 use asperity::explorer::action::Task;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::map::Live;
-use asperity::scene::{Move, Roughness};
+use asperity::explorer::opening::Opening;
+use asperity::scene::Roughness;
 use asperity::study::Quantity;
 use tempfile::TempDir;
 

@@ -202,7 +202,7 @@ fn a_value_that_is_typed_shows_its_curve_before_it_is_taken() {
         let alone = document.set("roughness.rms_height", "3.0e-7").unwrap();
         let alone = Driver::start(alone).app.solved.clone().unwrap();
         assert_eq!(tried, alone.outcome.figures);
-        let force = asperity::scene::format_quantity(tried.adhesion_force.unwrap(), "N");
+        let force = asperity::data::format_quantity(tried.adhesion_force.unwrap(), "N");
         assert!(driver.status().starts_with(&format!("preview: F_a {force}")), "{}", driver.status());
         // The scene itself is unchanged, also after Esc.
         assert_eq!((&driver.app.edit.document, is_up_to_date(&driver.app)), (&document, true));

@@ -2,8 +2,10 @@
 
 use super::*;
 use asperity::contact::{ContactError, CurvePoint, Direction, LegRecord};
-use asperity::scene::{Edges, Form, Move, Roughness, target_field};
-use asperity::simulation::{BeyondFullContact, Outcome, RunError, Simulation};
+use asperity::contact::{Edges, Move};
+use asperity::scene::{BeyondFullContact, Outcome, RunError, Simulation};
+use asperity::scene::{Roughness, target_field};
+use asperity::surface::Form;
 use asperity::surface::SurfaceError;
 use std::time::{Duration, Instant};
 

@@ -1,8 +1,7 @@
 //! Strategies for random scenes, which draw every field of the table of fields.
 
-use asperity::scene::{
-    DEFAULT, Document, FIELDS, Field, LEG_FIELDS, Range, find, is_control, ron_float, ron_string,
-};
+use asperity::data::is_control;
+use asperity::scene::{DEFAULT, Document, FIELDS, Field, LEG_FIELDS, Range, find, ron_float, ron_string};
 use proptest::prelude::*;
 
 /// Most elements of a drawn list; longer lists add time and no other case.

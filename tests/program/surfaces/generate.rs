@@ -1,6 +1,6 @@
 //! Isotropic random surfaces with a known spectrum, on maps and along cuts.
 
-use asperity::topography::{ReadOptions, Topography, Unit, parse};
+use asperity::surface::{ReadOptions, Topography, Unit, parse};
 use realfft::{ComplexToReal, RealFftPlanner};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;

@@ -1,0 +1,285 @@
+//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump; and the edge
+//! models of a fragment, its length, its next attachment and detachment.
+//!
+//! A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on each
+//! level a length ℓ, the only input of the rule of Hess: its largest stretch is Δl_max = s √ℓ, eq. (10), with the stretch s
+//! of a fragment of unit length.
+//!
+//! * Whole springs, as the paper counts them: a fragment of n springs is n Δx long at all levels of its span.
+//! * Edges that slide between springs: the line is straight between neighbouring springs, and a fragment ends at the crossing
+//!   of the line with the level of the fragment. A fragment at level t is in equilibrium with the indentation φ(t) = t −
+//!   Δl_max(ℓ(t)): it grows while φ(t) ≤ d and recedes while φ(t) ≥ d. Between the gap of its largest spring and that of its
+//!   wall ℓ is linear in t, so φ is convex: φ falls to its lowest value and then rises, and a fragment rests only where φ
+//!   rises.
+
+use super::levels::{EdgeCell, Levels, Slider, Span, larger};
+use super::tree::{Branch, ContactTree};
+use crate::totals::ContactTotals;
+
+/// Margin of bounds for rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// One fragment over the range of indentations up to its next jump, merging or parting: on the way from its bottom to
+/// its top each span passes into the next.
+///
+/// The runs of a leg are in the order of a walk through the tree from its root, right parts first, and on each branch
+/// the larger ones first: a run comes before those inside it, and of two others the right one comes first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// Lower bound (inclusive) of its indentations, m; −∞ for a fragment in contact when a loading leg begins.
+    pub from: f64,
+    /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
+    pub to: f64,
+    /// Height of the level of pinned edges above the largest gap, m; NaN for edges that are free to move.
+    pub pin: f64,
+    /// First and last spring of its smallest span.
+    pub bottom: [u32; 2],
+    /// First and last spring of its largest span.
+    pub top: [u32; 2],
+    pub branch: Branch,
+}
+
+/// A fragment in contact between two legs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    pub branch: Branch,
+    pub first: u32,
+    pub last: u32,
+    /// Height of the level of pinned edges above its largest gap, m.
+    pub pin: Option<f64>,
+}
+
+#[derive(Debug)]
+pub struct Listed {
+    pub runs: Vec<Run>,
+    /// Smallest indentation of full contact of a loading, or of contact of an unloading, m.
+    pub end: f64,
+    pub evaluations: u64,
+}
+
+/// Gaps and contact tree under the rule of one direction: the input of all passes of a leg.
+///
+/// Edges that `SLIDES` between springs curve the force between two events. Whole springs have one length at all levels of a
+/// span, and no edge cells.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'a, const SLIDES: bool> {
+    pub gaps: &'a [f64],
+    pub tree: &'a ContactTree,
+    /// Largest stretch of a fragment of unit length, m.
+    pub stretch: f64,
+    pub unloading: bool,
+}
+
+impl Run {
+    pub fn new(branch: Branch, span: &Span, from: f64, to: f64) -> Self {
+        Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
+    }
+
+    /// Rise of pinned edges, m.
+    #[inline]
+    pub fn pin(&self) -> Option<f64> {
+        Some(self.pin).filter(|pin| !pin.is_nan())
+    }
+
+    #[inline]
+    pub fn is_at(&self, indentation: f64) -> bool {
+        self.from <= indentation && indentation < self.to
+    }
+}
+
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
+    #[inline]
+    pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
+        let (first, last) = (first as usize, last as usize);
+        let ends = larger(self.gaps[first], self.gaps[last]);
+        // Above the lowest span of a branch the largest gap is that of the outermost spring that attached last.
+        let gap = branch.origin().map_or(ends, |node| larger(ends, self.tree.nodes[node].gap));
+        Span { gap, first, last }
+    }
+
+    #[inline]
+    pub fn bottom(&self, run: &Run) -> Span {
+        self.span(run.branch, run.bottom)
+    }
+
+    #[inline]
+    pub fn slider(&self, run: &Run, span: &Span) -> Slider {
+        Slider::new(self.gaps, span, self.stretch, run.pin())
+    }
+
+    /// Smallest indentation at which a span attaches its wall of this gap, m.
+    #[inline]
+    pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
+        self.attachment(&self.levels(span), wall)
+    }
+
+    /// Level of the edges of a span at an indentation, m, pinned at a rise, m, if there is one.
+    #[inline]
+    pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
+        span.gap + self.rise(span, pin, indentation)
+    }
+
+    /// Height of the level of the edges above the largest gap, m, pinned or not.
+    #[inline]
+    pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
+        pin.unwrap_or_else(|| self.levels(span).rise(self.stretch, indentation))
+    }
+
+    /// Whole springs or cells of a span, and the fragment they form.
+    #[inline]
+    pub fn totals(&self, span: &Span) -> ContactTotals {
+        let end = span.last + usize::from(!SLIDES);
+        let [high, high_squares] = self.tree.sums_before(self.gaps, end);
+        let [low, low_squares] = self.tree.sums_before(self.gaps, span.first);
+        let (quanta, squares) = (high - low, high_squares - low_squares);
+        ContactTotals { springs: span.springs() as i64, fragments: 1, quanta, squares }
+    }
+
+    /// Upper end of the indentations over which a run fills a span, m: where the span `above` takes its place.
+    #[inline]
+    fn upper_end(&self, span: &Span, above: &Span) -> f64 {
+        // Unloading, the span above parts where this one would go on.
+        if self.unloading { self.holds_to(&self.levels(above)) } else { self.attaches_at(span, above.gap) }
+    }
+
+    /// Upper end of the indentations over which a run fills one of its spans, m.
+    #[inline]
+    pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
+        if span.ends() == run.top {
+            return run.to;
+        }
+        self.upper_end(span, &span.grown(self.gaps))
+    }
+
+    /// Lower bound of the gaps of springs outside a span that do not belong to its fragment at this indentation (m), on
+    /// either leg: a spring with a smaller gap needs no evaluation of the rule.
+    #[inline]
+    pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
+        let root = (self.square() * self.least_length(span.first, span.last)).sqrt();
+        (indentation + root) - ROUNDING * (indentation.abs() + root)
+    }
+
+    /// Squared stretch of a fragment of unit length, m², rounded down.
+    #[inline]
+    pub fn square(&self) -> f64 {
+        self.stretch * self.stretch * (1.0 - ROUNDING)
+    }
+
+    /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the
+    /// run fills it, until `see` returns true. Ranges that end at `low` (m) or below are left out; the first of the others
+    /// then begins at `low`.
+    #[inline]
+    pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
+        let bottom = self.bottom(run);
+        let mut span = self.filled(run, bottom, low);
+        let mut from = if span == bottom { run.from } else { low };
+        loop {
+            let to = self.filled_up_to(run, &span);
+            if see(&span, from, to) || span.ends() == run.top {
+                return;
+            }
+            (span, from) = (span.grown(self.gaps), to);
+        }
+    }
+
+    /// The span of a run at an indentation, from one that it fills at a smaller indentation on.
+    pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
+        let (mut span, top) = (from, run.top);
+        while span.ends() != top {
+            let sure = span.up_to(self.gaps, self.sure_level(&span, indentation), top);
+            if sure != span {
+                span = sure;
+                continue;
+            }
+            let above = span.grown(self.gaps);
+            if indentation < self.upper_end(&span, &above) {
+                break;
+            }
+            span = above;
+        }
+        span
+    }
+
+    /// The span of a run at an indentation, m.
+    #[inline]
+    pub fn span_at(&self, run: &Run, indentation: f64) -> Span {
+        self.filled(run, self.bottom(run), indentation)
+    }
+}
+
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
+    #[inline]
+    pub fn levels(&self, span: &Span) -> Levels {
+        if SLIDES {
+            return Levels::between_springs(self.gaps, span).0;
+        }
+        let length = f64::from(span.springs() as u32);
+        Levels { gap: span.gap, length, growth: 0.0, top: f64::INFINITY }
+    }
+
+    /// Smallest length that a span has at its highest level, in cells.
+    #[inline]
+    pub fn least_length(&self, first: usize, last: usize) -> f64 {
+        // One of two edge cells is full at the highest level.
+        (last + usize::from(!SLIDES) - first).max(1) as f64
+    }
+
+    /// Smallest indentation at which a span of these levels attaches its wall of this gap, m.
+    #[inline]
+    pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
+        let length = if SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
+        wall - self.stretch * length.sqrt()
+    }
+
+    /// Smallest indentation at which a span of these levels holds its most stretched spring, m; at most its gap.
+    #[inline]
+    pub fn holds_to(&self, levels: &Levels) -> f64 {
+        let (gap, stretch) = (levels.gap, self.stretch);
+        if !SLIDES {
+            // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
+            // is the next number above; but a spring whose gap is closed stays under any rule.
+            return (gap - stretch * levels.length.sqrt()).next_up().min(gap);
+        }
+        // At the smallest φ √ℓ is half of stretch × growth.
+        let root = 0.5 * stretch * levels.growth;
+        let excess = root * root - levels.length;
+        // Without branches: they would often be mispredicted.
+        let rise = excess / levels.growth;
+        let most = levels.top - gap;
+        let rise = if rise < most { rise } else { most };
+        let rise = if excess > 0.0 { rise } else { 0.0 };
+        let holds = (gap + rise) - stretch * levels.length_at(rise).sqrt();
+        if holds < gap { holds } else { gap }
+    }
+
+    /// Returns true if the edges pass from a span to the next larger one without a jump.
+    #[inline]
+    pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
+        if !SLIDES {
+            return true;
+        }
+        // φ rises from the lowest level of the upper span on, and that span adds no level cell.
+        let root = 0.5 * self.stretch * upper.growth;
+        let reached = lower.length_at(lower.top - lower.gap);
+        root * root < upper.length && upper.length - reached < 0.25
+    }
+
+    /// ∫ (c − θ)² dx over the places passed while the edges move between two spans and levels, each place at its own
+    /// indentation θ, in cells times ½ s².
+    pub fn passed_squares(&self, [lower, upper]: [(Span, f64); 2]) -> f64 {
+        if !SLIDES {
+            let [fewer, more] = [lower, upper].map(|(span, _)| span.springs() as f64);
+            // Springs attach one by one to patches of `fewer` springs and more, and detach from those of `more` and fewer.
+            let sign = if self.unloading { 1.0 } else { -1.0 };
+            return (more - fewer) * (more + fewer + sign);
+        }
+        // Twice the stretch s √ℓ of an edge times the change of the length ℓ.
+        let length = |(span, level): (Span, f64)| {
+            let [left, right] = EdgeCell::of(self.gaps, &span, level);
+            [(span.last - span.first) as f64, left.share + right.share]
+        };
+        let ([cells0, share0], [cells1, share1]) = (length(lower), length(upper));
+        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
+        ((cells1 - cells0) + (share1 - share0)) * ((cells0 + cells1) + (share0 + share1))
+    }
+}

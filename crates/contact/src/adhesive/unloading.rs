@@ -1,0 +1,136 @@
+//! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
+
+use super::levels::{Levels, Span, smaller};
+use super::run::{Ground, Held, Listed, Run};
+use super::tree::Branch;
+use crate::ContactError;
+use asperity_data::push;
+
+/// Margin of the bounds for rounding.
+const ABOVE: f64 = 1.0 + 1e-12;
+
+/// Part of the contact still to be listed.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    branch: Branch,
+    first: u32,
+    last: u32,
+    /// Indentation at which the fragment around it parts, m.
+    opens: f64,
+    /// True for a fragment at the beginning of the leg.
+    is_whole: bool,
+}
+
+impl<const SLIDES: bool> Ground<'_, SLIDES> {
+    /// Lists the runs of an unloading leg from indentation `from` (m) on; `held` are the fragments in contact there, from
+    /// left to right.
+    ///
+    /// A fragment parts, and its most stretched spring detaches, as soon as the fragment around it has parted and the
+    /// rule no longer holds that spring: t_v = min(t of the fragment around it, smallest φ of v).
+    pub fn open(&self, held: &[Held], from: f64) -> Result<Listed, ContactError> {
+        let mut listed = Listed { runs: Vec::new(), end: f64::INFINITY, evaluations: 0 };
+        let mut parts = Vec::new();
+        for &Held { branch, first, last, pin } in held.iter().rev() {
+            parts.push(Part { branch, first, last, opens: from, is_whole: true });
+            while let Some(part) = parts.pop() {
+                for part in self.descend(part, pin, &mut listed)?.into_iter().flatten() {
+                    push(&mut parts, part)?;
+                }
+            }
+        }
+        Ok(listed)
+    }
+
+    /// Returns true if a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
+    /// spring below the indentation `opens`: its length is at most that of these springs and their edge cells.
+    #[inline]
+    fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
+        let need = gap - opens;
+        need <= 0.0 || need * need < self.stretch * self.stretch * ABOVE * (springs + 1) as f64
+    }
+
+    /// The parts into which the smallest span of a branch parts at an indentation (m), when a spring detaches.
+    fn parts_of(&self, branch: Branch, span: &Span, spring: usize, opens: f64) -> [Option<Part>; 2] {
+        let Ok(node) = branch.origin() else { return [None; 2] };
+        let [left, right] = self.tree.parts(node);
+        let ([first, last], spring) = (span.ends(), spring as u32);
+        let part = |branch, first, last| Some(Part { branch, first, last, opens, is_whole: false });
+        [part(left, first, spring - 1), part(right, spring + 1, last)]
+    }
+
+    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the parts of its node that
+    /// are left; the edges of a fragment at the beginning of the leg may be pinned at a rise, m.
+    fn descend(
+        &self,
+        part: Part,
+        pin: Option<f64>,
+        listed: &mut Listed,
+    ) -> Result<[Option<Part>; 2], ContactError> {
+        let Ground { gaps, tree, .. } = *self;
+        let Listed { runs, end, evaluations } = listed;
+        let (mut first, mut last) = (part.first as usize, part.last as usize);
+        let (mut opens, mut is_whole) = (part.opens, part.is_whole);
+        let (bottom, lowest, place) = match part.branch.origin() {
+            Ok(index) => {
+                let node = &tree.nodes[index];
+                (node.gap, node.lowest, tree.maximum(node))
+            }
+            Err(rank) => {
+                let place = tree.minimum(rank);
+                (f64::NEG_INFINITY, gaps[place], place)
+            }
+        };
+        if !is_whole && !self.may_hold(lowest, opens, last + 1 - first) {
+            return Ok([None; 2]);
+        }
+        let is_leaf = bottom == f64::NEG_INFINITY;
+        // Levels of the span above, while its run may go on.
+        let mut above: Option<Levels> = None;
+        loop {
+            let (left, right) = (gaps[first], gaps[last]);
+            let at_bottom = if is_leaf { first == last } else { left < bottom && right <= bottom };
+            let gap = if at_bottom {
+                gaps[place]
+            } else if left >= right {
+                left
+            } else {
+                right
+            };
+            let span = Span { gap, first, last };
+            let mut goes_on = None;
+            if is_whole || self.may_hold(gap, opens, last + 1 - first) {
+                *evaluations += 1;
+                let levels = self.levels(&span);
+                let holds = self.holds_to(&levels);
+                if is_whole || holds < opens {
+                    let mut leaves = smaller(opens, holds);
+                    let mut to = if is_whole { f64::INFINITY } else { opens };
+                    if let Some(rise) = pin.filter(|_| is_whole) {
+                        let (released, slides) = levels.release(self.stretch, rise);
+                        let released = smaller(opens, released);
+                        leaves = if slides { smaller(leaves, released) } else { released };
+                        push(runs, Run { pin: rise, ..Run::new(part.branch, &span, released, to) })?;
+                        to = released;
+                    }
+                    match (runs.last_mut(), above) {
+                        // Pinned edges run away at once.
+                        _ if leaves == to => {}
+                        (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
+                            (run.from, run.bottom) = (leaves, span.ends());
+                        }
+                        _ => push(runs, Run::new(part.branch, &span, leaves, to))?,
+                    }
+                    // A run continues only from a level equal to the gap of the span.
+                    goes_on = (leaves == holds && leaves < to).then_some(levels);
+                    *end = smaller(*end, leaves);
+                    (opens, is_whole) = (leaves, false);
+                }
+            }
+            above = goes_on;
+            if at_bottom {
+                return Ok(self.parts_of(part.branch, &span, place, opens));
+            }
+            if left >= right { first += 1 } else { last -= 1 }
+        }
+    }
+}

@@ -1,0 +1,379 @@
+//! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error; and
+//! reversals, the unloadings from many turning points of one loading.
+
+use super::contact_state::{ContactState, Extreme, Grid};
+use super::history::{CurvePoint, Direction, History, LegRecord, Move, Work};
+use super::history::{Goal, plan};
+use super::leg::Leg;
+use super::leg::forces::SEARCH_INTERVALS;
+use super::springs::Contact;
+use super::{ContactError, TWO_THREADS};
+use asperity_data::in_parallel;
+use std::time::{Duration, Instant};
+
+/// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
+pub trait Solver {
+    /// Moves the body to a target and records the motion.
+    ///
+    /// # Errors
+    /// For a target out of reach; the body then stays in place.
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
+
+    /// Returns the contact at all indentations of the present leg.
+    fn leg(&self) -> Leg;
+
+    /// Work counts since the start.
+    fn work(&self) -> Work;
+
+    /// Seconds spent on curves and extremes since the start, without the thresholds.
+    fn curve_seconds(&self) -> f64;
+}
+
+/// A body on its foundation: the present leg and the position on it, all the memory that the model has.
+pub struct Body {
+    leg: Leg,
+    state: ContactState,
+    samples: usize,
+    /// Extreme force of contact and instrument on the present motion; see [`Leg::jump_energy`].
+    extreme: Option<f64>,
+    work: Work,
+    curve_time: Duration,
+}
+
+/// A motion of a body.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Leg of the motion.
+    pub leg: Leg,
+    /// Smallest and largest indentation of the motion, m.
+    pub low: f64,
+    /// See `low`.
+    pub high: f64,
+    goal: Goal,
+}
+
+impl Body {
+    /// Creates a separated body at d = 0 just before first touch; `samples` (at least 2) curve points are taken in each
+    /// motion.
+    pub fn new(contact: &Contact, samples: usize) -> Self {
+        Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
+    }
+
+    /// Creates a body at an indentation of a leg, m.
+    ///
+    /// # Errors
+    /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
+    pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
+        leg.refuse_stepwise()?;
+        Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
+    }
+
+    fn on(leg: Leg, state: ContactState, samples: usize) -> Self {
+        let work = Work { springs: leg.contact().gaps().len() as u64, ..Work::default() };
+        Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
+    }
+
+    /// Present point of the curve.
+    pub fn point(&self) -> CurvePoint {
+        self.point_of(self.state)
+    }
+
+    /// Moves the body to a target without a curve; `None` for a body that is there.
+    ///
+    /// # Errors
+    /// For a target out of reach; the body then stays in place.
+    pub fn move_to(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
+        let Some(motion) = self.plan(target)? else { return Ok(None) };
+        let state = match (motion.leg.direction(), motion.goal) {
+            (Direction::Unloading, Goal::Separation(at)) => ContactState::free(at.unwrap_or(motion.low)),
+            (Direction::Unloading, _) => motion.leg.state(motion.low)?,
+            (Direction::Loading, _) => motion.leg.state(motion.high)?,
+        };
+        self.extreme = None;
+        self.leg = motion.leg.clone();
+        if state.totals.springs == 0 {
+            self.leg = Leg::apart(motion.leg.contact(), Direction::Unloading);
+        }
+        self.state = state;
+        Ok(Some(motion))
+    }
+
+    fn is_separated(&self) -> bool {
+        self.state.totals.springs == 0
+    }
+
+    fn point_of(&self, state: ContactState) -> CurvePoint {
+        state.point(self.leg.contact().foundation)
+    }
+
+    /// The present leg in its direction, else the one that begins here.
+    fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
+        let leg = if self.is_separated() && direction == Direction::Loading {
+            Leg::approach(self.leg.contact())?
+        } else if self.leg.direction() == direction {
+            return Ok(self.leg.clone());
+        } else {
+            self.leg.turn(self.state.indentation)?
+        };
+        leg.count(&mut self.work);
+        Ok(leg)
+    }
+
+    fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
+        let stiffness = self.leg.contact().loading_stiffness;
+        let Some((direction, goal)) = plan(target, self.point(), stiffness)? else { return Ok(None) };
+        let (at, separated) = (self.state.indentation, self.is_separated());
+        if let (Goal::Indentation(to), true) = (goal, separated)
+            && to < 0.0
+        {
+            let direction = if to > at { Direction::Loading } else { Direction::Unloading };
+            let leg = Leg::apart(self.leg.contact(), direction);
+            return Ok(Some(Motion { leg, low: at.min(to), high: at.max(to), goal }));
+        }
+        let leg = self.leg_in(direction)?;
+        // Nothing touches below d = 0.
+        let from = if separated { at.max(0.0) } else { at };
+        let (to, goal) = leg.reach(goal, from, &mut self.work)?;
+        let (low, high) = if direction == Direction::Loading { (from, to) } else { (to, from) };
+        Ok(Some(Motion { leg, low, high, goal }))
+    }
+
+    /// Grid of a curve: every `stride`-th point is a sample, those between sharpen the search.
+    fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
+        let intervals = self.samples - 1;
+        let stride = SEARCH_INTERVALS.div_ceil(intervals);
+        (Grid::new(low, high, intervals * stride), stride)
+    }
+
+    fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
+        let clock = Instant::now();
+        let Motion { leg, low, high, goal } = motion;
+        let (before, touches) = (self.point(), self.is_separated());
+        let loads = leg.direction() == Direction::Loading;
+        let separates = !loads && matches!(goal, Goal::Separation(_));
+        // A loading to a force needs no search: the force is below its target until then.
+        let ends_at_largest = loads && matches!(goal, Goal::Force(_));
+        let (grid, stride) =
+            if ends_at_largest { (Grid::new(low, high, self.samples - 1), 1) } else { self.grid(low, high) };
+        // The springs that touch first attach at the first point itself; those held to it detach just below.
+        let from = if touches || separates { f64::NEG_INFINITY } else { low };
+        let is_long = leg.contact().gaps().len() >= TWO_THREADS;
+        let (sampled, squared_stretch) =
+            in_parallel(is_long, || leg.sample(grid), || leg.squared_stretch(from, high));
+        let sampled = sampled?;
+        let last = sampled.len() - 1;
+        let work = &mut self.work;
+        // Where an instrument that is not rigid loses the contact.
+        let loosest = match loads || leg.contact().loading_stiffness.is_infinite() {
+            true => None,
+            false => Some(leg.least_displaced(&sampled, work)?.point(leg.contact().foundation)),
+        };
+        if touches || self.leg.direction() != leg.direction() {
+            self.extreme = None;
+        }
+        let ends_free = separates || sampled[0].totals.springs == 0;
+        let jump_energy = leg.jump_energy(&sampled, [touches, ends_free], &mut self.extreme);
+        self.state = match (loads, goal) {
+            (true, _) => sampled[last],
+            (false, Goal::Separation(at)) => {
+                let lost = || loosest.map(|point| point.displacement(leg.contact().loading_stiffness));
+                ContactState::free(at.or_else(lost).unwrap_or(low))
+            }
+            (false, _) => sampled[0],
+        };
+        let chosen = sampled.iter().enumerate();
+        let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
+        let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
+        loosest.into_iter().for_each(|point| LegRecord::insert(&mut curve, point));
+        let work = &mut self.work;
+        let extremes = if loads {
+            let largest =
+                if ends_at_largest { sampled[last] } else { leg.extreme(Extreme::Largest, &sampled, work) };
+            let points = curve.iter().copied().chain(touches.then(|| CurvePoint::free(low)));
+            let largest = self.point_of(largest);
+            [points.min_by(|a, b| a.force.total_cmp(&b.force)).unwrap_or(largest), largest]
+        } else {
+            let mut smallest = leg.extreme(Extreme::Smallest, &sampled, work);
+            if smallest.totals.springs == 0 {
+                // A body that nowhere pulls has the smallest force where it is in contact last, not where it moves on to.
+                smallest = leg.state(leg.end().min(high))?;
+            }
+            [self.point_of(smallest), self.point_of(sampled[last])]
+        };
+        let record = LegRecord::moved(
+            (target, leg.direction()),
+            curve,
+            extremes,
+            [before, self.point()],
+            leg.energy(squared_stretch),
+        );
+        let record = LegRecord { jump_energy, ..record };
+        self.work.count(&record);
+        self.leg = leg;
+        self.curve_time += clock.elapsed();
+        Ok(record)
+    }
+
+    /// Loads this separated body once and unloads it from each of these targets, which begin separated at d = 0. A force is
+    /// reached where the loading is first at least as large: a pulling one at first touch, or while the bodies are still
+    /// drawn together. Calls `see` with the index of the target and its reversal, from the shallowest on; the forces are
+    /// those at `points`, ascending indentations in m. The body stays separated.
+    ///
+    /// # Errors
+    /// A target out of reach or without contact, [`ContactError::OutOfMemory`]; the first error of `see`.
+    pub fn reversals(
+        &mut self,
+        targets: &[Move],
+        points: &[f64],
+        see: &mut dyn FnMut(usize, Reversal) -> Result<(), ContactError>,
+    ) -> Result<(), ContactError> {
+        let loading = self.leg_in(Direction::Loading)?;
+        let mut turns = Vec::with_capacity(targets.len());
+        for (index, &target) in targets.iter().enumerate() {
+            let approach = match Goal::from(target) {
+                // A pulling force as well: while the bodies are drawn together.
+                goal @ Goal::Force(force) if force < 0.0 && force.is_finite() => {
+                    Ok(Some((Direction::Loading, goal)))
+                }
+                _ => plan(target, CurvePoint::default(), loading.contact().loading_stiffness),
+            };
+            let reached = approach.and_then(|approach| match approach {
+                Some((Direction::Loading, goal)) => loading.reach(goal, 0.0, &mut self.work),
+                _ => Err(ContactError::NoContact),
+            });
+            let (at, _) = reached.map_err(|reason| reason.in_stage(index, target))?;
+            turns.push((index, at));
+        }
+        turns.sort_by(|one, other| one.1.total_cmp(&other.1));
+        for (index, at) in turns {
+            see(index, self.reverse(&loading, loading.state(at)?, points)?)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the adhesion forces after a turn at first touch and after one where the force is back at zero, N; `None` where
+    /// the contact does not pull, or never reaches zero force. Both turns begin separated; the body stays in place.
+    pub fn zero_load_adhesion(&mut self) -> Result<[Option<f64>; 2], ContactError> {
+        let before = self.work;
+        let loading = Leg::approach(self.leg.contact())?;
+        loading.count(&mut self.work);
+        let balanced = loading.reach(Goal::Force(0.0), 0.0, &mut self.work);
+        let mut adhesion = |at| {
+            let reversal = self.reverse(&loading, loading.state(at)?, &[]);
+            reversal.map(|reversal| reversal.adhesion_force())
+        };
+        let at_touch = adhesion(0.0)?;
+        let at_zero_force = match balanced {
+            Err(ContactError::OutOfReach) => None,
+            at => adhesion(at?.0)?,
+        };
+        // The passes for F_a(0) count separately.
+        let work = &mut self.work;
+        (work.loading_passes, work.unloading_passes) = (before.loading_passes, before.unloading_passes);
+        work.zero_load_passes += 2;
+        Ok([at_touch, at_zero_force])
+    }
+
+    /// Unloads from a turning point of a loading.
+    fn reverse(
+        &mut self,
+        loading: &Leg,
+        turn: ContactState,
+        points: &[f64],
+    ) -> Result<Reversal, ContactError> {
+        let high = turn.indentation;
+        let unloading = loading.turn(high)?;
+        unloading.count(&mut self.work);
+        let separation = unloading.end().min(high);
+        let (grid, _) = self.grid(separation, high);
+        let smallest = unloading.smallest(&grid, &mut self.work)?;
+        let below = &points[..points.partition_point(|&point| point <= high)];
+        let apart = below.partition_point(|&point| point < separation);
+        let mut forces = vec![0.0; apart];
+        forces.extend(unloading.curve(&below[apart..])?.iter().map(|point| point.force));
+        let released = [loading, &unloading].map(|leg| leg.released_energy(f64::NEG_INFINITY, high));
+        Ok(Reversal {
+            turn: self.point_of(turn),
+            smallest: self.point_of(smallest),
+            separation,
+            dissipated_energy: released[0] + released[1] + 0.0,
+            forces,
+        })
+    }
+}
+
+impl Solver for Body {
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+        let here = self.point();
+        match self.plan(target)? {
+            None => {
+                if here.springs == 0 {
+                    self.leg = Leg::apart(self.leg.contact(), self.leg.direction());
+                }
+                Ok(LegRecord::still(target, here))
+            }
+            Some(Motion { leg, goal: Goal::Indentation(to), .. }) if here.springs == 0 && to < 0.0 => {
+                (self.leg, self.state) = (leg, ContactState::free(to));
+                Ok(LegRecord::free(target, here.indentation, to))
+            }
+            Some(motion) => self.record(target, motion),
+        }
+    }
+
+    fn leg(&self) -> Leg {
+        self.leg.clone()
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+
+    fn curve_seconds(&self) -> f64 {
+        self.curve_time.as_secs_f64()
+    }
+}
+
+/// Runs a whole loading history. `after` receives each completed stage and its leg.
+///
+/// # Errors
+/// The first stage that fails ends the run.
+pub fn run(
+    solver: &mut dyn Solver,
+    targets: &[Move],
+    mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<History, ContactError> {
+    let mut history = History::default();
+    for (index, &target) in targets.iter().enumerate() {
+        let record = solver.advance(target).map_err(|reason| reason.in_stage(index, target))?;
+        after(&record, &solver.leg())?;
+        history.legs.push(record);
+    }
+    let end = history.legs.last().and_then(LegRecord::end_in_contact);
+    history.contacts = end.map_or_else(Vec::new, |point| solver.leg().patches(point.indentation));
+    history.work = solver.work();
+    Ok(history)
+}
+
+/// The unloading from one turning point to separation, exact to rounding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reversal {
+    /// Turning point.
+    pub turn: CurvePoint,
+    /// Smallest force on the way back.
+    pub smallest: CurvePoint,
+    /// Indentation at which the last patch detaches, m.
+    pub separation: f64,
+    /// Energy dissipated from separation to separation, J.
+    pub dissipated_energy: f64,
+    /// Forces, N, at those indentations asked of [`Body::reversals`] that are not above the turning point; empty from
+    /// the front of the library, which asks for none.
+    pub forces: Vec<f64>,
+}
+
+impl Reversal {
+    /// Adhesion force F_a, N: minus the smallest force; `None` where the body does not pull.
+    pub fn adhesion_force(&self) -> Option<f64> {
+        // Not −F: that would make a force of zero negative.
+        Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)
+    }
+}

@@ -1,0 +1,311 @@
+//! Contact at one indentation and along a grid of indentations, and bounds of the
+//! force between two indentations.
+
+use super::ContactError;
+use super::adhesive::levels::{EdgeCells, EdgeSum, Slider};
+use super::history::CurvePoint;
+use super::springs::Foundation;
+use super::totals::{ContactTotals, GapScale};
+use asperity_data::resized;
+use std::ops::Range;
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactState {
+    pub indentation: f64,
+    pub totals: ContactTotals,
+    /// Contact length in units of the distance between springs.
+    pub length: f64,
+    /// Compression ∫ (d − c) dx in units of that distance, m: the force in units of the stiffness of one spring.
+    pub compression: f64,
+    /// ∫ (d − c)² dx in units of that distance, m²: twice the stored energy over that stiffness.
+    pub squares: f64,
+}
+
+impl ContactState {
+    /// The contact of whole springs, or of whole cells and edge cells where edges slide between springs, at an
+    /// indentation, m.
+    #[inline]
+    pub fn new(
+        slides: bool,
+        indentation: f64,
+        totals: ContactTotals,
+        edges: EdgeCells,
+        scale: &GapScale,
+    ) -> Self {
+        let whole = totals.whole(slides);
+        ContactState {
+            indentation,
+            totals,
+            length: whole as f64 + edges.length,
+            compression: totals.compression(whole, indentation, scale) + edges.compression,
+            // No sum of squares is below zero, but for rounding.
+            squares: (totals.squares_of(whole, indentation, scale) + edges.squares).max(0.0),
+        }
+    }
+
+    /// Nothing in contact at this indentation, m.
+    pub fn free(indentation: f64) -> Self {
+        ContactState { indentation, ..ContactState::default() }
+    }
+
+    /// The contact with this number of springs beside it that are compressed by the indentation: their force is
+    /// F + k d. An instrument of stiffness k, displaced by D, holds the body where that force is k D.
+    #[inline]
+    pub fn beside(&self, springs: f64) -> Self {
+        if springs == 0.0 {
+            return *self;
+        }
+        let compression = self.compression + springs * self.indentation;
+        ContactState { compression, length: self.length + springs, ..*self }
+    }
+
+    pub fn point(&self, foundation: Foundation) -> CurvePoint {
+        CurvePoint {
+            indentation: self.indentation,
+            force: foundation.spring_stiffness() * self.compression,
+            contact_length: foundation.contact_length(self.length),
+            springs: counted(self.totals.springs),
+            fragments: counted(self.totals.fragments),
+            stored_energy: 0.5 * foundation.spring_stiffness() * self.squares,
+        }
+    }
+}
+
+/// Returns a number of springs or patches in contact.
+///
+/// # Panics
+/// For a negative number, a defect of the sums: it must not pass for a result.
+pub fn counted(number: i64) -> u64 {
+    assert!(number >= 0, "internal error, please report it: {number} springs or patches in contact");
+    number.unsigned_abs()
+}
+
+/// Sums along a grid over the parts of a contact, each of which carries at some of the points.
+pub struct Tally {
+    pub grid: Grid,
+    /// Change of the totals from one point to the next.
+    changes: Vec<ContactTotals>,
+    /// Edge cells at each point, where edges slide.
+    edges: Vec<EdgeSum>,
+}
+
+impl Tally {
+    pub fn new(grid: Grid, slides: bool) -> Result<Self, ContactError> {
+        let count = grid.points.len();
+        let changes = resized(Vec::new(), count + 1, ContactTotals::default())?;
+        let edges = resized(Vec::new(), if slides { count } else { 0 }, EdgeSum::default())?;
+        Ok(Tally { grid, changes, edges })
+    }
+
+    /// Index of the first point of at least this indentation, m; the number of points if there is none.
+    #[inline]
+    pub fn place(&self, indentation: f64) -> usize {
+        if indentation > self.grid.high() {
+            self.grid.points.len()
+        } else {
+            self.grid.first_at_least(indentation)
+        }
+    }
+
+    /// The indentations for which [`Tally::place`] returns this index, m: above the first, up to the second.
+    pub fn ends_before(&self, place: usize) -> (f64, f64) {
+        let points = &self.grid.points;
+        let below = place.checked_sub(1).map_or(f64::NEG_INFINITY, |before| points[before]);
+        (below, points.get(place).copied().unwrap_or(f64::INFINITY))
+    }
+
+    /// Adds whole springs or cells that carry from this point on.
+    #[inline]
+    pub fn begin(&mut self, place: usize, totals: ContactTotals) {
+        self.changes[place] += totals;
+    }
+
+    /// Adds whole springs or cells that carry at these points.
+    #[inline]
+    pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {
+        self.changes[carries.start] += totals;
+        self.changes[carries.end] += -totals;
+    }
+
+    /// Adds edge cells that carry at these points.
+    #[inline]
+    pub fn slide(&mut self, carries: Range<usize>, slider: &Slider) {
+        for (sums, &point) in self.edges[carries.clone()].iter_mut().zip(&self.grid.points[carries]) {
+            sums.add(slider.edge_cells(point));
+        }
+    }
+
+    pub fn finish(self, scale: &GapScale) -> Result<Vec<ContactState>, ContactError> {
+        let Tally { grid, changes, edges } = self;
+        let mut states = resized(Vec::new(), grid.points.len(), ContactState::default())?;
+        let mut totals = ContactTotals::default();
+        for (index, (state, &point)) in states.iter_mut().zip(&grid.points).enumerate() {
+            totals += changes[index];
+            let cells = edges.get(index).copied().unwrap_or_default().total();
+            *state = ContactState::new(!edges.is_empty(), point, totals, cells, scale);
+        }
+        Ok(states)
+    }
+}
+
+/// Chooses the intervals of a sampled leg whose contact at both ends passes `may_lie`.
+pub fn intervals(
+    leg: &[ContactState],
+    may_lie: impl Fn(&ContactState, &ContactState) -> bool,
+) -> Vec<[ContactState; 2]> {
+    let pairs = leg.windows(2).map(|ends| [ends[0], ends[1]]);
+    pairs.filter(|[low, high]| may_lie(low, high)).collect()
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extreme {
+    Smallest,
+    Largest,
+}
+
+impl Extreme {
+    /// Returns true for a contact with a smaller or a larger force than another one. Of equal forces the smallest is taken
+    /// at its first place and the largest at its last, whichever is found first.
+    pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
+        let (one, other) = match self {
+            Extreme::Smallest => (state, best),
+            Extreme::Largest => (best, state),
+        };
+        (one.compression, one.indentation) < (other.compression, other.indentation)
+    }
+
+    /// Returns the extreme force at the points of a sampled leg, at least one.
+    pub fn of(self, leg: &[ContactState]) -> ContactState {
+        leg.iter().fold(leg[0], |best, next| if self.is_beyond(next, &best) { *next } else { best })
+    }
+
+    /// Returns true where the bounds of the force between two indentations allow one beyond the best.
+    pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
+        match self {
+            Extreme::Smallest => lower_bound(low, high) < best.compression,
+            Extreme::Largest => upper_bound(low, high) > best.compression,
+        }
+    }
+}
+
+pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    high.compression - rise - slack(low, high, rise)
+}
+
+pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
+    let rise = (high.indentation - low.indentation) * high.length;
+    low.compression + rise + slack(low, high, rise)
+}
+
+fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
+    8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
+}
+
+/// A grid of ascending indentations, evenly spaced with both ends exact but for a shorter last interval, or at given
+/// points.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    pub points: Vec<f64>,
+    intervals_per_metre: f64,
+}
+
+impl Grid {
+    /// `intervals` equal intervals from `low` to `high`; a single point where they coincide.
+    pub fn new(low: f64, high: f64, intervals: usize) -> Self {
+        let width = (high - low) / intervals as f64;
+        // A range too narrow for two different points is also one point at each end.
+        let even = low + width > low && high - width < high && width.recip().is_finite();
+        let mut points: Vec<f64> = if even {
+            (0..intervals).map(|k| (low + width * k as f64).min(high)).collect()
+        } else {
+            vec![low]
+        };
+        if high > low {
+            points.push(high);
+        }
+        Grid { points, intervals_per_metre: if even { width.recip() } else { 0.0 } }
+    }
+
+    /// Grid at these ascending indentations, at least one, m.
+    pub fn at(points: Vec<f64>) -> Self {
+        Grid { points, intervals_per_metre: 0.0 }
+    }
+
+    /// Every `stride`-th of its points, and the last.
+    pub fn coarser(&self, stride: usize) -> Self {
+        let last = self.points.len() - 1;
+        let points = (0..last).step_by(stride).chain([last]).map(|index| self.points[index]).collect();
+        Grid { points, intervals_per_metre: self.intervals_per_metre / stride as f64 }
+    }
+
+    /// Returns false for a grid of given points, or of its two ends alone.
+    pub fn is_even(&self) -> bool {
+        self.intervals_per_metre > 0.0
+    }
+
+    pub fn high(&self) -> f64 {
+        self.points[self.points.len() - 1]
+    }
+
+    /// Index of the first point that is at least `indentation`, which must not exceed the last point.
+    #[inline]
+    pub fn first_at_least(&self, indentation: f64) -> usize {
+        if !self.is_even() {
+            return self.points.partition_point(|&point| point < indentation);
+        }
+        // Off by at most two where the grid is even; the loops make it exact.
+        let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
+        let mut index = guess.min(self.points.len() - 1);
+        while self.points[index] < indentation {
+            index += 1;
+        }
+        while index > 0 && self.points[index - 1] >= indentation {
+            index -= 1;
+        }
+        index
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// A grid has the requested number of equal intervals, both ends exact; the search finds the same point as a
+        /// scan.
+        #[test]
+        fn points_are_even_and_found(
+            low in -1.0..1.0_f64,
+            width in prop_oneof![1e-9..1.0_f64, Just(0.0)],
+            intervals in 1_usize..70,
+            share in 0.0..=1.0_f64,
+        ) {
+            let high = low + width;
+            let grid = Grid::new(low, high, intervals);
+            let points = &grid.points;
+            prop_assert_eq!((points[0], grid.high()), (low, high));
+            prop_assert_eq!(points.len(), if high > low { intervals + 1 } else { 1 });
+            for (k, &point) in points.iter().enumerate() {
+                let even = low + (high - low) * (k as f64 / intervals as f64);
+                prop_assert!((point - even).abs() <= 4.0 * f64::EPSILON, "{} {}", point, even);
+            }
+            let wanted = points.iter().copied().chain([(low + share * width).min(high), low - 1.0]);
+            for wanted in wanted {
+                prop_assert_eq!(grid.first_at_least(wanted), points.partition_point(|&point| point < wanted));
+            }
+        }
+    }
+
+    #[test]
+    fn a_range_too_narrow_for_its_points_is_its_two_ends() {
+        let high = 1.0 + f64::EPSILON;
+        assert_eq!(Grid::new(1.0, high, 8).points, [1.0, high]);
+        // Narrower than the reciprocal of the largest number.
+        let high = f64::from_bits(1 << 14);
+        let grid = Grid::new(0.0, high, 4);
+        assert_eq!(grid.points, [0.0, high]);
+        assert_eq!([0.0, 0.5 * high, high].map(|wanted| grid.first_at_least(wanted)), [0, 1, 1]);
+    }
+}

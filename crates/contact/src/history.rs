@@ -1,0 +1,324 @@
+//! Loading histories: targets, the motion to a target, legs with their curves, patches and work counts.
+
+use super::ContactError;
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// Record of one leg.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LegRecord {
+    /// Target of the motion.
+    pub target: Move,
+    /// Direction of the motion.
+    pub direction: Direction,
+    /// The curve along the leg: its samples, and the points of the smallest force and the smallest displacement of an
+    /// unloading leg. A jump into or out of contact has the points before and after.
+    pub curve: Vec<CurvePoint>,
+    /// Largest force on a loading leg, exact to rounding; the beginning of an unloading leg.
+    pub largest: CurvePoint,
+    /// Smallest force on an unloading leg, exact to rounding; the smallest of `curve` on a loading leg.
+    pub smallest: CurvePoint,
+    /// Springs that attached.
+    pub attached: u64,
+    /// Springs that detached.
+    pub detached: u64,
+    /// Released elastic energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those
+    /// that attached, and so negative where adhesion stretches springs. It is the work ∫F dd of the leg less the growth
+    /// of the stored elastic energy; over a closed loop the sum is the dissipated energy.
+    pub released_energy: f64,
+    /// Energy that a compliant instrument and the moving body lose in the jumps of the leg, J, exact for any number of
+    /// samples: ∮F dD of a history is the sum of both energies. Legs in one direction are one motion.
+    pub jump_energy: f64,
+}
+
+impl LegRecord {
+    /// A leg that ends where it begins.
+    pub fn still(target: Move, here: CurvePoint) -> Self {
+        LegRecord {
+            target,
+            direction: Direction::Loading,
+            curve: vec![here],
+            largest: here,
+            smallest: here,
+            attached: 0,
+            detached: 0,
+            released_energy: 0.0,
+            jump_energy: 0.0,
+        }
+    }
+
+    /// A leg of a separated body that does not touch.
+    pub fn free(target: Move, from: f64, to: f64) -> Self {
+        let [start, end] = [from, to].map(CurvePoint::free);
+        let direction = if to > from { Direction::Loading } else { Direction::Unloading };
+        LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
+    }
+
+    /// Inserts a point into an ascending curve, unless the curve has one there.
+    pub(super) fn insert(curve: &mut Vec<CurvePoint>, point: CurvePoint) {
+        let place = curve.partition_point(|other| other.indentation < point.indentation);
+        if curve.get(place).is_none_or(|other| other.indentation > point.indentation) {
+            curve.insert(place, point);
+        }
+    }
+
+    /// Records a motion in a direction: ascending points of its curve, its smallest and largest force, the body before
+    /// and after it, and the released elastic energy, J.
+    pub(super) fn moved(
+        (target, direction): (Move, Direction),
+        mut curve: Vec<CurvePoint>,
+        [smallest, largest]: [CurvePoint; 2],
+        [before, after]: [CurvePoint; 2],
+        released_energy: f64,
+    ) -> Self {
+        let changed = after.springs.abs_diff(before.springs);
+        let (attached, detached) = if direction == Direction::Loading { (changed, 0) } else { (0, changed) };
+        if direction == Direction::Unloading {
+            LegRecord::insert(&mut curve, smallest);
+            curve.reverse();
+        }
+        let [start, end] = [curve[0], curve[curve.len() - 1]];
+        if before.springs == 0 && start.springs > 0 {
+            let points = [before, CurvePoint::free(start.indentation)];
+            curve.splice(0..0, points.into_iter().skip(usize::from(before.indentation >= start.indentation)));
+        }
+        if after.springs == 0 && end.springs > 0 {
+            curve.push(CurvePoint::free(end.indentation));
+            // The instrument, no longer deflected, moves the free body on.
+            curve.extend(Some(after).filter(|after| after.indentation < end.indentation));
+        }
+        let still = LegRecord::still(target, end);
+        LegRecord { direction, curve, largest, smallest, attached, detached, released_energy, ..still }
+    }
+
+    /// The last point, unless the body is separated there.
+    pub fn end_in_contact(&self) -> Option<CurvePoint> {
+        self.curve.last().copied().filter(|point| point.springs > 0)
+    }
+
+    /// Indentation at the beginning, m.
+    pub fn start(&self) -> f64 {
+        self.curve.first().map_or(0.0, |point| point.indentation)
+    }
+
+    /// Indentation at the end, m.
+    pub fn end(&self) -> f64 {
+        self.curve.last().map_or(0.0, |point| point.indentation)
+    }
+}
+
+/// A whole loading history.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Its legs, in order.
+    pub legs: Vec<LegRecord>,
+    /// Patches in contact after the last leg, from left to right.
+    pub contacts: Vec<Patch>,
+    /// Work counts.
+    pub work: Work,
+}
+
+/// Work counts: the same on every machine, unlike times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Work {
+    /// Springs under the body.
+    pub springs: u64,
+    /// Random phases drawn.
+    pub random_phases: u64,
+    /// Fourier transforms of the whole line.
+    pub transforms: u64,
+    /// Nodes of the tree.
+    pub tree_nodes: u64,
+    /// Passes over the tree for loading legs.
+    pub loading_passes: u64,
+    /// Passes over the tree for unloading legs.
+    pub unloading_passes: u64,
+    /// Passes from first touch and from zero force, for F_a(0).
+    pub zero_load_passes: u64,
+    /// Evaluations of the rule of Hess.
+    pub hess_evaluations: u64,
+    /// Springs sorted by threshold in the intervals that may hold an extreme of the force.
+    pub events_sorted: u64,
+    /// Springs attached on the legs of the loading; `joins` in files.
+    #[serde(rename = "joins")]
+    pub attached: u64,
+    /// Springs detached on the legs of the loading; `leaves` in files.
+    #[serde(rename = "leaves")]
+    pub detached: u64,
+    /// Steps of the stepwise solver.
+    pub steps: u64,
+    /// Sweeps of relaxation over the line.
+    pub relaxation_sweeps: u64,
+    /// Springs visited in those sweeps.
+    pub spring_updates: u64,
+    /// Heights counted into the histogram.
+    pub heights_binned: u64,
+}
+
+impl Work {
+    pub(crate) fn count(&mut self, leg: &LegRecord) {
+        self.attached += leg.attached;
+        self.detached += leg.detached;
+    }
+}
+
+/// Direction of a leg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// The indentation grows.
+    Loading,
+    /// The indentation falls.
+    Unloading,
+}
+
+/// One point of a force curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CurvePoint {
+    /// Indentation d, m; 0 at first touch.
+    pub indentation: f64,
+    /// Force F, N; compression positive.
+    pub force: f64,
+    /// Length in contact, m.
+    pub contact_length: f64,
+    /// Springs in contact.
+    pub springs: u64,
+    /// Contact fragments.
+    pub fragments: u64,
+    /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
+    pub stored_energy: f64,
+}
+
+impl CurvePoint {
+    /// A body that touches nothing at an indentation, m.
+    pub(crate) fn free(indentation: f64) -> Self {
+        CurvePoint { indentation, ..CurvePoint::default() }
+    }
+
+    /// Displacement D = d + F/k, m, of an instrument of this stiffness k, N/m, that holds the body here.
+    pub fn displacement(&self, stiffness: f64) -> f64 {
+        self.indentation + self.force / stiffness
+    }
+}
+
+/// A contact patch: springs in contact without a gap between them. In JSON the array `[first, last]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(into = "(usize, usize)")]
+pub struct Patch {
+    /// Index of the leftmost spring.
+    pub first: usize,
+    /// Index of the rightmost spring.
+    pub last: usize,
+}
+
+impl Patch {
+    /// Returns the indices of the springs.
+    pub fn springs(self) -> Range<usize> {
+        self.first..self.last + 1
+    }
+
+    /// Returns the spring in the middle.
+    pub fn middle(self) -> usize {
+        self.first + (self.last - self.first) / 2
+    }
+
+    /// Returns the patches of a line that is in contact or not spring by spring, from left to right.
+    pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
+        let mut patches: Vec<Patch> = Vec::new();
+        for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {
+            match patches.last_mut() {
+                Some(patch) if patch.last + 1 == spring => patch.last = spring,
+                _ => patches.push(Patch { first: spring, last: spring }),
+            }
+        }
+        patches
+    }
+}
+
+impl From<Patch> for (usize, usize) {
+    fn from(patch: Patch) -> (usize, usize) {
+        (patch.first, patch.last)
+    }
+}
+
+/// Target of a body: one loading stage.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Move {
+    /// Until the force first reaches this value, N (compression positive).
+    ToForce(f64),
+    /// To this indentation, m (0 at first touch).
+    ToIndentation(f64),
+    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, k the loading stiffness of the
+    /// contact. Of a rigid instrument D is the indentation.
+    ToDisplacement(f64),
+    /// To the indentation of first touch, d = 0.
+    ToTouch,
+    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
+    ToZeroForce,
+    /// To separation.
+    ToSeparation,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Goal {
+    Indentation(f64),
+    Force(f64),
+    /// A displacement of an instrument that is not rigid, m.
+    Displacement(f64),
+    /// The loss of the last contact, and the indentation of the body after it where it is given, m.
+    Separation(Option<f64>),
+}
+
+impl From<Move> for Goal {
+    fn from(target: Move) -> Self {
+        match target {
+            Move::ToIndentation(indentation) => Goal::Indentation(indentation),
+            Move::ToDisplacement(displacement) => Goal::Displacement(displacement),
+            Move::ToTouch => Goal::Indentation(0.0),
+            Move::ToForce(force) => Goal::Force(force),
+            Move::ToZeroForce => Goal::Force(0.0),
+            Move::ToSeparation => Goal::Separation(None),
+        }
+    }
+}
+
+/// Returns the direction and the end of the motion of a body at `here` to a target, with an instrument of this stiffness,
+/// N/m; `None` for a body that is there.
+pub(super) fn plan(
+    target: Move,
+    here: CurvePoint,
+    stiffness: f64,
+) -> Result<Option<(Direction, Goal)>, ContactError> {
+    let separated = here.springs == 0;
+    let goal = match Goal::from(target) {
+        // Nothing deflects a rigid instrument, nor any other before the touch.
+        Goal::Displacement(at) if stiffness.is_infinite() || separated && at < 0.0 => Goal::Indentation(at),
+        goal => goal,
+    };
+    let order = match goal {
+        Goal::Force(value) | Goal::Indentation(value) | Goal::Displacement(value) if !value.is_finite() => {
+            return Err(ContactError::NotFinite(value));
+        }
+        Goal::Force(force) if separated && force < 0.0 => return Err(ContactError::NothingToPull),
+        Goal::Force(_) if separated => Ordering::Greater,
+        Goal::Force(force) => order(force, here.force),
+        // A separated body at d = 0 has not touched yet.
+        Goal::Indentation(end) if separated && end >= 0.0 => Ordering::Greater,
+        Goal::Indentation(end) => order(end, here.indentation),
+        Goal::Displacement(_) if separated => Ordering::Greater,
+        Goal::Displacement(end) => order(end, here.displacement(stiffness)),
+        Goal::Separation(_) if separated => Ordering::Equal,
+        Goal::Separation(_) => Ordering::Less,
+    };
+    Ok(match order {
+        Ordering::Greater => Some((Direction::Loading, goal)),
+        Ordering::Less => Some((Direction::Unloading, goal)),
+        Ordering::Equal => None,
+    })
+}
+
+/// Order of finite numbers, in which −0 equals 0.
+fn order(a: f64, b: f64) -> Ordering {
+    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+}

@@ -1,0 +1,266 @@
+//! The stepwise solver: move by a small step, relax to equilibrium, repeat, as the paper does.
+//!
+//! The step Δd is its accuracy; each step costs a few sweeps over the whole line. The solver shares only the rules and
+//! the sums with the exact solver.
+
+use super::adhesive::levels::EdgeCells;
+use super::body::Solver;
+use super::contact_state::{ContactState, Grid};
+use super::history::{CurvePoint, Direction, LegRecord, Move, Work};
+use super::history::{Goal, plan};
+use super::leg::Leg;
+use super::springs::Contact;
+use super::totals::ContactTotals;
+use super::{ContactError, STEP_LIMIT};
+use asperity_data::resized;
+
+/// A body moved by small steps and relaxed after each.
+#[derive(Clone)]
+pub struct Stepwise<'a> {
+    contact: &'a Contact,
+    step: f64,
+    samples: usize,
+    stop: &'a dyn Fn() -> bool,
+    direction: Direction,
+    indentation: f64,
+    totals: ContactTotals,
+    /// Σ e² over the springs detached, less that over the springs attached, on the present leg, m².
+    squared_stretch: f64,
+    /// True for each spring in contact.
+    holds: Vec<bool>,
+    /// Indentation at which each spring attached or detached on the present leg, m.
+    thresholds: Vec<f64>,
+    work: Work,
+}
+
+impl<'a> Stepwise<'a> {
+    /// Creates a separated body of whole springs, moved by steps of `step` m. `stop` returns true after a step to end
+    /// the run.
+    pub fn new(
+        contact: &'a Contact,
+        step: f64,
+        samples: usize,
+        stop: &'a dyn Fn() -> bool,
+    ) -> Result<Self, ContactError> {
+        let springs = contact.gaps().len();
+        Ok(Stepwise {
+            contact,
+            step,
+            samples: samples.max(2),
+            stop,
+            direction: Direction::Loading,
+            indentation: 0.0,
+            totals: ContactTotals::default(),
+            squared_stretch: 0.0,
+            holds: resized(Vec::new(), springs, false)?,
+            thresholds: resized(Vec::new(), springs, f64::INFINITY)?,
+            work: Work { springs: springs as u64, ..Work::default() },
+        })
+    }
+
+    /// Attaches a spring, or detaches it where it has been held to this indentation, m: the overshoot of a step is no
+    /// property of the contact.
+    fn change(&mut self, index: usize, attaches: bool, at: f64) {
+        let gap = self.contact.gaps()[index];
+        self.holds[index] = attaches;
+        self.thresholds[index] = at;
+        let spring = ContactTotals::of_patch(&[gap], false, self.contact.springs.scale());
+        let squared_stretch = (gap - at).max(0.0).powi(2);
+        self.totals += if attaches { spring } else { -spring };
+        self.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };
+    }
+
+    /// Sweeps until no spring touches and no fragment grows.
+    fn relax_loading(&mut self) {
+        let (gaps, at) = (self.contact.gaps(), self.indentation);
+        loop {
+            let before = self.totals.springs;
+            self.work.relaxation_sweeps += 1;
+            self.work.spring_updates += gaps.len() as u64;
+            for (index, &gap) in gaps.iter().enumerate() {
+                if !self.holds[index] && gap <= at {
+                    self.change(index, true, at);
+                }
+            }
+            if self.contact.hess.is_some() {
+                self.grow_fragments();
+            }
+            if self.totals.springs == before {
+                return;
+            }
+        }
+    }
+
+    /// Extends each fragment over its neighbours as long as the rule allows.
+    fn grow_fragments(&mut self) {
+        let (gaps, at) = (self.contact.gaps(), self.indentation);
+        let mut first = 0;
+        while let Some(start) = (first..gaps.len()).find(|&index| self.holds[index]) {
+            let (mut start, mut end) = (start, start + 1);
+            loop {
+                end += self.holds[end..].iter().take_while(|&&holds| holds).count();
+                start -= self.holds[..start].iter().rev().take_while(|&&holds| holds).count();
+                let stretch = self.contact.rule().largest_stretch(Direction::Loading, end - start);
+                self.work.spring_updates += 2;
+                let takes = |index: &usize| gaps.get(*index).is_some_and(|gap| gap - stretch <= at);
+                let next = Some(end).filter(takes).or_else(|| start.checked_sub(1).filter(takes));
+                let Some(next) = next else { break };
+                self.change(next, true, at);
+            }
+            first = end;
+        }
+    }
+
+    /// Sweeps until every fragment holds its most stretched spring.
+    fn relax_unloading(&mut self, held_until: f64) {
+        let (gaps, at) = (self.contact.gaps(), self.indentation);
+        loop {
+            let held = self.totals.springs;
+            self.work.relaxation_sweeps += 1;
+            let mut first = 0;
+            while first < gaps.len() {
+                let end = first + self.holds[first..].iter().take_while(|&&holds| holds).count();
+                self.work.spring_updates += 2 * (end - first) as u64 + 1;
+                let stretch = self.contact.rule().largest_stretch(Direction::Unloading, end - first);
+                for (place, &gap) in gaps[first..end].iter().enumerate() {
+                    // A spring stretched too far here is stretched too far in each part of the fragment as well.
+                    if at <= gap - stretch && at < gap {
+                        self.change(first + place, false, held_until);
+                    }
+                }
+                first = end + 1;
+            }
+            if self.totals.springs == held {
+                return;
+            }
+        }
+    }
+
+    fn point(&self) -> CurvePoint {
+        let fragments = self.holds.chunk_by(PartialEq::eq).filter(|run| run[0]).count();
+        let totals = ContactTotals { fragments: fragments as i64, ..self.totals };
+        let edges = EdgeCells::default();
+        let state = ContactState::new(false, self.indentation, totals, edges, &self.contact.springs.scale());
+        state.point(self.contact.foundation)
+    }
+
+    /// Refuses a motion that certainly takes more steps than allowed, before its first step.
+    fn check_steps(&self, direction: Direction, goal: Goal) -> Result<(), ContactError> {
+        let start = self.indentation;
+        let end = match goal {
+            Goal::Indentation(end) => end,
+            // No spring is compressed by more than the indentation, and any patch holds the highest point to the stretch
+            // of one spring.
+            Goal::Force(force) if direction == Direction::Loading => {
+                force / (self.contact.foundation.spring_stiffness() * self.holds.len() as f64)
+            }
+            Goal::Force(_) | Goal::Displacement(_) => start,
+            Goal::Separation(_) => -self.contact.rule().stretch(Direction::Unloading),
+        };
+        if !end.is_finite() {
+            return Err(ContactError::OutOfReach);
+        }
+        // From separation the first step is the touch.
+        let start = if self.totals.springs == 0 { start.max(0.0) } else { start };
+        let way = if direction == Direction::Loading { end - start } else { start - end };
+        if way / self.step > STEP_LIMIT as f64 { Err(ContactError::TooManySteps(self.step)) } else { Ok(()) }
+    }
+
+    fn walk(&mut self, target: Move, direction: Direction, goal: Goal) -> Result<LegRecord, ContactError> {
+        for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
+            *threshold = if holds { f64::NEG_INFINITY } else { f64::INFINITY };
+        }
+        (self.direction, self.squared_stretch) = (direction, 0.0);
+        let here = self.point();
+        let [mut smallest, mut largest] = [here; 2];
+        let loads = direction == Direction::Loading;
+        // From separation the first step is the touch.
+        let touches = here.springs == 0 && loads;
+        let origin = if touches { here.indentation.max(0.0) } else { here.indentation };
+        for steps in u64::from(!touches).. {
+            if (self.stop)() {
+                return Err(ContactError::Interrupted);
+            }
+            if steps > STEP_LIMIT {
+                return Err(ContactError::TooManySteps(self.step));
+            }
+            let held_until = self.indentation;
+            let moved = steps as f64 * self.step;
+            let wanted = if loads { origin + moved } else { origin - moved };
+            self.indentation = match goal {
+                Goal::Indentation(end) if loads => wanted.min(end),
+                Goal::Indentation(end) => wanted.max(end),
+                _ => wanted,
+            };
+            self.work.steps += 1;
+            if loads {
+                self.relax_loading()
+            } else {
+                self.relax_unloading(held_until)
+            }
+            let point = self.point();
+            largest = if point.force > largest.force { point } else { largest };
+            smallest = if point.force < smallest.force { point } else { smallest };
+            let holds = point.springs > 0;
+            let reached = match goal {
+                Goal::Indentation(end) => point.indentation == end,
+                Goal::Force(force) if loads => point.force >= force,
+                Goal::Force(_) if !holds => {
+                    return Err(ContactError::DetachesBefore { smallest: smallest.force });
+                }
+                Goal::Force(force) => point.force <= force,
+                Goal::Separation(_) | Goal::Displacement(_) => !holds,
+            };
+            if reached {
+                break;
+            }
+        }
+        // The sum counts detachments.
+        let squared = if loads { -self.squared_stretch } else { self.squared_stretch };
+        let (leg, end) = (self.leg(), self.point());
+        let (low, high) = (origin.min(end.indentation), origin.max(end.indentation));
+        let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
+        let record = LegRecord::moved(
+            (target, leg.direction()),
+            curve,
+            [smallest, largest],
+            [here, end],
+            leg.energy(squared),
+        );
+        self.work.count(&record);
+        Ok(record)
+    }
+}
+
+impl Solver for Stepwise<'_> {
+    fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
+        let here = self.point();
+        // Its instrument is rigid: no goal is a displacement.
+        match plan(target, here, f64::INFINITY)? {
+            None => Ok(LegRecord::still(target, here)),
+            Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
+                self.indentation = end;
+                Ok(LegRecord::free(target, here.indentation, end))
+            }
+            Some((direction, goal)) => {
+                self.check_steps(direction, goal)?;
+                let before = self.clone();
+                let walked = self.walk(target, direction, goal);
+                walked.inspect_err(|_| *self = Stepwise { work: self.work, ..before })
+            }
+        }
+    }
+
+    fn leg(&self) -> Leg {
+        Leg::of_thresholds(self.contact, self.direction, self.indentation, self.thresholds.clone())
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+
+    fn curve_seconds(&self) -> f64 {
+        // Each step adds its own point to the curve.
+        0.0
+    }
+}

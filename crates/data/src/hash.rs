@@ -1,0 +1,26 @@
+//! SHA-256, comparable with `sha256sum`, which identifies a copy of a file.
+
+use super::read::{ReadError, open_regular};
+use sha2::{Digest, Sha256};
+use std::io::Read;
+use std::path::Path;
+
+/// Bytes read at a time.
+const BUFFER: usize = 1 << 16;
+
+/// Hash in 64 hexadecimal digits.
+pub fn hexadecimal(hasher: Sha256) -> String {
+    hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Returns the SHA-256 of a file, in hexadecimal digits.
+pub fn sha256_of(path: &Path) -> Result<String, ReadError> {
+    let mut file = open_regular(path)?;
+    let (mut hasher, mut buffer) = (Sha256::new(), vec![0; BUFFER]);
+    loop {
+        match file.read(&mut buffer)? {
+            0 => return Ok(hexadecimal(hasher)),
+            read => hasher.update(&buffer[..read]),
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Reused memory of large arrays: fresh memory costs about as much as a pass over it, because the system clears
+//! each page at its first access.
+//!
+//! Memory in proportion to input is reserved before use: an allocation that fails elsewhere ends the process.
+
+use std::hint::black_box;
+use thiserror::Error;
+
+/// Factor of the required memory above which a buffer is released.
+const MOST_SPARE: usize = 4;
+/// Size of arrays that are never released.
+const SMALL: usize = 1 << 16;
+
+/// Bytes in addition to the known arrays: stacks of threads and small arrays. More than any block that the
+/// allocator of glibc keeps for reuse, so that the check has no side effect.
+const BESIDE: u64 = 33 << 20;
+/// Fewest bytes that are checked.
+const FEW: u64 = 1 << 20;
+
+/// Insufficient memory for this number of bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("not enough memory for {} MiB", .0.div_ceil(1 << 20))]
+pub struct OutOfMemory(u64);
+
+impl OutOfMemory {
+    fn of<T>(count: usize) -> Self {
+        OutOfMemory((count as u64).saturating_mul(size_of::<T>() as u64))
+    }
+}
+
+/// Checks that the system can provide this many more bytes now, and releases them untouched.
+pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
+    if bytes < FEW {
+        return Ok(());
+    }
+    let mut asked = Vec::<u8>::new();
+    let count = usize::try_from(bytes.saturating_add(BESIDE)).unwrap_or(usize::MAX);
+    asked.try_reserve_exact(count).map_err(|_| OutOfMemory(bytes))?;
+    // The compiler may remove an allocation without an observer.
+    black_box(asked.as_ptr());
+    Ok(())
+}
+
+/// An empty vector with room for `count` values, in this memory if it suffices.
+pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
+    values = unless_far_too_large(values, count);
+    values.clear();
+    values.try_reserve_exact(count).map_err(|_| OutOfMemory::of::<T>(count))?;
+    Ok(values)
+}
+
+/// `count` values in this memory if it suffices: the previous ones, then `fill`.
+pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
+    values = unless_far_too_large(values, count);
+    let more = count.saturating_sub(values.len());
+    values.try_reserve_exact(more).map_err(|_| OutOfMemory::of::<T>(count))?;
+    values.resize(count, fill);
+    Ok(values)
+}
+
+/// Collects `count` values.
+pub fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
+    let mut gathered = emptied(Vec::new(), count)?;
+    gathered.extend(values);
+    Ok(gathered)
+}
+
+/// Adds a value.
+pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
+    reserve(values, 1)?;
+    values.push(value);
+    Ok(())
+}
+
+/// Makes room for `more` values, with some to spare.
+pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
+    values.try_reserve(more).map_err(|_| OutOfMemory::of::<T>(values.len() + more))
+}
+
+fn unless_far_too_large<T>(values: Vec<T>, count: usize) -> Vec<T> {
+    if values.capacity() / MOST_SPARE > count.max(SMALL) { Vec::new() } else { values }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_no_system_gives_is_refused() {
+        assert_eq!(check_room(FEW), Ok(()));
+        assert!(check_room(1 << 62).is_err() && check_room(u64::MAX).is_err());
+    }
+
+    #[test]
+    fn memory_is_kept_until_it_is_far_too_large() {
+        let place = |values: &Vec<u64>| (values.as_ptr(), values.capacity());
+        let values = vec![7; 4 * SMALL + 4];
+        let before = place(&values);
+        let values = resized(values, SMALL + 1, 0).unwrap();
+        assert_eq!((place(&values), values.len()), (before, SMALL + 1));
+        let values = emptied(values, 4 * SMALL).unwrap();
+        assert_eq!((place(&values), values.len()), (before, 0));
+        let values = resized(values, 3, 5).unwrap();
+        assert_eq!(values, [5; 3]);
+        assert!(values.capacity() < SMALL);
+    }
+}

@@ -1,0 +1,46 @@
+//! Header of the file of a NumPy array: exactly the type, the order and the shape of the array, or NumPy refuses the file.
+
+use std::io;
+use std::io::Write;
+
+/// First bytes of an array.
+pub const SIGNATURE: &[u8] = b"\x93NUMPY";
+
+/// Versions in which the length of a header has two bytes.
+const SHORT_HEADER: [u8; 2] = [1, 0];
+
+/// Bytes before a header of that version.
+const PREFIX: usize = SIGNATURE.len() + SHORT_HEADER.len() + 2;
+
+/// Multiple of bytes that header and prefix fill together.
+const ALIGNMENT: usize = 64;
+
+/// Writes the header of an array. `descr` is its type in Python's notation, `shape` the numbers in the brackets of
+/// its shape.
+pub fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
+    let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
+    let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;
+    header.extend(std::iter::repeat_n(' ', length - header.len() - 1));
+    header.push('\n');
+    let length = u16::try_from(length).map_err(|_| io::Error::other("a header of more than 65535 bytes"))?;
+    out.write_all(SIGNATURE)?;
+    out.write_all(&SHORT_HEADER)?;
+    out.write_all(&length.to_le_bytes())?;
+    out.write_all(header.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_are_those_of_numpy() {
+        let mut array = Vec::new();
+        write_header(&mut array, "'<f8'", "3,").unwrap();
+        assert_eq!(array.len() % ALIGNMENT, 0);
+        // As written by `numpy.save`.
+        let expected = b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }";
+        assert!(array.starts_with(expected) && array.ends_with(b" \n"), "{array:?}");
+        assert!(write_header(&mut Vec::new(), &"x".repeat(70_000), "").is_err());
+    }
+}

@@ -1,0 +1,70 @@
+//! JSON objects from a list of keys and values, in the order of the list.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// An object whose entries are nested pairs, made by [`object!`].
+pub struct Object<E>(pub E);
+
+/// Entries of an object: none, or the first and the others.
+pub(crate) trait Entries {
+    fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error>;
+}
+
+impl Entries for () {
+    fn write<M: SerializeMap>(&self, _: &mut M) -> Result<(), M::Error> {
+        Ok(())
+    }
+}
+
+/// A name with its value.
+pub struct Entry<T>(pub &'static str, pub T);
+
+/// Key and value, omitted without a value.
+pub struct Optional<T>(pub &'static str, pub Option<T>);
+
+impl<T: Serialize, R: Entries> Entries for (Entry<T>, R) {
+    fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        map.serialize_entry(self.0.0, &self.0.1)?;
+        self.1.write(map)
+    }
+}
+
+impl<T: Serialize, R: Entries> Entries for (Optional<T>, R) {
+    fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        if let Some(value) = &self.0.1 {
+            map.serialize_entry(self.0.0, value)?;
+        }
+        self.1.write(map)
+    }
+}
+
+impl<E: Entries> Serialize for Object<E> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        self.0.write(&mut map)?;
+        map.end()
+    }
+}
+
+/// An object with these keys and values, for serialisation; an entry `"key"?: option` is omitted for `None`.
+#[macro_export]
+macro_rules! object {
+    (@entries) => { () };
+    (@entries $key:literal: $value:expr $(, $($rest:tt)*)?) => {
+        ($crate::Entry($key, $value), $crate::object!(@entries $($($rest)*)?))
+    };
+    (@entries $key:literal?: $value:expr $(, $($rest:tt)*)?) => {
+        ($crate::Optional($key, $value), $crate::object!(@entries $($($rest)*)?))
+    };
+    ($($entries:tt)*) => { $crate::Object($crate::object!(@entries $($entries)*)) };
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn entries_keep_their_order() {
+        let inner = [object! { "z": 1.5, "a": None::<f64> }];
+        let text = serde_json::to_string(&object! { "b": "x", "c"?: None::<u8>, "d"?: Some(1), "a": inner });
+        assert_eq!(text.unwrap(), r#"{"b":"x","d":1,"a":[{"z":1.5,"a":null}]}"#);
+    }
+}

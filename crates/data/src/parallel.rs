@@ -1,0 +1,154 @@
+//! Parallel computations, independent of each other, so that their results do not depend on the threads.
+
+use std::cell::Cell;
+use std::io;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
+
+thread_local! {
+    /// True if this thread is one of as many as cores.
+    static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs `work` on this thread alone, as one of many threads that keep all cores busy.
+pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
+    let before = ONE_OF_MANY.replace(true);
+    let result = work();
+    ONE_OF_MANY.set(before);
+    result
+}
+
+/// Runs `work` on `count` threads of a scope, or on fewer if the system starts fewer; `work` starts no threads itself.
+///
+/// # Errors
+/// The error of the system if it starts none of at least one.
+pub(crate) fn begin_threads<'scope>(
+    scope: &'scope Scope<'scope, '_>,
+    count: usize,
+    work: impl FnOnce() + Clone + Send + 'scope,
+) -> io::Result<()> {
+    let begin = |_| {
+        let work = work.clone();
+        Builder::new().spawn_scoped(scope, || on_this_thread(work)).map(drop)
+    };
+    let begun: Vec<_> = (0..count).map(begin).collect();
+    if begun.iter().any(Result::is_ok) { Ok(()) } else { begun.into_iter().collect() }
+}
+
+/// Results for the numbers below `count`, in their order, computed on `jobs` threads, each with its own `worker`; on
+/// fewer threads if the system starts fewer. Results of numbers that precede a failed one are not affected by it.
+///
+/// # Errors
+/// Of several numbers that fail, the error of the first.
+pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
+    count: u64,
+    jobs: usize,
+    worker: impl Fn() -> W + Sync,
+) -> Result<Vec<R>, E> {
+    let (next, found) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+    let work = &|| {
+        let mut worker = worker();
+        loop {
+            let number = next.fetch_add(1, Ordering::SeqCst);
+            if number >= count {
+                return;
+            }
+            let result = worker(number);
+            if result.is_err() {
+                // Numbers that follow are not needed; those before are under way or done.
+                next.store(count, Ordering::SeqCst);
+            }
+            found.lock().unwrap_or_else(PoisonError::into_inner).push((number, result));
+        }
+    };
+    let threads = jobs.min(usize::try_from(count).unwrap_or(usize::MAX));
+    scope(|scope| {
+        // Without further threads this one does all the work.
+        let _ = begin_threads(scope, threads.saturating_sub(1), work);
+        on_this_thread(work);
+    });
+    let mut found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
+    found.sort_by_key(|(number, _)| *number);
+    found.into_iter().map(|(_, result)| result).collect()
+}
+
+/// Number of threads for work of this thread: one for each core, or this one alone.
+pub fn threads() -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    if ONE_OF_MANY.get() { 1 } else { cores() }
+}
+
+/// Runs both, the first on a thread of its own if that is `worth` it, the system has one and the thread begins first.
+pub fn in_parallel<A: Send, B>(
+    worth: bool,
+    one: impl FnOnce() -> A + Send,
+    other: impl FnOnce() -> B,
+) -> (A, B) {
+    if !worth || ONE_OF_MANY.get() {
+        return (one(), other());
+    }
+    let task = Mutex::new(Some(one));
+    let take = || task.lock().unwrap_or_else(PoisonError::into_inner).take();
+    scope(|scope| {
+        let thread = Builder::new().spawn_scoped(scope, || take().map(|task| task())).ok();
+        let other = other();
+        // Runs here if no other thread has begun.
+        if let Some(task) = take() {
+            return (task(), other);
+        }
+        match thread.map(ScopedJoinHandle::join) {
+            Some(Ok(Some(one))) => (one, other),
+            Some(Err(panic)) => resume_unwind(panic),
+            Some(Ok(None)) | None => unreachable!("a task that is gone has been taken by its thread"),
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::thread::current;
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn both_are_done_once() {
+        for worth in [false, true] {
+            let (mut one, mut other) = (0, 0);
+            let results = in_parallel(worth, || (0..1000).for_each(|k| one += k), || other += 1);
+            assert_eq!((results, one, other), (((), ()), 499_500, 1));
+        }
+    }
+
+    #[test]
+    fn one_of_many_threads_stays_alone() {
+        let on_two_threads = || {
+            let begun = AtomicBool::new(false);
+            let one = || {
+                begun.store(true, Ordering::SeqCst);
+                current().id()
+            };
+            let other = || {
+                // Otherwise this thread may run both before the other has started.
+                let clock = Instant::now();
+                while !begun.load(Ordering::SeqCst) && clock.elapsed() < Duration::from_secs(30) {
+                    std::thread::yield_now();
+                }
+                current().id()
+            };
+            let (one, other) = in_parallel(true, one, other);
+            one != other
+        };
+        assert_eq!((on_two_threads(), on_this_thread(on_two_threads), on_two_threads()), (true, false, true));
+    }
+
+    #[test]
+    fn a_panic_comes_through() {
+        for worth in [false, true] {
+            let result = std::panic::catch_unwind(|| in_parallel(worth, || panic!("one"), || ()));
+            assert_eq!(result.unwrap_err().downcast_ref::<&str>(), Some(&"one"));
+        }
+    }
+}

@@ -1,0 +1,376 @@
+//! Numbers with prefixes and units: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
+
+use crate::text::{SI_PREFIXES, shown, si_prefix};
+
+/// Digits of a written number.
+const DIGITS: usize = 4;
+
+/// Accepted units: their name, and units to choose from.
+const DIMENSIONS: &[(&str, &str, &str)] = &[
+    ("m", "unit of length", "m, mm, µm, nm"),
+    ("N", "unit of force", "N, mN, µN, nN"),
+    ("J", "unit of energy", "J, mJ, µJ, nJ"),
+    ("Pa", "unit of pressure", "Pa, kPa, MPa, GPa"),
+    ("J/m²", "unit of energy per area", "J/m², mJ/m², N/m, mN/m"),
+    ("N/m", "unit of stiffness", "N/m, mN/m, kN/m"),
+    ("rad", "unit of angle", "rad, mrad, °"),
+    ("s", "unit of time", "s, ms, µs"),
+    ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi"),
+];
+
+/// Reason why a typed text is not a quantity.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct QuantityError(pub String);
+
+impl QuantityError {
+    fn no_number(typed: &str, unit: &str) -> Self {
+        let example = match unit {
+            "1" | "" => "0.7, 16k or 1.0e-3".to_string(),
+            unit if !has_prefixes(unit) => "0.7 or 1.0e-3".to_string(),
+            unit => format!("1.0e-3, 2.5 m{unit} or 2.5k{unit}"),
+        };
+        QuantityError(match typed.trim() {
+            "" => format!("a value is missing, such as {example}"),
+            typed => format!("{:?} is not a number, such as {example}", shown(typed)),
+        })
+    }
+
+    fn wrong_unit(typed: &str, unit: &str) -> Self {
+        let (typed, unit) = (shown(typed), if unit.is_empty() { "1" } else { unit });
+        QuantityError(match DIMENSIONS.iter().find(|(known, ..)| *known == unit) {
+            Some((_, name, units)) => format!("{typed} is not a {name}: use {units}"),
+            None => format!("{typed} is not the unit {unit}"),
+        })
+    }
+}
+
+/// Parses a number typed for a field of this unit, in SI units: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
+///
+/// Unit and blanks are optional. A lone `m` is the prefix milli, except for fields in metres, where it is the unit:
+/// there `50m` is fifty metres and `50mm` fifty millimetres. Angles may also be in degrees, `30°` or `30 deg`, and
+/// counts take `Ki`, `Mi` and `Gi` for powers of 1024. The number is the one nearest to the typed text; no digit is
+/// lost to the prefix.
+///
+/// # Errors
+/// A text that is not a number, has another unit, or is not finite.
+pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
+    let typed = text.trim();
+    let (digits, exponent, suffix) =
+        split_number(typed).ok_or_else(|| QuantityError::no_number(typed, unit))?;
+    let suffix = suffix.trim();
+    let factor = suffix_factor(suffix, unit).ok_or_else(|| QuantityError::wrong_unit(suffix, unit));
+    let (power, factor) = factor?;
+    // The prefix goes into the decimal exponent: 100 nm is then 1.0e-7 exactly as if typed so.
+    let number =
+        exponent.checked_add(power).and_then(|power| format!("{digits}e{power}").parse::<f64>().ok());
+    let value = number.map(|number| number * factor);
+    let too_large = || QuantityError(format!("{} is too large", shown(typed)));
+    value.filter(|value| value.is_finite()).ok_or_else(too_large)
+}
+
+/// A typed number without prefix and unit in a unit: `50` in `mJ/m²` is `50 mJ/m²`; any other text as it is.
+pub fn in_unit(typed: &str, unit: &str) -> String {
+    let is_number = split_number(typed.trim()).is_some_and(|(.., suffix)| suffix.trim().is_empty());
+    if is_number && !unit.is_empty() { format!("{} {unit}", typed.trim()) } else { typed.to_owned() }
+}
+
+/// The unit of a quantity as it is shown, with its prefix: `mJ/m²` of `50 mJ/m²`; empty for a number without a unit.
+pub fn unit_of(shown: &str) -> &str {
+    shown.trim_start_matches(['=', ' ']).split_once(' ').map_or("", |(_, unit)| unit)
+}
+
+/// Splits `2.5e3 MPa` into its digits, its exponent of ten, and the rest.
+fn split_number(text: &str) -> Option<(&str, i32, &str)> {
+    let signless = text.trim_start_matches(['+', '-', '−']);
+    let sign = text.len() - signless.len();
+    if text[..sign].chars().count() > 1 || text.starts_with('−') {
+        return None;
+    }
+    let end = signless.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(signless.len());
+    let digits = &text[..sign + end];
+    let number = &digits[sign..];
+    if !number.contains(|c: char| c.is_ascii_digit()) || number.matches('.').count() > 1 {
+        return None;
+    }
+    let rest = &text[digits.len()..];
+    // An e is an exponent only with digits after it; an E alone is the prefix exa.
+    if let Some(after) = rest.strip_prefix(['e', 'E']) {
+        let unsigned = after.strip_prefix(['+', '-']).unwrap_or(after);
+        let length = unsigned.find(|c: char| !c.is_ascii_digit()).unwrap_or(unsigned.len());
+        if length > 0 {
+            let split = after.len() - unsigned.len() + length;
+            // An exponent with more digits than this makes the number zero or too large.
+            let beyond = if after.starts_with('-') { i32::MIN / 2 } else { i32::MAX / 2 };
+            let exponent = after[..split].parse().unwrap_or(beyond);
+            return Some((digits, exponent, &after[split..]));
+        }
+    }
+    Some((digits, 0, rest))
+}
+
+/// Power of ten and further factor of the text after a number.
+fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
+    let suffix = canonical(suffix);
+    let unit = canonical(unit);
+    let plain = unit == "1" || unit.is_empty();
+    if suffix.is_empty() || suffix == unit {
+        return Some((0, 1.0));
+    }
+    match (unit.as_str(), suffix.as_str()) {
+        ("rad", "°" | "deg") => return Some((0, std::f64::consts::PI / 180.0)),
+        ("1" | "", "Ki") => return Some((0, f64::from(1 << 10))),
+        ("1" | "", "Mi") => return Some((0, f64::from(1 << 20))),
+        ("1" | "", "Gi") => return Some((0, f64::from(1 << 30))),
+        ("J/m2", _) if suffix.ends_with("N/m") => {
+            return suffix_factor(&suffix.replace("N/m", "J/m2"), "J/m2");
+        }
+        _ if !has_prefixes(&unit) && !plain => return None,
+        _ => {}
+    }
+    SI_PREFIXES.iter().find_map(|(prefix, power)| {
+        let rest = suffix.strip_prefix(prefix)?.trim_start();
+        (rest.is_empty() || (!plain && rest == unit)).then_some((*power, 1.0))
+    })
+}
+
+/// A unit in one spelling: `J/m²`, `J/m^2` and `J / m2` are the same.
+fn canonical(unit: &str) -> String {
+    unit.replace('²', "2").replace(['^', ' '], "")
+}
+
+/// Returns true for a unit that takes SI prefixes: any but powers of a metre, whose prefix has the power too.
+fn has_prefixes(unit: &str) -> bool {
+    !unit.contains(['−', '(', '³'])
+}
+
+/// A value with its unit for readers, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
+///
+/// Numbers without unit have no prefix; those much smaller or larger than one have an exponent.
+pub fn format_quantity(value: f64, unit: &str) -> String {
+    format_rounded(value, DIGITS, unit)
+}
+
+/// Magnitude below which a quantity with a unit is a zero with rounding: far below the smallest prefix.
+const ROUNDING: f64 = 1e-36;
+
+/// Formats with fewer significant digits.
+pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
+    // The number next to zero is a state just after a jump at zero.
+    let least = if unit == "1" || unit.is_empty() { f64::MIN_POSITIVE } else { ROUNDING };
+    let value = if value.abs() < least { 0.0 } else { value };
+    // Rounded first, so that 999.99 becomes 1000 before the choice of its prefix.
+    with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
+}
+
+/// A value with its unit, to two digits of an uncertainty: `50.05 mJ/m²` of ± 0.13 mJ/m².
+pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
+    if !(uncertainty > 0.0 && uncertainty.is_finite() && value.is_finite()) {
+        return format_quantity(value, unit);
+    }
+    // Digits of the value and of the uncertainty, of which the first decimals are these powers of ten.
+    let [first, last] = [value, uncertainty].map(|number| number.abs().log10().floor());
+    let digits = (first - last + 2.0).clamp(0.0, 17.0) as usize;
+    match digits {
+        0 => with_unit(0.0, "0", unit),
+        _ => with_unit(value, &format!("{value:.*e}", digits - 1), unit),
+    }
+}
+
+/// A range with its unit, which both ends share where they have the same prefix: `0.33 to 35 µN`, `26 nN to 35 µN`.
+pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> String {
+    one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
+}
+
+/// The ends of a range, which are values with units.
+pub fn one_unit([low, high]: [String; 2]) -> String {
+    match (low.split_once(' '), high.split_once(' ')) {
+        (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => format!("{number} to {high}"),
+        _ => format!("{low} to {high}"),
+    }
+}
+
+/// A value with its unit and all its digits: [`parse_quantity`] returns the same value.
+pub fn exact_quantity(value: f64, unit: &str) -> String {
+    with_unit(value, &format!("{value:e}"), unit)
+}
+
+/// A value, with its decimal digits and exponent, in the usual unit and prefix.
+fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
+    let plain = unit == "1" || unit.is_empty();
+    let unit_after = if plain { String::new() } else { format!(" {unit}") };
+    if !value.is_finite() || value == 0.0 {
+        return format!("{value}{unit_after}");
+    }
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let power = 3 * exponent.div_euclid(3);
+    match si_prefix(power) {
+        Some(prefix) if !plain && has_prefixes(unit) => {
+            format!("{} {prefix}{unit}", shifted(mantissa, exponent - power))
+        }
+        _ => format!("{}{unit_after}", decimal(mantissa, exponent)),
+    }
+}
+
+/// A decimal mantissa times a power of ten, with an exponent if the number is much smaller or larger than one.
+fn decimal(mantissa: &str, exponent: i32) -> String {
+    match exponent {
+        -3..6 => shifted(mantissa, exponent),
+        _ => format!("{}e{exponent}", trimmed(mantissa)),
+    }
+}
+
+/// A decimal mantissa of one digit before the point times a power of ten, without trailing zeros.
+fn shifted(mantissa: &str, power: i32) -> String {
+    let sign = if mantissa.starts_with('-') { "-" } else { "" };
+    let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    let zeros = |count: i32| "0".repeat(usize::try_from(count).unwrap_or(0));
+    // Zeros in front for a point before the first digit, and behind for one after the last.
+    let digits = format!("{}{digits}{}", zeros(-power), zeros(power + 1 - digits.len() as i32));
+    let (whole, fraction) = digits.split_at(usize::try_from(power + 1).unwrap_or(1).max(1));
+    trimmed(&format!("{sign}{whole}.{fraction}"))
+}
+
+fn trimmed(number: &str) -> String {
+    if number.contains('.') {
+        number.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        number.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn an_uncertainty_determines_the_digits_of_a_value() {
+        for (value, uncertainty, text) in [
+            (50.0512e-3, 0.13e-3, "50.05 mJ/m²"),
+            (-7.577_123_456e-6, 4.3e-11, "-7.577123 µm"),
+            (5.0, 13.0, "5 m"),
+            (0.3, 13.0, "0 m"),
+            (0.0, 1.0, "0 m"),
+            (99.96, 1.0, "100 m"),
+            (1.234_56, 0.0, "1.235 m"),
+            (1.234_56, f64::INFINITY, "1.235 m"),
+        ] {
+            let unit = text.split_once(' ').unwrap().1.trim_start_matches(['m', 'µ']);
+            let unit = if unit.is_empty() { "m" } else { unit };
+            assert_eq!(format_within(value, uncertainty, unit), text);
+        }
+    }
+
+    #[test]
+    fn what_people_type_is_read() {
+        for (unit, all) in [
+            ("Pa", "2.5 MPa = 2.5e6; 2.5e6 = 2.5e6; 2.5M = 2.5e6; 2 E = 2e18; 2EPa = 2e18; 2E3Pa = 2e3"),
+            (
+                "m",
+                "10 µm = 1e-5; 10um = 1e-5; 10 μm = 1e-5; 100nm = 1e-7; 5cm = 0.05; 50m = 50; 50 mm = 0.05",
+            ),
+            ("m", "0e99999999999 km = 0; 1e-99999999999 nm = 0"),
+            (
+                "J/m²",
+                "50m = 0.05; 50 mJ/m2 = 0.05; 50 mJ/m^2 = 0.05; 0.05 J/m² = 0.05; 50 mN/m = 0.05; 1e-3 = 1e-3",
+            ),
+            ("N", "-20 uN = -20e-6"),
+            ("1", "+3 = 3; .5 = 0.5; 5. = 5; 16k = 16000; 64Ki = 65536; 3Mi = 3145728; 3Gi = 3221225472"),
+            ("rad", " 45 °  = 0.7853981633974483; 100 mrad = 0.1"),
+            ("m^(1−n)", "3e5 = 3e5; 3 m^(1−n) = 3"),
+        ] {
+            for (text, value) in all.split("; ").map(|one| one.split_once(" = ").unwrap()) {
+                assert_eq!(parse_quantity(text, unit), Ok(value.parse().unwrap()), "{text} {unit}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_alone_takes_the_unit_that_is_shown() {
+        for row in [
+            "50|= 4.356 mJ/m²|50 mJ/m²",
+            " -5e1 |100 µm|-5e1 µm",
+            "50m|4.356 mJ/m²|50m",
+            "5 nm|100 µm|5 nm",
+            "touch|10 µN|touch",
+            "0.8|0.7|0.8",
+        ] {
+            let [typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(in_unit(typed, unit_of(shown)), read, "{row}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused() {
+        for (unit, texts) in [
+            ("m", "|m|1 Pa"),
+            ("1", "x|1..2|--1|−1|NaN|inf|1e400|1e99999999999|1 2|1 k1|é1"),
+            ("Pa", "1 mpa|1 kk|1e|1e2147483647 k"),
+            ("m^(1−n)", "1k"),
+        ] {
+            assert!(texts.split('|').all(|text| parse_quantity(text, unit).is_err()), "{unit}");
+        }
+        for (text, unit, message) in [
+            ("2 kg", "m", "kg is not a unit of length: use m, mm, µm, nm"),
+            ("1 N/m2", "J/m²", "N/m2 is not a unit of energy per area: use J/m², mJ/m², N/m, mN/m"),
+            ("5 %", "1", "% is not a prefix of a number: use k, M, G, Ki, Mi, Gi"),
+            ("1k", "m^(1−n)", "k is not the unit m^(1−n)"),
+            ("ten", "N", "\"ten\" is not a number, such as 1.0e-3, 2.5 mN or 2.5kN"),
+            ("1e400", "1", "1e400 is too large"),
+        ] {
+            assert_eq!(parse_quantity(text, unit).unwrap_err().to_string(), message);
+        }
+    }
+
+    #[test]
+    fn quantities_are_written_as_people_read_them() {
+        for (unit, all) in [
+            ("Pa", "2.67e6 = 2.67 MPa; 2.666666e6 = 2.667 MPa"),
+            ("m", "1e-7 = 100 nm; 1e-4 = 100 µm; 999.99e-9 = 1 µm; 1e-30 = 1e-30 m; 1 = 1 m"),
+            ("J/m²", "0.05 = 50 mJ/m²"),
+            ("N", "0 = 0 N; -2.5e-5 = -25 µN"),
+            ("1", "0.7 = 0.7; 16384 = 16380; 1e-6 = 1e-6; 2.5e7 = 2.5e7"),
+            ("m^(1−n)", "3e5 = 300000 m^(1−n)"),
+        ] {
+            for (value, text) in all.split("; ").map(|one| one.split_once(" = ").unwrap()) {
+                assert_eq!(format_quantity(value.parse().unwrap(), unit), text);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn all_digits_are_read_back(bits in any::<u64>(), decades in -30..30_i32, size in 1.0..10.0_f64) {
+            for value in [f64::from_bits(bits), size * 10_f64.powi(decades), -size].into_iter().filter(|v| v.is_finite()) {
+                for unit in ["Pa", "m", "J/m²", "N", "N/m", "rad", "1", "m^(1−n)"] {
+                    let text = exact_quantity(value, unit);
+                    prop_assert_eq!(parse_quantity(&text, unit), Ok(value), "{}", text);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_unit_of_the_table_is_understood() {
+        for (base, _, units) in DIMENSIONS {
+            assert!(
+                units.split(", ").all(|unit| parse_quantity(&format!("1 {unit}"), base).is_ok()),
+                "{base}"
+            );
+        }
+    }
+
+    /// The prefixes of the SI that a field may need, by their powers of ten.
+    #[test]
+    fn prefixes_are_powers_of_a_thousand() {
+        for (place, prefix) in "y z a f p n µ m _ k M G T P E".split(' ').enumerate() {
+            let prefix = prefix.trim_matches('_');
+            let value: f64 = format!("1e{}", 3 * (place as i32 - 8)).parse().unwrap();
+            assert_eq!(parse_quantity(&format!("1 {prefix}Pa"), "Pa"), Ok(value));
+            assert_eq!(format_quantity(value, "Pa"), format!("1 {prefix}Pa"));
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Reading of files named by users: regular files only, and only up to a limit.
+//!
+//! Opening a pipe waits for its writer, a terminal waits for its user, and a device may never end. The metadata of
+//! a file are no bound either: a file grows while it is read, and some systems state a size of zero for files with
+//! content.
+
+use std::fs::{File, OpenOptions};
+use std::io;
+use std::io::Read;
+use std::path::Path;
+use thiserror::Error;
+
+/// Reason why a file was not read. The caller puts the name of the file in front.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// The path is a folder.
+    #[error("this is a folder; allowed: a file")]
+    Folder,
+    /// The path is a pipe, a socket, a terminal or another device.
+    #[error("this is not a regular file")]
+    NotRegular,
+    /// An array where a scene is asked for.
+    #[error("an array of NumPy holds no scene; allowed: a scene, or a table of results in CSV")]
+    Array,
+    /// The file is too long.
+    #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
+    TooLong {
+        /// Largest allowed length, bytes.
+        limit: usize,
+    },
+    /// The bytes are not text.
+    #[error("this is not UTF-8 text: byte {byte} is not")]
+    NotText {
+        /// Index of the first invalid byte.
+        byte: usize,
+    },
+    /// The system refused, or has no memory for the content.
+    #[error("cannot be read: {}", reason(.0))]
+    Failed(#[from] io::Error),
+}
+
+/// Reason of the system, without the error number for a plain reason.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Opens a regular file for reading. Never waits for a writer or for a terminal.
+pub fn open_regular(path: &Path) -> Result<File, ReadError> {
+    // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
+    // as far as its kind is known in advance.
+    check_regular(&path.metadata()?)?;
+    let mut options = OpenOptions::new();
+    options.read(true);
+    // Opening returns at once, as does reading of files such as `/proc/kmsg`, which the system reports as regular
+    // although they are not. A terminal does not become that of the process.
+    #[cfg(unix)]
+    {
+        use rustix::fs::OFlags;
+        use std::os::unix::fs::OpenOptionsExt;
+        options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed());
+    }
+    let file = options.open(path)?;
+    // Another file may have taken the name meanwhile.
+    check_regular(&file.metadata()?)?;
+    Ok(file)
+}
+
+/// Content of a regular file of at most `limit` bytes.
+pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
+    let file = open_regular(path)?;
+    // A longer file is refused before it is read; one may also grow while it is read.
+    if file.metadata()?.len() > limit as u64 {
+        Err(ReadError::TooLong { limit })
+    } else {
+        read_limited(file, limit)
+    }
+}
+
+/// Text of a regular file of at most `limit` bytes.
+pub fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError> {
+    into_text(read_regular(path, limit)?)
+}
+
+/// The content of a source up to its end, of at most `limit` bytes: for standard input and other streams that the
+/// caller is ready to wait for.
+pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::new();
+    // One more byte distinguishes a file of the limit from a longer one.
+    source.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > limit { Err(ReadError::TooLong { limit }) } else { Ok(bytes) }
+}
+
+/// Converts bytes to text without a copy.
+pub fn into_text(bytes: Vec<u8>) -> Result<String, ReadError> {
+    String::from_utf8(bytes).map_err(|error| ReadError::NotText { byte: error.utf8_error().valid_up_to() })
+}
+
+fn check_regular(found: &std::fs::Metadata) -> Result<(), ReadError> {
+    if found.is_dir() {
+        Err(ReadError::Folder)
+    } else if found.is_file() {
+        Ok(())
+    } else {
+        Err(ReadError::NotRegular)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_the_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("text");
+        std::fs::write(&path, "12345").unwrap();
+        assert_eq!(read_regular(&path, 5).unwrap(), b"12345");
+        assert_eq!(read_regular_text(&path, 6).unwrap(), "12345");
+        assert!(matches!(read_regular(&path, 4), Err(ReadError::TooLong { limit: 4 })));
+        std::fs::write(&path, b"a\xff").unwrap();
+        assert!(matches!(read_regular_text(&path, 5), Err(ReadError::NotText { byte: 1 })));
+        assert!(matches!(read_regular(folder.path(), 5), Err(ReadError::Folder)));
+        let none = read_regular(&folder.path().join("none"), 5).unwrap_err();
+        assert_eq!(none.to_string(), "cannot be read: there is no such file");
+    }
+
+    #[test]
+    fn a_source_without_an_end_is_not_read_further_than_the_limit() {
+        struct Endless(usize);
+        impl Read for Endless {
+            fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+                self.0 += buffer.len();
+                Ok(buffer.len())
+            }
+        }
+        let mut endless = Endless(0);
+        assert!(matches!(read_limited(&mut endless, 1000), Err(ReadError::TooLong { limit: 1000 })));
+        assert_eq!(endless.0, 1001);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_regular_file_is_refused_at_once() {
+        use rustix::fs::{CWD, FileType, Mode, mknodat};
+        use std::os::unix::net::UnixListener;
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        mknodat(CWD, &pipe, FileType::Fifo, Mode::from_raw_mode(0o600), 0).unwrap();
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        let socket = folder.path().join("socket");
+        let _listener = UnixListener::bind(&socket).unwrap();
+        for path in [&pipe, &link, &socket, Path::new("/dev/zero"), Path::new("/dev/null")] {
+            let read = read_regular(path, 5);
+            assert!(matches!(read, Err(ReadError::NotRegular)), "{}: {read:?}", path.display());
+        }
+    }
+}

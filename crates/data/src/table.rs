@@ -1,0 +1,211 @@
+//! Tables of results: as CSV, as an array of NumPy, and as JSON objects.
+//!
+//! CSV begins with its provenance in comments. An array has a field for each column.
+
+use super::npy;
+use serde::ser::{Serialize, Serializer};
+use serde_json::Value;
+use std::borrow::Cow;
+use std::fmt::Write as _;
+use std::io;
+use std::io::Write;
+use std::rc::Rc;
+
+/// Values of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A real number.
+    Real,
+    /// Integers from 0.
+    Whole,
+    /// Text of at most this many characters.
+    Text(usize),
+}
+
+/// Value of a row in a column.
+type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
+type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
+
+/// Named columns, and rows that are made one by one while they are written.
+pub struct Table<'a> {
+    columns: Vec<(Cow<'static, str>, Kind)>,
+    /// Number of rows, counted without their values, which may take time.
+    count: Box<dyn Fn() -> usize + 'a>,
+    rows: Rows<'a, Vec<Value>>,
+}
+
+/// A table in the making: the rows, and the columns so far with their values of a row.
+pub struct TableOf<'a, T> {
+    rows: Rows<'a, T>,
+    columns: Vec<(Cow<'static, str>, Kind)>,
+    values: Vec<Of<'a, T>>,
+}
+
+impl<'a> Table<'a> {
+    /// Begins a table with its rows.
+    pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
+        TableOf { rows: Rc::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl<'a, T: 'a> TableOf<'a, T> {
+    /// Adds a column; a missing value is empty in CSV, `null` in JSON and NaN in an array.
+    pub fn with<V: Into<Value>>(
+        mut self,
+        name: impl Into<Cow<'static, str>>,
+        kind: Kind,
+        value: impl Fn(&T) -> V + 'a,
+    ) -> Self {
+        self.columns.push((name.into(), kind));
+        self.values.push(Box::new(move |row| value(row).into()));
+        self
+    }
+
+    /// Adds a column of real numbers.
+    pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
+        self.with(name, Kind::Real, value)
+    }
+
+    /// Adds a column of integers from 0.
+    pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
+        self.with(name, Kind::Whole, value)
+    }
+
+    /// Returns the table with all its columns.
+    pub fn done(self) -> Table<'a> {
+        let (rows, values) = (self.rows, Rc::new(self.values));
+        let counted = Rc::clone(&rows);
+        let rows = move || -> Box<dyn Iterator<Item = Vec<Value>> + 'a> {
+            let values = Rc::clone(&values);
+            Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
+        };
+        Table { columns: self.columns, count: Box::new(move || counted().count()), rows: Rc::new(rows) }
+    }
+}
+
+impl Table<'_> {
+    /// Names of the columns, each with the kind of its values.
+    pub fn columns(&self) -> &[(Cow<'static, str>, Kind)] {
+        &self.columns
+    }
+
+    /// The rows, made one by one.
+    pub fn rows(&self) -> impl Iterator<Item = Vec<Value>> {
+        (self.rows)()
+    }
+
+    /// Writes comma-separated values after the provenance.
+    pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
+        provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))?;
+        let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
+        writeln!(out, "{}", names.join(","))?;
+        let mut line = String::new();
+        for row in (self.rows)() {
+            line.clear();
+            for value in &row {
+                // Writing to a string cannot fail.
+                let _ = match value {
+                    Value::Null => Ok(()),
+                    Value::String(text) => line.write_str(&quoted(text)),
+                    number => match number.as_f64().filter(|_| number.is_f64()) {
+                        Some(real) => write!(line, "{real:?}"),
+                        None => write!(line, "{number}"),
+                    },
+                };
+                line.push(',');
+            }
+            line.pop();
+            writeln!(out, "{line}")?;
+        }
+        Ok(())
+    }
+
+    /// Writes an array of NumPy.
+    pub fn write_npy(&self, out: &mut dyn Write) -> io::Result<()> {
+        let descr = |kind: Kind| match kind {
+            Kind::Real => "<f8".to_owned(),
+            Kind::Whole => "<u8".to_owned(),
+            Kind::Text(characters) => format!("<U{characters}"),
+        };
+        let fields: Vec<_> =
+            self.columns.iter().map(|(name, kind)| format!("('{name}', '{}')", descr(*kind))).collect();
+        let shape = format!("{},", (self.count)());
+        npy::write_header(out, &format!("[{}]", fields.join(", ")), &shape)?;
+        for row in (self.rows)() {
+            for (value, (_, kind)) in row.iter().zip(&self.columns) {
+                match (kind, value) {
+                    (Kind::Real, Value::Null) => out.write_all(&f64::NAN.to_le_bytes()),
+                    (Kind::Real, Value::Number(number)) => {
+                        out.write_all(&number.as_f64().unwrap_or(f64::NAN).to_le_bytes())
+                    }
+                    (Kind::Whole, Value::Number(number)) => {
+                        out.write_all(&number.as_u64().unwrap_or_default().to_le_bytes())
+                    }
+                    (Kind::Text(characters), Value::String(text)) if text.chars().count() <= *characters => {
+                        let codes = text.chars().map(u32::from).chain(std::iter::repeat(0));
+                        codes.take(*characters).try_for_each(|code| out.write_all(&code.to_le_bytes()))
+                    }
+                    _ => Err(io::Error::other(format!("{value} in a column of {}", descr(*kind)))),
+                }?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A cell of CSV, by RFC 4180 in quotes where it contains a separator.
+fn quoted(text: &str) -> Cow<'_, str> {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\"")).into()
+    } else {
+        text.into()
+    }
+}
+
+/// A JSON array with an object for each row.
+impl Serialize for Table<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((self.rows)().map(|row| Object(&self.columns, row)))
+    }
+}
+
+struct Object<'a>(&'a [(Cow<'static, str>, Kind)], Vec<Value>);
+
+impl Serialize for Object<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, _)| name).zip(&self.1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_have_their_types_in_every_format() {
+        let rows = || [(Some(0.1), 7, "é"), (None, 8, "y,")].into_iter();
+        let table = Table::of(rows).real("a", |row| row.0).whole("b", |row| row.1);
+        let table = table.with("c", Kind::Text(2), |row| row.2).done();
+        let objects = serde_json::to_string(&table).unwrap();
+        assert_eq!(objects, r#"[{"a":0.1,"b":7,"c":"é"},{"a":null,"b":8,"c":"y,"}]"#);
+        let mut csv = Vec::new();
+        table.write_csv(&mut csv, "one\ntwo\n").unwrap();
+        assert_eq!(String::from_utf8(csv).unwrap(), "# one\n# two\na,b,c\n0.1,7,é\n,8,\"y,\"\n");
+        let mut array = Vec::new();
+        table.write_npy(&mut array).unwrap();
+        let header = 128;
+        let descr =
+            "{'descr': [('a', '<f8'), ('b', '<u8'), ('c', '<U2')], 'fortran_order': False, 'shape': (2,), }";
+        assert_eq!(&array[10..10 + descr.len()], descr.as_bytes());
+        let mut expected = Vec::new();
+        for (real, whole, word) in [(0.1, 7_u64, ['é', '\0']), (f64::NAN, 8, ['y', ','])] {
+            expected.extend(f64::to_le_bytes(real));
+            expected.extend(whole.to_le_bytes());
+            word.into_iter().for_each(|code| expected.extend(u32::from(code).to_le_bytes()));
+        }
+        assert_eq!(array[header..], expected);
+        let long = Table::of(|| ["xyz"].into_iter()).with("c", Kind::Text(2), |word| *word);
+        assert!(long.done().write_npy(&mut Vec::new()).is_err());
+        assert_eq!(quoted("a\"b"), "\"a\"\"b\"");
+    }
+}

@@ -1,0 +1,250 @@
+//! Text: prefixes of units, grouped digits, and foreign text for a terminal, a picture or a message: titles, names of
+//! files, headers, arguments.
+//!
+//! A control character can clear a screen, write to the clipboard or invalidate the XML of a picture. A bidirectional
+//! control changes the apparent order of text. Both are shown by their numbers; all other characters are kept.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+/// Accepted SI prefixes, with their powers of ten. Every third power is written, with the first of its prefixes.
+pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
+    ("y", -24),
+    ("z", -21),
+    ("a", -18),
+    ("f", -15),
+    ("p", -12),
+    ("n", -9),
+    ("µ", -6),
+    ("μ", -6),
+    ("u", -6),
+    ("m", -3),
+    ("c", -2),
+    ("", 0),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+    ("P", 15),
+    ("E", 18),
+];
+
+/// Written SI prefix of a power of ten, if there is one.
+pub fn si_prefix(power: i32) -> Option<&'static str> {
+    SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
+}
+
+/// A number to some significant digits.
+pub fn round_to(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
+/// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and
+/// marks, separators of lines and paragraphs, and signs that nobody sees, to which terminals give different widths.
+pub fn is_control(c: char) -> bool {
+    let bidirectional =
+        matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let invisible = matches!(
+        c,
+        '\u{ad}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180e}' | '\u{200b}' | '\u{2028}' | '\u{2029}'
+            | '\u{2060}'..='\u{206f}' | '\u{3164}' | '\u{feff}' | '\u{ffa0}' | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e0fff}'
+    );
+    c.is_control() || bidirectional || invisible
+}
+
+/// Text on one line, with its control characters escaped as in Rust: `\n`, `\u{1b}`.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    escaped(text, is_control)
+}
+
+/// Text of several lines with escaped control characters except for line breaks.
+pub fn printable_lines(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| is_control(c) && c != '\n')
+}
+
+/// Name of a file or folder, on one line.
+pub fn path_name(path: &Path) -> String {
+    printable(&path.to_string_lossy()).into_owned()
+}
+
+fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if !text.contains(&is_escaped) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        if is_escaped(c) {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// An integer with separated thousands.
+pub fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut grouped = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(' ');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// A number of bytes in binary units.
+pub fn memory_size(bytes: u64) -> String {
+    let units = ["B", "KiB", "MiB", "GiB", "TiB"];
+    let mut size = bytes as f64;
+    let mut unit = 0;
+    while size >= 1024.0 && unit + 1 < units.len() {
+        size /= 1024.0;
+        unit += 1;
+    }
+    let decimals = usize::from(unit > 0 && size < 10.0);
+    format!("{size:.decimals$} {}", units[unit])
+}
+
+/// A relative error in per cent, with one digit, or two after a leading one: the accuracy of an estimate.
+pub fn per_cent(error: f64) -> String {
+    let per_cent = 100.0 * error;
+    if per_cent > 100.0 {
+        return "> 100 %".to_owned();
+    }
+    if per_cent < 1e-3 {
+        return "< 0.001 %".to_owned();
+    }
+    let two = round_to(per_cent, 2);
+    let one = round_to(per_cent, 1);
+    let leads_with_one = format!("{two:e}").starts_with('1');
+    format!("{} %", if leads_with_one { two } else { one })
+}
+
+/// Symbols of units after a number, without prefixes.
+const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
+
+/// Returns true for a unit, with or without a prefix.
+fn is_unit(word: &str) -> bool {
+    let word = word.trim_end_matches([',', ';', ':', '.', ')']);
+    let without_prefix =
+        word.strip_prefix(['q', 'r', 'y', 'z', 'a', 'f', 'p', 'n', 'µ', 'm', 'k', 'M', 'G', 'T', 'P', 'E']);
+    UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
+}
+
+/// Returns true if no line may end between two words: within a number with separated thousands, and before its unit.
+pub fn belong_together(word: &str, next: &str) -> bool {
+    let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
+    let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
+    word.ends_with(|c: char| c.is_ascii_digit()) && (is_group || is_unit(next))
+}
+
+/// Words of a text, with a number and its unit as one.
+fn words(text: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for next in text.split_whitespace() {
+        match words.last_mut().filter(|word| belong_together(word, next)) {
+            Some(word) => *word = format!("{word} {next}"),
+            None => words.push(next.to_owned()),
+        }
+    }
+    words
+}
+
+/// Lines of at most `width` characters, broken between words and within longer ones.
+pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut room = width;
+    for word in words(text) {
+        let length = word.chars().count();
+        let blank = usize::from(room < width);
+        if length + blank > room && room < width {
+            lines.push(String::new());
+            room = width;
+        }
+        let blank = usize::from(room < width);
+        for (index, character) in " ".repeat(blank).chars().chain(word.chars()).enumerate() {
+            if index > 0 && room == 0 {
+                lines.push(String::new());
+                room = width;
+            }
+            if let Some(line) = lines.last_mut() {
+                line.push(character);
+            }
+            room -= 1;
+        }
+    }
+    lines
+}
+
+/// Longest value or name in messages; longer ones are shortened.
+const MOST_SHOWN: usize = 80;
+
+/// Foreign text for a message: one line, shortened, without control characters.
+pub fn shown(text: &str) -> String {
+    let start: String = text.chars().take(MOST_SHOWN).collect();
+    let end = if start.len() < text.len() { "…" } else { "" };
+    let start = start.replace(['\n', '\r', '\t'], " ");
+    format!("{}{end}", printable(&start))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn control_characters_are_shown_and_do_nothing() {
+        for (text, expected) in [
+            ("\u{1b}]52;c;eA==\u{7}", "\\u{1b}]52;c;eA==\\u{7}"),
+            ("a\u{9b}2Jb\u{7f}", "a\\u{9b}2Jb\\u{7f}"),
+            ("abc\u{202e}nor.exe", "abc\\u{202e}nor.exe"),
+            ("\u{2066}\u{200e}\u{200f}\u{61c}\u{2028}", "\\u{2066}\\u{200e}\\u{200f}\\u{61c}\\u{2028}"),
+            ("two\nlines\r", "two\\nlines\\r"),
+            ("\u{ad}\u{180e}\u{3164}\u{fff9}\u{e0020}", "\\u{ad}\\u{180e}\\u{3164}\\u{fff9}\\u{e0020}"),
+            ("a\u{200b}b\u{feff}\u{2060}", "a\\u{200b}b\\u{feff}\\u{2060}"),
+        ] {
+            assert_eq!(printable(text), expected);
+        }
+        assert_eq!(printable_lines("two\nlines\r\u{1b}"), "two\nlines\\r\\u{1b}");
+    }
+
+    #[test]
+    fn ordinary_text_of_any_script_stays() {
+        // A joiner is part of the spelling of Persian, Hindi and families of emoji.
+        for text in ["κ* = 0.6 µm", "نمونه\u{200c}ها", "क्\u{200d}ष", "👩\u{200d}🔬", "粗糙度", "שלום"]
+        {
+            assert!(matches!(printable(text), Cow::Borrowed(same) if same == text), "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_printable_is_a_control(text in any::<String>()) {
+            prop_assert!(!printable(&text).contains(is_control));
+            prop_assert!(!printable_lines(&text).contains(|c| is_control(c) && c != '\n'));
+        }
+    }
+
+    #[test]
+    fn thousands_are_apart() {
+        let counts = [0, 999, 1000, 16_384, 1_048_576];
+        assert_eq!(counts.map(grouped), ["0", "999", "1 000", "16 384", "1 048 576"]);
+    }
+
+    #[test]
+    fn lines_break_between_words() {
+        assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("one two three", 5), ["one", "two", "three"]);
+        assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
+        assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
+        assert_eq!(wrap("", 4), [""]);
+        assert_eq!(wrap("line 800.6 µs, tree 80.75 µs", 16), ["line 800.6 µs,", "tree 80.75 µs"]);
+        assert_eq!(wrap("with 16 384 springs", 7), ["with", "16 384", "springs"]);
+        assert_eq!(wrap("about 3 MiB of memory", 9), ["about", "3 MiB of", "memory"]);
+        assert_eq!(wrap("1 of 3 legs m", 6), ["1 of 3", "legs m"]);
+    }
+}

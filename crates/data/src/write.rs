@@ -1,0 +1,348 @@
+//! Atomic writing of a file, never over an existing one without a request.
+
+use crate::text::path_name;
+use std::fs;
+use std::fs::{File, OpenOptions, Permissions};
+use std::io;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::TempPath;
+use thiserror::Error;
+
+/// Bytes gathered before a write to a file.
+const BUFFER: usize = 1 << 18;
+
+/// Reason why a file was not written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The file exists, and overwriting was not requested.
+    #[error("{}: there is a file of that name already", path_name(.0))]
+    Exists(PathBuf),
+    /// The path is not one of a file that can be written.
+    #[error("{}: {fault}", path_name(path))]
+    Unsuitable {
+        /// Path of the file.
+        path: PathBuf,
+        /// Reason why it cannot be written.
+        fault: String,
+    },
+    /// The system has refused to write.
+    #[error("{}: cannot be written: {reason}", path_name(path))]
+    Failed {
+        /// Path of the file.
+        path: PathBuf,
+        /// Answer of the system.
+        reason: io::Error,
+    },
+}
+
+impl WriteError {
+    fn unsuitable(path: &Path, fault: impl Into<String>) -> WriteError {
+        WriteError::Unsuitable { path: path.into(), fault: fault.into() }
+    }
+
+    fn failed(path: &Path) -> impl Fn(io::Error) -> WriteError {
+        move |reason| WriteError::Failed { path: path.into(), reason }
+    }
+}
+
+/// Checks before a long computation that [`write_new`] could write a file now, without a trace.
+pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
+    target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
+}
+
+/// Writes a file as [`write_new_file`] does, or into a pipe or a device, which cannot be overwritten: that waits for a
+/// reader.
+pub fn write_new(
+    path: &Path,
+    overwrite: bool,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    if target(path, overwrite)?.is_some() {
+        return write_new_file(path, overwrite, write);
+    }
+    let mut stream = OpenOptions::new().write(true).open(path).map_err(WriteError::failed(path))?;
+    fill(&mut stream, write).map_err(WriteError::failed(path))
+}
+
+/// Writes a regular file through a temporary one in the same folder: a reader sees the old file or the whole new one,
+/// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
+///
+/// On Linux no end of the process leaves anything behind. Elsewhere, and on file systems without files that have no
+/// name, a killed process may leave a file `.asperity-….tmp`.
+pub fn write_new_file(
+    path: &Path,
+    overwrite: bool,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let failed = WriteError::failed(path);
+    let not_regular = "this is not a regular file; allowed: the name of a file";
+    let place = target(path, overwrite)?.ok_or_else(|| WriteError::unsuitable(path, not_regular));
+    let (place, permissions) = place?;
+    let mut file = temporary(&place)?;
+    fill(&mut file.file, write).map_err(&failed)?;
+    if let Some(permissions) = permissions {
+        file.file.set_permissions(permissions).map_err(&failed)?;
+    }
+    file.file.sync_all().map_err(&failed)?;
+    let name = file.named(&place).map_err(&failed)?;
+    let named = if overwrite { name.persist(&place) } else { name.persist_noclobber(&place) };
+    named.map_err(|error| match error.error.kind() {
+        io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
+        _ => failed(error.error),
+    })?;
+    // The name has to be durable as well.
+    sync_folder(folder_of(&place)).map_err(failed)
+}
+
+/// A file that is being written, removed unless it is given a name.
+struct Temporary {
+    file: File,
+    /// Its present name; on Linux there is none, so that the system removes the file at any end of the process.
+    name: Option<TempPath>,
+}
+
+impl Temporary {
+    /// The file under a temporary name in the folder of another file.
+    fn named(self, path: &Path) -> io::Result<TempPath> {
+        match self.name {
+            Some(name) => Ok(name),
+            None => Ok(names().make_in(folder_of(path), |name| link(&self.file, name))?.into_temp_path()),
+        }
+    }
+}
+
+/// Makes a temporary file in the folder of another one.
+fn temporary(path: &Path) -> Result<Temporary, WriteError> {
+    let folder = folder_of(path);
+    if let Some(file) = unnamed(folder) {
+        return Ok(Temporary { file, name: None });
+    }
+    let mut file = names();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        file.permissions(Permissions::from_mode(0o666));
+    }
+    let file = file.tempfile_in(folder).map_err(|reason| match folder.is_dir() {
+        true => WriteError::Failed { path: path.into(), reason },
+        false => WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder))),
+    })?;
+    let (file, name) = file.into_parts();
+    Ok(Temporary { file, name: Some(name) })
+}
+
+fn names() -> tempfile::Builder<'static, 'static> {
+    let mut names = tempfile::Builder::new();
+    names.prefix(".asperity-").suffix(".tmp");
+    names
+}
+
+/// A file without a name in a folder, where the system and the file system have such files.
+#[cfg(target_os = "linux")]
+fn unnamed(folder: &Path) -> Option<File> {
+    use rustix::fs::{CWD, Mode, OFlags, openat};
+    let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
+    let file = openat(CWD, folder, flags, Mode::from_raw_mode(0o666)).ok()?;
+    Path::new(DESCRIPTORS).is_dir().then(|| file.into())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn unnamed(_: &Path) -> Option<File> {
+    None
+}
+
+/// Folder of the open files of this process.
+#[cfg(target_os = "linux")]
+const DESCRIPTORS: &str = "/proc/self/fd";
+
+/// Gives a name to a file without one.
+#[cfg(target_os = "linux")]
+fn link(file: &File, name: &Path) -> io::Result<()> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd;
+    let open = Path::new(DESCRIPTORS).join(file.as_raw_fd().to_string());
+    Ok(linkat(CWD, open, CWD, name, AtFlags::SYMLINK_FOLLOW)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn link(_: &File, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// Waits until the names in a folder have reached the disk.
+pub fn sync_folder(path: &Path) -> io::Result<()> {
+    use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    match File::open(path).and_then(|folder| folder.sync_all()) {
+        // Some systems cannot open a folder, some folders may not be read, and some file systems cannot synchronise one:
+        // there, names are as safe as the system makes them.
+        Err(error) if matches!(error.kind(), PermissionDenied | InvalidInput | Unsupported) => Ok(()),
+        synced => synced,
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
+}
+
+fn fill(
+    file: &mut (impl Write + Send),
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffered = BufWriter::with_capacity(BUFFER, file);
+    write(&mut buffered)?;
+    buffered.flush()
+}
+
+/// The file behind a name, existing or not, with the permissions of the one that it replaces; `None` for a pipe or a device.
+fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permissions>)>, WriteError> {
+    let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
+    let found = fs::metadata(path);
+    let is_folder = found.as_ref().is_ok_and(fs::Metadata::is_dir);
+    if path.file_name().is_none() || ends_as_folder || is_folder {
+        return Err(WriteError::unsuitable(path, "this is not the name of a file"));
+    }
+    match found {
+        Ok(found) if !found.is_file() => Ok(None),
+        Ok(_) if !overwrite => Err(WriteError::Exists(path.into())),
+        Ok(found) if found.permissions().readonly() => {
+            Err(WriteError::unsuitable(path, "this file may not be written"))
+        }
+        // Through a link to its target: the link itself is kept.
+        Ok(found) => {
+            let path = fs::canonicalize(path).map_err(WriteError::failed(path))?;
+            Ok(Some((path, Some(found.permissions()))))
+        }
+        // A dangling link exists all the same.
+        Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => Err(WriteError::Exists(path.into())),
+        // To its target, as through any other link. A circle of links is another error.
+        Err(reason) if reason.kind() == io::ErrorKind::NotFound && path.is_symlink() => {
+            let link = fs::read_link(path).map_err(WriteError::failed(path))?;
+            target(&folder_of(path).join(link), overwrite)
+        }
+        Err(reason) if reason.kind() == io::ErrorKind::NotFound => Ok(Some((path.into(), None))),
+        Err(reason) => Err(WriteError::failed(path)(reason)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names_in(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    #[test]
+    fn a_file_is_written_once_and_overwritten_only_when_asked() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        write_new(&path, false, |out| out.write_all(b"one")).unwrap();
+        let again = write_new(&path, false, |out| out.write_all(b"two"));
+        assert!(matches!(again, Err(WriteError::Exists(_))), "{again:?}");
+        assert!(matches!(check_writable(&path, false), Err(WriteError::Exists(_))));
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+        check_writable(&path, true).unwrap();
+        write_new(&path, true, |out| out.write_all(b"two")).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(names_in(folder.path()), ["curve.csv"]);
+    }
+
+    #[test]
+    fn a_failure_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        let in_folder = || names_in(folder.path());
+        let broken = |out: &mut (dyn Write + Send)| {
+            out.write_all(&[b'x'; 2 * BUFFER])?;
+            // Nothing would stay if the process ended here.
+            assert!(!cfg!(target_os = "linux") || !in_folder().iter().any(|name| name.ends_with(".tmp")));
+            Err(io::Error::other("no more"))
+        };
+        assert!(write_new(&path, false, broken).unwrap_err().to_string().contains("no more"));
+        assert_eq!(names_in(folder.path()), Vec::<String>::new());
+        write_new(&path, false, |out| out.write_all(b"one")).unwrap();
+        assert!(write_new(&path, true, broken).is_err());
+        assert_eq!(names_in(folder.path()), ["curve.csv"]);
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+    }
+
+    #[test]
+    fn a_file_that_appears_meanwhile_is_not_overwritten() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("curve.csv");
+        let late = write_new(&path, false, |out| {
+            fs::write(&path, "theirs")?;
+            out.write_all(b"ours")
+        });
+        assert!(matches!(late, Err(WriteError::Exists(_))), "{late:?}");
+        assert_eq!(fs::read(&path).unwrap(), b"theirs");
+        assert_eq!(names_in(folder.path()), ["curve.csv"]);
+    }
+
+    #[test]
+    fn a_path_without_a_file_name_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        for (path, expected) in [
+            (folder.path().to_path_buf(), "not the name of a file"),
+            (folder.path().join("new/"), "not the name of a file"),
+            (folder.path().join(".."), "not the name of a file"),
+            (PathBuf::new(), "not the name of a file"),
+            (folder.path().join("none/curve.csv"), "there is no folder"),
+            (folder.path().join("x".repeat(1000)), "cannot be written"),
+        ] {
+            let message = check_writable(&path, true).unwrap_err().to_string();
+            assert!(message.contains(expected), "{message}");
+        }
+        assert_eq!(names_in(folder.path()), Vec::<String>::new());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_lead_to_the_file_they_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link, lost) =
+            (folder.path().join("file"), folder.path().join("link"), folder.path().join("lost"));
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        std::os::unix::fs::symlink(folder.path().join("nothing"), &lost).unwrap();
+        fs::write(&file, "one").unwrap();
+        assert!(matches!(check_writable(&link, false), Err(WriteError::Exists(_))));
+        assert!(matches!(check_writable(&lost, false), Err(WriteError::Exists(_))));
+        write_new(&link, true, |out| out.write_all(b"two")).unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"two");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        write_new(&lost, true, |out| out.write_all(b"found")).unwrap();
+        assert_eq!(fs::read(folder.path().join("nothing")).unwrap(), b"found");
+        assert!(fs::symlink_metadata(&lost).unwrap().is_symlink());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn pipes_and_devices_are_refused_at_once_where_a_file_is_asked_for() {
+        use rustix::fs::{CWD, FileType, Mode, mknodat};
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        mknodat(CWD, &pipe, FileType::Fifo, Mode::from_raw_mode(0o600), 0).unwrap();
+        for path in [&pipe, Path::new("/dev/null")] {
+            for overwrite in [false, true] {
+                let refused = write_new_file(path, overwrite, |out| out.write_all(b"one"));
+                assert!(matches!(refused, Err(WriteError::Unsuitable { .. })), "{refused:?}");
+            }
+        }
+        assert_eq!(names_in(folder.path()), ["pipe"]);
+        let path = folder.path().join("curve.csv");
+        write_new_file(&path, false, |out| out.write_all(b"one")).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_are_written_to_and_stay_devices() {
+        let null = Path::new("/dev/null");
+        check_writable(null, false).unwrap();
+        write_new(null, true, |out| out.write_all(b"gone")).unwrap();
+        assert!(!fs::metadata(null).unwrap().is_file());
+    }
+}

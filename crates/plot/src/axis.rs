@@ -1,0 +1,176 @@
+//! Axes: scale, range, label and unit.
+
+use super::label::{Label, prefixed};
+use super::scale::Span;
+use super::ticks::{Tick, ticks};
+use asperity_data::AxisScale;
+
+/// Largest numbers of a linear axis whose ticks have few digits.
+const SHORT: (f64, f64) = (1e-3, 1e6);
+
+/// An axis: its scale, its range and the quantity along it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Scale of the axis.
+    pub scale: AxisScale,
+    /// Range, coordinates.
+    pub span: Span,
+    /// Name of the quantity in words.
+    pub name: String,
+    /// Symbol such as `F_n`; may be empty, as may the name.
+    pub symbol: String,
+    /// SI unit; `1` or empty for numbers.
+    pub unit: String,
+    /// Names at the coordinates 0, 1, … in place of numbers; empty for an axis with numbers.
+    pub names: Vec<Label>,
+}
+
+impl Axis {
+    /// Creates an axis of a quantity with this name, symbol and SI unit.
+    pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> Axis {
+        let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
+        Axis { scale, span, name, symbol, unit, names: Vec::new() }
+    }
+
+    /// An axis with names in place of numbers, the first at 0, each in the middle of a range of 1.
+    pub fn of_names(names: Vec<Label>) -> Axis {
+        let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
+        Axis { names, ..Axis::new(AxisScale::Linear, span, "", "", "") }
+    }
+
+    /// Position of a number from 0 at the lower to 1 at the upper end; not finite if the scale has no coordinate
+    /// for the number.
+    pub fn share(&self, number: f64) -> f64 {
+        (self.scale.coordinate(number) - self.span.low) / self.span.width()
+    }
+
+    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Numbers without a prefix
+    /// are divided by a power of ten where a linear axis would have too many digits.
+    pub fn prefix(&self) -> (f64, String) {
+        let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
+        let largest = ends[0].max(ends[1]);
+        let (divisor, unit) = prefixed(&self.unit, largest);
+        let is_short = (SHORT.0..SHORT.1).contains(&(largest / divisor));
+        if self.scale == AxisScale::Logarithmic || is_short || !largest.is_normal() {
+            return (divisor, unit);
+        }
+        let power = 3 * (largest.log10() / 3.0).floor() as i32;
+        (10_f64.powi(power), format!("{} {unit}", Label::power_of_ten(power)).trim_end().to_owned())
+    }
+
+    /// Name and symbol with the prefixed unit in brackets.
+    pub fn label_with_unit(&self) -> Label {
+        self.with_unit(Label::quantity(&self.name, &self.symbol))
+    }
+
+    /// Name and symbol with the prefixed unit, or without the name, if there is a symbol, where that is too wide.
+    pub(super) fn label_within(&self, most: f64) -> Label {
+        let label = self.label_with_unit();
+        if label.width() <= most { label } else { self.symbol_with_unit() }
+    }
+
+    /// Symbol with the prefixed unit in brackets; the name of an axis without a symbol.
+    pub fn symbol_with_unit(&self) -> Label {
+        self.with_unit(self.symbol_or_name())
+    }
+
+    /// Returns the symbol, or the name of a quantity without a symbol.
+    pub fn symbol_or_name(&self) -> Label {
+        Label::symbol_or_name(&self.symbol, &self.name)
+    }
+
+    fn with_unit(&self, label: Label) -> Label {
+        match self.prefix().1 {
+            unit if unit.is_empty() => label,
+            unit => label.then(&format!(" ({unit})")),
+        }
+    }
+
+    /// Ticks at coordinates, about `most` of them labelled, but two where the span contains two round numbers.
+    pub fn ticks(&self, most: usize) -> Vec<Tick> {
+        if !self.names.is_empty() {
+            let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };
+            return self.names.iter().enumerate().map(tick).collect();
+        }
+        let of = |most| ticks(self.scale, self.span, self.prefix().0, most);
+        let two = |ticks: &Vec<Tick>| ticks.iter().filter(|tick| tick.label.is_some()).nth(1).is_some();
+        (most..=most + 2).map(of).find(two).unwrap_or_else(|| of(most))
+    }
+}
+
+/// A place in a chart: shares of both axes, 0 to 1.
+pub(super) type Share = (f64, f64);
+
+#[derive(Clone, Copy)]
+pub(super) struct Axes<'a> {
+    pub x: &'a Axis,
+    pub y: &'a Axis,
+}
+
+impl Axes<'_> {
+    /// Place of a point, at the border for a point outside; `None` without coordinates.
+    pub(super) fn place(self, (x, y): (f64, f64)) -> Option<Share> {
+        self.y.share(y).is_finite().then(|| self.place_at_end((x, y))).flatten()
+    }
+
+    /// Place of a point; a y without a coordinate is at the end of the axis.
+    pub(super) fn place_at_end(self, (x, y): (f64, f64)) -> Option<Share> {
+        let (x, y) = (self.x.share(x), self.y.share(y));
+        x.is_finite().then(|| (x.clamp(0.0, 1.0), if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) }))
+    }
+
+    /// Places of points, in runs that end where a point has no coordinates.
+    pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
+        let places: Vec<Option<Share>> = points.map(|point| self.place(point)).collect();
+        let runs = places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect());
+        runs.filter(|run: &Vec<Share>| !run.is_empty()).collect()
+    }
+
+    /// Runs through the ends of the columns of an envelope, each from the end nearer to the previous point on; a column
+    /// outside interrupts a run.
+    pub(super) fn envelope(self, (from, to): (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
+        let mut last: Option<f64> = None;
+        let points = columns.iter().enumerate().flat_map(|(column, ends)| {
+            let inside = ends.filter(|(low, high)| self.y.share(*high) >= 0.0 && self.y.share(*low) <= 1.0);
+            let (low, high) = inside.unwrap_or((f64::NAN, f64::NAN));
+            let falls = last.is_some_and(|last| (last - high).abs() < (last - low).abs());
+            let ends = if falls { [high, low] } else { [low, high] };
+            last = Some(ends[1]).filter(|end| end.is_finite());
+            let middle = from + (to - from) * (column as f64 + 0.5) / columns.len() as f64;
+            ends.map(|end| (middle, end))
+        });
+        self.runs(points)
+    }
+
+    /// Ends of a guide across the chart, upright or level; `None` outside.
+    pub(super) fn guide(self, at: f64, upright: bool) -> Option<[Share; 2]> {
+        let share = if upright { self.x.share(at) } else { self.y.share(at) };
+        let ends = if upright { [(share, 0.0), (share, 1.0)] } else { [(0.0, share), (1.0, share)] };
+        (0.0..=1.0).contains(&share).then_some(ends)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_a_position_and_a_unit() {
+        let span = Span { low: -2.0, high: 0.0 };
+        let axis = Axis::new(AxisScale::Logarithmic, span, "preload", "F_n", "N");
+        assert_eq!(axis.share(0.1), 0.5);
+        assert!(!axis.share(0.0).is_finite() && !axis.share(-1.0).is_finite());
+        assert_eq!(axis.label_with_unit().to_string(), "preload F_n (N)");
+        assert_eq!(axis.symbol_with_unit().to_string(), "F_n (N)");
+        let unnamed = Axis::new(AxisScale::Linear, span, "relative error", "", "1");
+        assert_eq!(unnamed.symbol_with_unit(), unnamed.label_with_unit());
+        let axis = Axis::new(AxisScale::Linear, Span { low: -3e-6, high: 1e-6 }, "", "F", "N");
+        assert_eq!(axis.label_with_unit().to_string(), "F (µN)");
+        let share = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 7e18 }, "", "F_a/F_n", "1");
+        assert_eq!(share.label_with_unit().to_string(), "F_a/F_n (10¹⁸)");
+        let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();
+        assert_eq!(labels.iter().map(Label::to_string).collect::<Vec<_>>(), ["-3", "-2", "-1", "0", "1"]);
+        let hurst = Axis::new(AxisScale::Linear, Span { low: 0.075, high: 0.925 }, "", "H", "1");
+        assert_eq!(hurst.ticks(3).into_iter().filter(|tick| tick.label.is_some()).count(), 4);
+    }
+}

@@ -1,0 +1,53 @@
+//! Legends in cells.
+
+use super::style::{CellStyle, glyph};
+use crate::chart::{Chart, Entry, Sample, Stroke};
+use crate::label::Label;
+use ratatui::text::Span as Text;
+
+fn strokes(stroke: Stroke) -> [&'static str; 3] {
+    match stroke {
+        Stroke::Solid => ["⠒"; 3],
+        Stroke::Dashed => ["⠒", "⠂", "⠒"],
+        Stroke::Dotted => ["⠒", " ", "⠒"],
+        Stroke::Sparse => ["⠂", " ", "⠂"],
+    }
+}
+
+fn text_of(sample: Sample) -> String {
+    match sample {
+        Sample::Line(stroke, sign) => {
+            let [left, middle, right] = stroke.map_or(["", "", ""], strokes);
+            format!("{left}{}{right}", sign.map_or(middle, glyph))
+        }
+        Sample::Area => strokes(Stroke::Sparse).concat(),
+        Sample::Solid => "■".to_owned(),
+        Sample::Guide => "┊".to_owned(),
+        Sample::Contour => "▁▕".to_owned(),
+        Sample::Empty => "blank:".to_owned(),
+    }
+}
+
+/// Entries of the legend of charts: sample and name.
+pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
+    // Cells of a map hold letters of their classes.
+    let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);
+    let mut parts = Vec::new();
+    for entry in Entry::of_charts(charts) {
+        let mut part: Vec<Text<'static>> = Vec::new();
+        let letter =
+            classes().find(|class| Label::plain(&class.name) == entry.name).and_then(|class| class.letter);
+        for (ink, sample) in entry.samples {
+            let text = match (sample, letter) {
+                (Sample::Line(..), Some(letter)) => letter.to_string(),
+                (sample, _) => text_of(sample),
+            };
+            if part.last().is_none_or(|last| *last.content != text) {
+                part.push(Text::styled(text, (style.ink)(ink)));
+            }
+        }
+        part.push(Text::raw(format!(" {}", entry.name)));
+        parts.push(part);
+    }
+    parts
+}

@@ -1,0 +1,119 @@
+//! Layers as dots of a canvas whose bounds are those of the axes, 0 to 1.
+
+use crate::axis::{Axes, Share};
+use crate::chart::{Chart, Shape, Stroke};
+use ratatui::style::Color;
+use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
+
+pub(super) struct LayerShape<'a> {
+    pub chart: &'a Chart,
+    pub shape: &'a Shape,
+    pub colour: Color,
+}
+
+/// A column and a row of dots.
+type Dot = (usize, usize);
+
+impl LayerShape<'_> {
+    fn axes(&self) -> Axes<'_> {
+        Axes { x: &self.chart.x, y: &self.chart.y }
+    }
+
+    fn paint(&self, painter: &mut Painter<'_, '_>, (x, y): Dot) {
+        painter.paint(x, y, self.colour);
+    }
+
+    fn lines(&self, painter: &mut Painter<'_, '_>, runs: &[Vec<Share>], stroke: Stroke) {
+        let mut painted = 0_usize;
+        for run in runs {
+            let dots: Vec<Dot> = run.iter().filter_map(|(x, y)| painter.get_point(*x, *y)).collect();
+            for (index, dot) in dots.iter().enumerate() {
+                for dot in between(dots[index.saturating_sub(1)], *dot) {
+                    if paints(stroke, painted) {
+                        self.paint(painter, dot);
+                    }
+                    painted += 1;
+                }
+            }
+        }
+    }
+
+    /// Every other dot of the inside of a closed line: dots with an odd number of crossings of the border below them.
+    fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
+        let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
+        let shares: Vec<(f64, f64)> =
+            border.iter().map(|(x, y)| (self.chart.x.share(*x), self.chart.y.share(*y))).collect();
+        let ends = || shares.iter().zip(shares.iter().cycle().skip(1));
+        for column in 0..=last {
+            let x = column as f64 / last.max(1) as f64;
+            let mut crossings: Vec<f64> = ends()
+                .filter(|(a, b)| (a.0 <= x) != (b.0 <= x))
+                .map(|(a, b)| a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0))
+                .filter(|y| y.is_finite())
+                .collect();
+            crossings.sort_unstable_by(f64::total_cmp);
+            for pair in crossings.chunks_exact(2) {
+                let row = |y: f64| painter.get_point(x, y.clamp(0.0, 1.0)).map(|(_, row)| row);
+                let (Some(low), Some(high)) = (row(pair[0]), row(pair[1])) else { continue };
+                (high..=low)
+                    .filter(|y| (column + y).is_multiple_of(2))
+                    .for_each(|y| self.paint(painter, (column, y)));
+            }
+        }
+    }
+}
+
+impl CanvasShape for LayerShape<'_> {
+    fn draw(&self, painter: &mut Painter<'_, '_>) {
+        match self.shape {
+            Shape::Curve { points, stroke: Some(stroke), .. } => {
+                self.lines(painter, &self.axes().runs(points.iter().copied()), *stroke);
+            }
+            Shape::Band(points) => {
+                for end in [|point: &(f64, f64, f64)| point.1, |point: &(f64, f64, f64)| point.2] {
+                    let runs = self.axes().runs(points.iter().map(|point| (point.0, end(point))));
+                    self.lines(painter, &runs, Stroke::Sparse);
+                }
+            }
+            Shape::Envelope { x, columns } => {
+                self.lines(painter, &self.axes().envelope(*x, columns), Stroke::Solid);
+            }
+            Shape::Inside(border) => self.inside(painter, border),
+            Shape::Boxes(boxes) => {
+                for ((left, right), (low, high)) in boxes {
+                    let dot = |point| self.axes().place(point).and_then(|(x, y)| painter.get_point(x, y));
+                    let (Some(from), Some(to)) = (dot((*left, *high)), dot((*right, *low))) else { continue };
+                    for y in from.1..=to.1 {
+                        (from.0..=to.0).for_each(|x| self.paint(painter, (x, y)));
+                    }
+                }
+            }
+            Shape::Upright(at) | Shape::Level(at) => {
+                let ends = self.axes().guide(*at, matches!(self.shape, Shape::Upright(_)));
+                let runs = ends.map(Vec::from);
+                self.lines(painter, runs.as_slice(), Stroke::Sparse);
+            }
+            Shape::Curve { stroke: None, .. } | Shape::Map(_) => {}
+        }
+    }
+}
+
+/// Returns true for the painted dots of a stroke: lines differ without colours.
+fn paints(stroke: Stroke, dot: usize) -> bool {
+    match stroke {
+        Stroke::Solid => true,
+        Stroke::Dashed => dot % 8 < 6,
+        Stroke::Dotted => dot % 4 < 2,
+        Stroke::Sparse => dot.is_multiple_of(4),
+    }
+}
+
+/// The dots from one to another, without the first unless both are the same.
+fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
+    let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
+    let steps = dx.abs().max(dy.abs()).max(1.0) as usize;
+    (1..=steps).map(move |step| {
+        let share = step as f64 / steps as f64;
+        ((from.0 as f64 + dx * share).round() as usize, (from.1 as f64 + dy * share).round() as usize)
+    })
+}

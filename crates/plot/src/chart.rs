@@ -1,0 +1,377 @@
+//! Content of a figure: charts with axes and layers of data in SI units. The backend decides on the appearance.
+
+use super::axis::Axis;
+use super::colour::{Ink, Rgb, Shades};
+use super::label::Label;
+use super::scale::Span;
+use asperity_data::AxisScale;
+
+/// Charts in rows under one title, with one legend.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Figure {
+    /// Title; may be empty.
+    pub title: String,
+    /// Lines below the title.
+    pub notes: Vec<Label>,
+    /// Charts of the figure, side by side or below each other.
+    pub charts: Vec<Chart>,
+    /// Frame of each chart, px; only its proportion counts in a figure of a given width.
+    pub size: (f64, f64),
+    /// Version, command and scene, in the metadata of a document.
+    pub origin: String,
+    /// Lines in a box below the legend.
+    pub parameters: Vec<Label>,
+    /// Width of a picture, px of 1/96 inch, in which letters and lines keep their size; else that of its frames.
+    pub width: Option<f64>,
+}
+
+impl Figure {
+    /// Frame of a map or of one of several charts, px.
+    pub const SMALL: (f64, f64) = (330.0, 270.0);
+    /// Frame of a single chart, px.
+    pub const WIDE: (f64, f64) = (480.0, 300.0);
+    /// Frame of a chart over the position, px.
+    pub const LOW: (f64, f64) = (640.0, 240.0);
+
+    /// Creates a figure of one chart.
+    pub fn of_chart(title: &str, chart: Chart) -> Figure {
+        Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
+    }
+
+    /// The charts of several figures with their titles and notes as headings.
+    pub fn of_panels(figures: Vec<Figure>) -> Figure {
+        let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
+        let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
+            charts.into_iter().map(move |chart| {
+                let parts = [Label::plain(&title), chart.heading.clone()];
+                let parts = parts.iter().chain(&notes).filter(|part| !part.is_empty()).cloned();
+                let heading = parts.reduce(|heading, part| heading.then(", ").join(&part));
+                Chart { heading: heading.unwrap_or_default(), ..chart }
+            })
+        });
+        Figure { charts: panels.collect(), size, ..Figure::default() }
+    }
+
+    /// Heading of a chart with its letter; none in a figure of one chart.
+    pub(super) fn heading(&self, index: usize) -> Option<Label> {
+        let chart = self.charts.get(index).filter(|_| self.charts.len() > 1)?;
+        let letter = char::from(b'a' + (index % 26) as u8);
+        Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
+    }
+
+    /// Returns the entries of the legend: each name once, with all that is drawn under the name.
+    pub fn legend(&self) -> Vec<Entry> {
+        Entry::of_charts(&self.charts)
+    }
+}
+
+/// Data over two axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// Heading, shown in figures of several charts; may be empty.
+    pub heading: Label,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// Layers, the lowest first.
+    pub layers: Vec<Layer>,
+}
+
+impl Chart {
+    /// Creates a chart of layers over two axes.
+    pub fn new(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
+        Chart { heading: Label::default(), x, y, layers }
+    }
+
+    /// The chart with symbols alone on its axes, where they have symbols.
+    pub fn with_symbols(mut self) -> Chart {
+        for axis in [&mut self.x, &mut self.y].into_iter().filter(|axis| !axis.symbol.is_empty()) {
+            axis.name.clear();
+        }
+        self
+    }
+
+    /// Returns the first map of the chart.
+    pub fn map(&self) -> Option<&HeatMap> {
+        self.layers.iter().find_map(|layer| match &layer.shape {
+            Shape::Map(map) => Some(map.as_ref()),
+            _ => None,
+        })
+    }
+
+    /// Returns the first map of the chart, to change it.
+    pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
+        self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
+            Shape::Map(map) => Some(map.as_mut()),
+            _ => None,
+        })
+    }
+}
+
+/// One kind of data, and its entry in the legend. Layers with the same name share an entry.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Name in the legend; no entry if empty.
+    pub name: Label,
+    /// Ink of the layer.
+    pub ink: Ink,
+    /// Shape of the data.
+    pub shape: Shape,
+}
+
+impl Shape {
+    /// Creates a line through points.
+    pub fn line(points: Vec<(f64, f64)>, stroke: Stroke) -> Shape {
+        Shape::Curve { points, stroke: Some(stroke), sign: None }
+    }
+
+    /// Creates signs at points.
+    pub fn signs(points: Vec<(f64, f64)>, sign: Sign) -> Shape {
+        Shape::Curve { points, stroke: None, sign: Some(sign) }
+    }
+
+    /// Points of a curve, and of an envelope the ends of its columns.
+    pub fn points(&self) -> Vec<(f64, f64)> {
+        match self {
+            Shape::Curve { points, .. } => points.clone(),
+            Shape::Envelope { x: (from, to), columns } => {
+                let at = |index: usize| from + (to - from) * (index as f64 + 0.5) / columns.len() as f64;
+                let ends = columns.iter().enumerate().filter_map(|(index, ends)| Some((at(index), (*ends)?)));
+                let both = |(x, (low, high))| [(x, low)].into_iter().chain((low < high).then_some((x, high)));
+                ends.flat_map(both).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Layer {
+    /// Creates a layer with an entry in the legend.
+    pub fn new(name: Label, ink: Ink, shape: Shape) -> Layer {
+        Layer { name, ink, shape }
+    }
+
+    /// Creates a layer without an entry in the legend.
+    pub fn unnamed(ink: Ink, shape: Shape) -> Layer {
+        Layer::new(Label::default(), ink, shape)
+    }
+}
+
+/// Data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or band.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A line through points, signs at the points, or both.
+    Curve {
+        /// Points of the curve in SI units.
+        points: Vec<(f64, f64)>,
+        /// Stroke of the line; `None`: no line.
+        stroke: Option<Stroke>,
+        /// Sign at each point; `None`: no signs.
+        sign: Option<Sign>,
+    },
+    /// An area between two curves: x, lower and upper y. Ends beyond the axis are drawn at its end.
+    Band(Vec<(f64, f64, f64)>),
+    /// A line with more points than a picture resolves, as its lowest and highest y in columns of equal width.
+    Envelope {
+        /// x at the outer edges of the first and the last column.
+        x: (f64, f64),
+        /// Ends of each column; `None` where the line is interrupted.
+        columns: Vec<Option<(f64, f64)>>,
+    },
+    /// The inside of a closed line.
+    Inside(Vec<(f64, f64)>),
+    /// Filled boxes: ends in x and in y.
+    Boxes(Vec<((f64, f64), (f64, f64))>),
+    /// A line across the chart at this x.
+    Upright(f64),
+    /// A line across the chart at this y.
+    Level(f64),
+    /// A coloured cell for each pair of values of the axes.
+    Map(Box<HeatMap>),
+}
+
+/// Stroke of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// Without gaps.
+    Solid,
+    /// Long dashes.
+    Dashed,
+    /// Short dashes.
+    Dotted,
+    /// Dots far apart.
+    Sparse,
+}
+
+/// Sign at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Filled circle.
+    Dot,
+    /// Filled square.
+    Square,
+    /// Triangle that points upwards.
+    Up,
+    /// Filled diamond.
+    Diamond,
+    /// Open circle.
+    Ring,
+    /// Triangle that points downwards.
+    Down,
+    /// Triangle that points to the left.
+    Left,
+    /// Triangle that points to the right.
+    Right,
+    /// Diagonal cross.
+    Cross,
+    /// Open diamond.
+    HollowDiamond,
+}
+
+impl Sign {
+    /// Sign of one of several curves, counted from 0.
+    pub fn of_series(number: usize) -> Sign {
+        [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
+    }
+}
+
+/// Values on a grid, row by row from the lower left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatMap {
+    /// Values of the columns on the horizontal axis, ascending.
+    pub columns: Vec<f64>,
+    /// Values of the rows on the vertical axis, ascending.
+    pub rows: Vec<f64>,
+    /// Values of the cells in SI units, row by row; `None` for a cell without a value.
+    pub values: Vec<Option<f64>>,
+    /// Axis of the values.
+    pub key: Axis,
+    /// Shades of the values.
+    pub shades: Shades,
+    /// Class of each cell, an index of `class_names`; empty without classes.
+    pub classes: Vec<Option<usize>>,
+    /// Classes of the values; empty for a quantity.
+    pub class_names: Vec<Class>,
+    /// A level line of another field on the same grid.
+    pub contour: Option<Contour>,
+}
+
+/// A class of cells of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Class {
+    /// Sign in a picture.
+    pub sign: Sign,
+    /// Letter in wide cells of a terminal; `None` if the shade itself is the class.
+    pub letter: Option<char>,
+    /// Name in the legend.
+    pub name: String,
+    /// Ink of shades in a terminal without fixed colours.
+    pub ink: Ink,
+}
+
+/// Line on which a field has a level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contour {
+    /// The field, in the order of [`HeatMap::values`].
+    pub field: Vec<Option<f64>>,
+    /// Value along the contour, in the SI unit of the map.
+    pub level: f64,
+    /// Name in the legend.
+    pub name: Label,
+}
+
+impl HeatMap {
+    /// Returns the colour of a value.
+    pub fn colour(&self, value: f64) -> Rgb {
+        self.shades.at(self.key.share(value))
+    }
+
+    /// Number of the band of equal shade for a value, see [`Shades::of_band`].
+    pub fn shade(&self, value: f64) -> usize {
+        ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
+    }
+
+    /// Borders of cells with these values on an axis, in coordinates: halfway between the values.
+    pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
+        let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
+        let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
+        let between: Vec<f64> = places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
+        let (before, after) = match (between.first(), between.last()) {
+            (Some(second), Some(before_last)) => (2.0 * first - second, 2.0 * last - before_last),
+            _ => (first - 0.5, last + 0.5),
+        };
+        [vec![before], between, vec![after]].concat()
+    }
+
+    /// Range of an axis for cells with these values.
+    pub fn span(scale: AxisScale, values: &[f64]) -> Span {
+        let borders = HeatMap::borders(scale, values);
+        Span { low: borders[0], high: borders[borders.len() - 1] }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    pub name: Label,
+    /// Sample of each layer of this name; several for layers in several colours.
+    pub samples: Vec<(Ink, Sample)>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sample {
+    /// A line with a sign on it.
+    Line(Option<Stroke>, Option<Sign>),
+    /// A filled transparent area.
+    Area,
+    /// A filled area.
+    Solid,
+    /// A line across the chart, upright or level.
+    Guide,
+    /// A level line of a map.
+    Contour,
+    /// A cell without a value.
+    Empty,
+}
+
+impl Entry {
+    /// Entries for the layers of charts: each name once, in the order of drawing, areas last.
+    pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
+        let mut entries: Vec<Entry> = Vec::new();
+        let mut add = |name: &Label, ink: Ink, sample: Sample| {
+            if name.is_empty() {
+                return;
+            }
+            match entries.iter_mut().find(|entry| entry.name == *name) {
+                Some(entry) if entry.samples.contains(&(ink, sample)) => {}
+                Some(entry) => entry.samples.push((ink, sample)),
+                None => entries.push(Entry { name: name.clone(), samples: vec![(ink, sample)] }),
+            }
+        };
+        for Layer { name, ink, shape } in charts.iter().flat_map(|chart| &chart.layers) {
+            match shape {
+                Shape::Curve { stroke, sign, .. } => add(name, *ink, Sample::Line(*stroke, *sign)),
+                Shape::Envelope { .. } => add(name, *ink, Sample::Line(Some(Stroke::Solid), None)),
+                Shape::Band(_) | Shape::Inside(_) => add(name, *ink, Sample::Area),
+                Shape::Boxes(_) => add(name, *ink, Sample::Solid),
+                Shape::Upright(_) | Shape::Level(_) => add(name, *ink, Sample::Guide),
+                Shape::Map(map) => {
+                    for (class, Class { sign, name, .. }) in map.class_names.iter().enumerate() {
+                        if map.classes.contains(&Some(class)) {
+                            add(&Label::plain(name), Ink::Text, Sample::Line(None, Some(*sign)));
+                        }
+                    }
+                    if let Some(contour) = &map.contour {
+                        add(&contour.name, Ink::Text, Sample::Contour);
+                    }
+                    if map.values.contains(&None) {
+                        add(&"no value".into(), Ink::Quiet, Sample::Empty);
+                    }
+                }
+            }
+        }
+        // Lines first: an area belongs to a line.
+        entries.sort_by_key(|entry| entry.samples.iter().any(|(_, sample)| *sample == Sample::Area));
+        entries
+    }
+}

@@ -1,0 +1,194 @@
+//! Colours of figures and screenshots.
+
+/// Red, green and blue.
+pub type Rgb = [u8; 3];
+
+/// Colours from hexadecimal numbers, in web notation.
+const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
+    let mut found = [[0; 3]; N];
+    let mut index = 0;
+    while index < N {
+        let [_, red, green, blue] = colours[index].to_be_bytes();
+        found[index] = [red, green, blue];
+        index += 1;
+    }
+    found
+}
+
+/// Colours of a medium.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Palette {
+    /// Colour of text and frames.
+    pub foreground: Rgb,
+    /// Colour behind everything.
+    pub background: Rgb,
+    /// The sixteen colours in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, gray, and their
+    /// bright variants.
+    pub ansi: [Rgb; 16],
+}
+
+impl Palette {
+    /// Light on dark. Red, green, blue and magenta differ, in lightness too, for readers without red or green
+    /// cones.
+    pub const DARK: Palette = Palette {
+        foreground: [0xe1, 0xe6, 0xeb],
+        background: [0x10, 0x15, 0x1b],
+        ansi: rgb([
+            0x10151b, 0xff6b3d, 0x1ab485, 0xf0d655, 0x3b94f5, 0xee97dd, 0x5fd0e6, 0xc4cbd2, 0x858f9a,
+            0xff9370, 0x52d6ac, 0xf7e486, 0x7ab8ff, 0xf5c4ea, 0x96e4f2, 0xffffff,
+        ]),
+    };
+
+    /// Dark on light, as [`Palette::DARK`].
+    pub const LIGHT: Palette = Palette {
+        foreground: [0x1b, 0x20, 0x26],
+        background: [0xff, 0xff, 0xff],
+        ansi: rgb([
+            0x1b2026, 0xcc3f00, 0x00805e, 0x7d6300, 0x005cc2, 0x8e2a7c, 0x007088, 0x525c66, 0x6a747e,
+            0xb33800, 0x006b4f, 0x695300, 0x004b9e, 0x751f66, 0x005c70, 0xffffff,
+        ]),
+    };
+}
+
+/// Meaning of a colour; each backend assigns the colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Ink {
+    /// Text, frames, outlines.
+    Text,
+    /// Guides and other marks in the background.
+    Quiet,
+    /// The rough profile.
+    Profile,
+    /// The surface of the elastic body.
+    Surface,
+    /// Springs in contact.
+    Contact,
+    /// Loading stages.
+    Loading,
+    /// Unloading stages.
+    Unloading,
+    /// Manual loading.
+    Manual,
+    /// A curve in the background, kept while another one is shown.
+    Kept,
+    /// One of several curves kept for comparison, counted from 0.
+    Compared(usize),
+    /// The state that is shown.
+    Cursor,
+    /// One of several curves, counted from 0.
+    Series(usize),
+}
+
+impl Ink {
+    /// Returns the colour of the ink on white paper.
+    pub fn on_paper(self) -> Rgb {
+        let Palette { foreground, ansi, .. } = Palette::LIGHT;
+        match self {
+            Ink::Text | Ink::Profile => foreground,
+            Ink::Quiet | Ink::Kept => ansi[8],
+            Ink::Surface => ansi[4],
+            Ink::Contact | Ink::Cursor => ansi[1],
+            Ink::Loading => ansi[2],
+            Ink::Unloading => ansi[5],
+            Ink::Manual => ansi[6],
+            Ink::Compared(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
+            // Blue, red, black, green, magenta: neighbours differ in lightness.
+            Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
+        }
+    }
+}
+
+/// Colours of the values of a heat map, from low to high.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum Shades {
+    /// From dark to light.
+    Sequential,
+    /// From blue over white to red, for a range with zero in its middle.
+    Diverging,
+}
+
+/// Viridis (van der Walt and Smith, 2015) at equal distances: readable without red or green cones, and
+/// monotonic in lightness.
+const VIRIDIS: [Rgb; 9] =
+    rgb([0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725]);
+
+/// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable without red or green cones.
+const BLUE_TO_RED: [Rgb; 9] =
+    rgb([0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b]);
+
+impl Shades {
+    /// Number of bands of equal shade in a document.
+    pub const BANDS: usize = 64;
+
+    /// Colour of a band, from the lowest one.
+    pub fn of_band(self, band: usize) -> Rgb {
+        self.at((band as f64 + 0.5) / Shades::BANDS as f64)
+    }
+
+    /// Colours at equal distances.
+    pub fn colours(self) -> [Rgb; 9] {
+        match self {
+            Shades::Sequential => VIRIDIS,
+            Shades::Diverging => BLUE_TO_RED,
+        }
+    }
+
+    /// Colour at a share of the range; the lowest one for NaN.
+    pub fn at(self, share: f64) -> Rgb {
+        let colours = self.colours();
+        let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+        let place = share * (colours.len() - 1) as f64;
+        let index = (place as usize).min(colours.len() - 2);
+        let (from, to) = (colours[index], colours[index + 1]);
+        std::array::from_fn(|channel| {
+            let (from, to) = (f64::from(from[channel]), f64::from(to[channel]));
+            (from + (to - from) * (place - index as f64)).round() as u8
+        })
+    }
+}
+
+/// Lightness of a colour in grey, from 0 to 1.
+fn lightness([red, green, blue]: Rgb) -> f64 {
+    (0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)) / 255.0
+}
+
+/// Black or white, whichever is readable on a colour.
+pub(super) fn ink_on(colour: Rgb) -> Rgb {
+    if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
+}
+
+/// A colour in web notation.
+pub fn hex([red, green, blue]: Rgb) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shades_are_ordered_in_grey_and_ink_is_readable_on_them() {
+        let shades = |shades: Shades| (0..=100).map(move |percent| shades.at(f64::from(percent) / 100.0));
+        let greys = |all| shades(all).map(lightness).collect::<Vec<f64>>();
+        let sequential = greys(Shades::Sequential);
+        assert!(sequential.windows(2).all(|pair| pair[0] < pair[1]), "{sequential:?}");
+        assert!(sequential[100] - sequential[0] > 0.7, "{sequential:?}");
+        let diverging = greys(Shades::Diverging);
+        assert!(diverging[..=50].is_sorted() && diverging[50..].iter().rev().is_sorted(), "{diverging:?}");
+        for colour in shades(Shades::Sequential).chain(shades(Shades::Diverging)) {
+            assert!((lightness(colour) - lightness(ink_on(colour))).abs() >= 0.5, "{colour:?}");
+        }
+        assert_eq!([f64::NAN, f64::NEG_INFINITY].map(|share| Shades::Sequential.at(share)), [VIRIDIS[0]; 2]);
+        assert_eq!(Shades::Sequential.at(f64::INFINITY), VIRIDIS[8]);
+    }
+
+    #[test]
+    fn curves_of_a_figure_have_colours_of_their_own() {
+        let colours: Vec<Rgb> = (0..5).map(|number| Ink::Series(number).on_paper()).collect();
+        for (number, colour) in colours.iter().enumerate() {
+            assert!(!colours[..number].contains(colour), "{number}");
+        }
+        assert_eq!(hex([0, 0x5c, 0xc2]), "#005cc2");
+    }
+}

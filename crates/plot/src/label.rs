@@ -1,0 +1,292 @@
+//! Text of figures: italic symbols, indices and exponents, SI prefixes, numbers.
+
+use asperity_data::format_rounded;
+use asperity_data::{grouped, printable, si_prefix};
+use std::fmt;
+
+/// Powers of ten of the smallest and the largest prefix on an axis, femto and giga.
+const LEAST_POWER: i32 = -15;
+const LARGEST_POWER: i32 = 9;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Face {
+    Upright,
+    Italic,
+    Index,
+    Exponent,
+}
+
+/// Blank within a statement, which stays on one line; as a string an ordinary blank.
+const FIXED: char = '\u{a0}';
+
+/// Text with italic symbols, indices and exponents. As a string: `F_a`, `10⁻³`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Label {
+    runs: Vec<(Face, String)>,
+}
+
+impl Label {
+    /// Upright text on one line; control characters are escaped.
+    pub fn plain(text: &str) -> Label {
+        let mut label = Label::default();
+        label.push(Face::Upright, &printable(text));
+        label
+    }
+
+    /// A symbol: its letters in italics, and the text after `_` as an index: `F_a,max`.
+    pub fn symbol(text: &str) -> Label {
+        let mut label = Label::default();
+        let text = printable(text);
+        let mut characters = text.chars().peekable();
+        while let Some(character) = characters.next() {
+            if character == '_' {
+                while let Some(next) = characters.next_if(|next| next.is_alphanumeric() || *next == ',') {
+                    label.push(Face::Index, next.encode_utf8(&mut [0; 4]));
+                }
+            } else if character.is_alphabetic() {
+                label.push(Face::Italic, character.encode_utf8(&mut [0; 4]));
+            } else {
+                label.push(Face::Upright, character.encode_utf8(&mut [0; 4]));
+            }
+        }
+        label
+    }
+
+    /// Name and symbol of a quantity, each of which may be empty.
+    pub fn quantity(name: &str, symbol: &str) -> Label {
+        let space = if name.is_empty() || symbol.is_empty() { "" } else { " " };
+        Label::plain(name).then(space).join(&Label::symbol(symbol))
+    }
+
+    /// Symbol of a quantity, or the name of a quantity without one.
+    pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
+        if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
+    }
+
+    /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
+    pub fn statement(text: &str) -> Label {
+        match text.split_once(" = ") {
+            Some((symbol, value)) => statement("", symbol, value),
+            None => Label::plain(text),
+        }
+    }
+
+    /// Creates the label of a power of ten.
+    pub fn power_of_ten(exponent: i32) -> Label {
+        let mut label = Label::plain("10");
+        label.push(Face::Exponent, &exponent.to_string());
+        label
+    }
+
+    /// Appends upright text.
+    pub fn then(mut self, text: &str) -> Label {
+        self.push(Face::Upright, &printable(text));
+        self
+    }
+
+    /// Appends another label.
+    pub fn join(mut self, other: &Label) -> Label {
+        other.runs.iter().for_each(|(face, text)| self.push(*face, text));
+        self
+    }
+
+    /// Returns true for a label without characters.
+    pub fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+
+    pub(crate) fn runs(&self) -> &[(Face, String)] {
+        &self.runs
+    }
+
+    /// Width in units of the font size, in the widest of the usual sans-serif fonts.
+    pub fn width(&self) -> f64 {
+        self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
+    }
+
+    /// Lines no wider than `most`, in units of the font size, broken between words, and within a longer word.
+    pub fn wrapped(&self, most: f64) -> Vec<Label> {
+        let all = self.runs.iter().flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
+        let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
+        for (face, character) in all {
+            line.push((face, character));
+            width += width_of(face, character);
+            if width > most && line.len() > 1 {
+                let last = |blank| line.iter().rposition(|(_, character)| *character == blank);
+                let blank = last(' ').or_else(|| last(FIXED));
+                let rest = line.split_off(blank.map_or(line.len() - 1, |blank| blank + 1));
+                lines.push(std::mem::replace(&mut line, rest));
+                width = line.iter().map(|(face, character)| width_of(*face, *character)).sum();
+            }
+        }
+        lines.push(line);
+        let label = |line: Vec<(Face, char)>| {
+            let mut label = Label::default();
+            let end = line
+                .iter()
+                .rposition(|(_, character)| ![' ', FIXED].contains(character))
+                .map_or(0, |last| last + 1);
+            line[..end].iter().for_each(|(face, c)| label.push(*face, c.encode_utf8(&mut [0; 4])));
+            label
+        };
+        lines.into_iter().map(label).filter(|line| !line.is_empty()).collect()
+    }
+
+    fn push(&mut self, face: Face, text: &str) {
+        match self.runs.last_mut() {
+            Some((last, run)) if *last == face => run.push_str(text),
+            _ if text.is_empty() => {}
+            _ => self.runs.push((face, text.to_owned())),
+        }
+    }
+}
+
+impl From<&str> for Label {
+    fn from(text: &str) -> Label {
+        Label::plain(text)
+    }
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (face, text) in &self.runs {
+            match face {
+                Face::Upright | Face::Italic => out.write_str(&text.replace(FIXED, " "))?,
+                Face::Index => write!(out, "_{text}")?,
+                Face::Exponent => text.chars().try_for_each(|c| write!(out, "{}", raised(c)))?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Size of indices and exponents, in units of the font size.
+pub(crate) const SMALL: f64 = 0.72;
+
+fn width_of(face: Face, character: char) -> f64 {
+    let share = if matches!(face, Face::Index | Face::Exponent) { SMALL } else { 1.0 };
+    share
+        * match character {
+            'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | '/' | '|' => 0.33,
+            't' | 'f' | 'r' | '(' | ')' => 0.4,
+            'm' | 'w' | 'M' | 'W' => 0.95,
+            '=' | '+' | '±' | '×' => 0.84,
+            c if c.is_uppercase() => 0.72,
+            _ => 0.636,
+        }
+}
+
+fn raised(character: char) -> char {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    match character {
+        '-' => '⁻',
+        c => c.to_digit(10).map_or(c, |digit| DIGITS[digit as usize]),
+    }
+}
+
+/// Divisor and name of a unit with the SI prefix for numbers up to `largest`; `1` has no name.
+pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
+    if matches!(unit, "" | "1") {
+        return (1.0, String::new());
+    }
+    if !(["N", "m", "J", "Pa", "J/m²", "N/m", "N/m²", "s"].contains(&unit)
+        && largest > 0.0
+        && largest.is_finite())
+    {
+        return (1.0, unit.into());
+    }
+    // 999.9999999 nm is 1 µm.
+    let power = (largest * (1.0 + 1e-9)).log10().floor() as i32;
+    let power = (3 * power.div_euclid(3)).clamp(LEAST_POWER, LARGEST_POWER);
+    let prefix = si_prefix(power).unwrap_or_default();
+    (10_f64.powi(power), format!("{prefix}{unit}"))
+}
+
+/// A number with the decimals of `step`.
+pub fn number(value: f64, step: f64) -> String {
+    let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
+    let text = format!("{:.decimals$}", value.abs());
+    let zero = text.chars().all(|digit| matches!(digit, '0' | '.'));
+    let (whole, fraction) = text.split_at(text.find('.').unwrap_or(text.len()));
+    let whole = whole.parse().map_or_else(|_| whole.to_owned(), grouped);
+    format!("{}{whole}{fraction}", if value < 0.0 && !zero { "-" } else { "" })
+}
+
+/// A value with its symbol, or with its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
+pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
+    let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
+    statement(name, symbol, &if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) })
+}
+
+/// A symbol, or a name if `symbol` is empty, with a value in words.
+pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
+    let value = value.replace(' ', "\u{a0}");
+    match symbol {
+        "" => Label::plain(name).then(&format!("{FIXED}{value}")),
+        symbol => Label::symbol(symbol).then(&format!("{FIXED}={FIXED}{value}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_split_into_runs() {
+        let runs = |label: &Label| -> Vec<(Face, String)> { label.runs().to_vec() };
+        assert_eq!(
+            runs(&Label::symbol("F_a(0)/F_a,max")),
+            [
+                (Face::Italic, "F"),
+                (Face::Index, "a"),
+                (Face::Upright, "(0)/"),
+                (Face::Italic, "F"),
+                (Face::Index, "a,max")
+            ]
+            .map(|(face, text)| (face, text.to_owned()))
+        );
+        assert_eq!(Label::symbol("F_a(0)/F_a,max").to_string(), "F_a(0)/F_a,max");
+        assert_eq!(Label::power_of_ten(-12).to_string(), "10⁻¹²");
+        assert_eq!(runs(&Label::statement("H = 0.3"))[1], (Face::Upright, "\u{a0}=\u{a0}0.3".to_owned()));
+        assert!(Label::plain("").is_empty() && Label::symbol("").is_empty());
+        assert_eq!(Label::plain("a\u{1b}[2J\n").to_string(), "a\\u{1b}[2J\\n");
+    }
+
+    #[test]
+    fn lines_break_between_words() {
+        let label = Label::plain("one two ").join(&Label::symbol("F_n")).then(" three");
+        let lines: Vec<String> = label.wrapped(6.0).iter().map(Label::to_string).collect();
+        assert_eq!(lines, ["one two F_n", "three"]);
+        assert!(label.wrapped(6.0).iter().all(|line| line.width() <= 6.0));
+        let word = Label::plain("folder/file").wrapped(2.0);
+        assert!(word.len() > 2 && word.iter().all(|line| line.width() <= 2.0), "{word:?}");
+        assert_eq!(value_label("", "F_n", "N", 2e-5).wrapped(3.0).len(), 2, "one word, too long for a line");
+        assert!(Label::default().wrapped(5.0).is_empty());
+    }
+
+    #[test]
+    fn prefixes_suit_the_largest_number() {
+        assert_eq!(prefixed("N", 2.5e-5), (1e-6, "µN".into()));
+        assert_eq!(prefixed("N", 1e-3), (1e-3, "mN".into()));
+        assert_eq!(prefixed("J/m²", 0.05), (1e-3, "mJ/m²".into()));
+        assert_eq!(prefixed("Pa", 2e6), (1e6, "MPa".into()));
+        assert_eq!(prefixed("N", 1e-18).1, "fN");
+        assert_eq!(prefixed("1", 1e-18), (1.0, String::new()));
+        assert_eq!(prefixed("rad", 1e-3), (1.0, "rad".into()));
+        assert_eq!(prefixed("N", 0.0), (1.0, "N".into()));
+    }
+
+    #[test]
+    fn numbers_have_the_digits_they_need() {
+        assert_eq!(number(0.30000000000000004, 0.1), "0.3");
+        assert_eq!(number(-0.5, 0.05), "-0.50");
+        assert_eq!(number(20.0, 10.0), "20");
+        assert_eq!(number(-1e-18, 0.2), "0.0");
+        assert_eq!(number(-16384.0, 1.0), "-16 384");
+        let text = |symbol: &str, unit: &str, value| value_label("points", symbol, unit, value).to_string();
+        assert_eq!(text("N", "1", 65536.0), "N = 65 536");
+        assert_eq!(text("N", "1", -2.0), "N = -2");
+        assert_eq!(text("", "N", 1.25e-5), "points 12.5 µN");
+        assert_eq!(text("H", "", 0.12345), "H = 0.123");
+    }
+}

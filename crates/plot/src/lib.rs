@@ -1,0 +1,29 @@
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+#![doc = include_str!("../README.md")]
+
+mod axis;
+mod cells;
+mod chart;
+mod colour;
+mod contour;
+#[cfg(any(test, feature = "testing"))]
+pub mod judge;
+mod label;
+mod pdf;
+mod png;
+mod scale;
+mod svg;
+mod ticks;
+
+pub use axis::Axis;
+pub use cells::legend::legend;
+pub use cells::map::{SHADES, key};
+pub use cells::plot::CellPlot;
+pub use cells::style::{CellStyle, Colours, glyph};
+pub use cells::text::figure_text;
+pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stroke};
+pub use colour::{Ink, Palette, Rgb, Shades, hex};
+pub use label::{Label, prefixed, statement, value_label};
+pub use scale::Span;
+pub use svg::elements::{Svg, escaped};

@@ -1,0 +1,259 @@
+//! Elements of an SVG document, with lengths to a hundredth of a pixel.
+
+use crate::chart::Stroke;
+use crate::colour::{Palette, Rgb, hex};
+use crate::label::{Face, Label, SMALL};
+use std::fmt::{Arguments, Write};
+
+pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
+pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
+pub(super) const PAPER: Rgb = Palette::LIGHT.background;
+/// Fill of cells without a value: a grey, which no scale of colours has.
+pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
+
+/// A place in a picture, px from the upper left.
+pub(super) type Place = (f64, f64);
+
+/// Point of a label at its place; vertically always the middle.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Left,
+    Middle,
+    Right,
+    /// Middle of a label that runs upwards.
+    Upwards,
+}
+
+/// Colour, width in px and dashes of a line.
+#[derive(Clone, Copy)]
+pub(super) struct Pen {
+    pub colour: Rgb,
+    pub width: f64,
+    pub stroke: Stroke,
+}
+
+impl Pen {
+    pub(super) fn solid(colour: Rgb, width: f64) -> Pen {
+        Pen { colour, width, stroke: Stroke::Solid }
+    }
+
+    fn attributes(self) -> String {
+        let dashes = match self.stroke {
+            Stroke::Solid => "",
+            Stroke::Dashed => " stroke-dasharray=\"6 3.5\"",
+            Stroke::Dotted => " stroke-dasharray=\"2.5 2.5\"",
+            Stroke::Sparse => " stroke-dasharray=\"1.5 4.5\"",
+        };
+        format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(self.colour), px(self.width))
+    }
+}
+
+/// An SVG document of version 1.1 without references to other files, or a part of one.
+#[derive(Default)]
+pub struct Svg {
+    text: String,
+}
+
+impl Svg {
+    /// Begins a document of this width and height, in user units.
+    pub fn new(width: f64, height: f64, title: &str) -> Svg {
+        let (width, height, title) = (px(width), px(height), escaped(title));
+        let mut svg = Svg { text: String::new() };
+        svg.push(format_args!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>"
+        ));
+        svg
+    }
+
+    /// Adds elements.
+    pub fn push(&mut self, elements: Arguments<'_>) {
+        // Writing to a string cannot fail.
+        let _ = self.text.write_fmt(elements);
+        self.text.push('\n');
+    }
+
+    pub(super) fn append(&mut self, part: Svg) {
+        self.text += &part.text;
+    }
+
+    /// Ends the document and returns its text.
+    pub fn finish(mut self) -> String {
+        self.text.push_str("</svg>\n");
+        self.text
+    }
+
+    /// Adds the elements drawn by `draw` with common attributes.
+    pub(super) fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Svg)) {
+        self.push(format_args!("<g {attributes}>"));
+        draw(self);
+        self.push(format_args!("</g>"));
+    }
+
+    fn rect(&mut self, from: Place, to: Place, looks: &str) {
+        // The ends are rounded, so that adjacent rectangles meet.
+        let length = |from: f64, to: f64| px((100.0 * to).round() / 100.0 - (100.0 * from).round() / 100.0);
+        let (x, y) = (px(from.0), px(from.1));
+        let (width, height) = (length(from.0, to.0), length(from.1, to.1));
+        self.push(format_args!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {looks}/>"));
+    }
+
+    pub(super) fn rectangle(&mut self, from: Place, to: Place, fill: Rgb) {
+        self.rect(from, to, &format!("fill=\"{}\"", hex(fill)));
+    }
+
+    pub(super) fn frame(&mut self, from: Place, to: Place, pen: Pen) {
+        self.rect(from, to, &format!("fill=\"none\" {}", pen.attributes()));
+    }
+
+    pub(super) fn line(&mut self, places: &[Place], pen: Pen) {
+        let (points, pen) = (points(places), pen.attributes());
+        self.push(format_args!(
+            "<polyline points=\"{points}\" fill=\"none\" {pen} stroke-linejoin=\"round\"/>"
+        ));
+    }
+
+    /// Draws straight lines with round ends.
+    pub(super) fn pieces(&mut self, pieces: impl Iterator<Item = [Place; 2]>, pen: Pen) {
+        let piece =
+            |[from, to]: [Place; 2]| format!("M{} {}L{} {}", px(from.0), px(from.1), px(to.0), px(to.1));
+        let (path, pen) = (pieces.map(piece).collect::<String>(), pen.attributes());
+        self.push(format_args!("<path d=\"{path}\" fill=\"none\" {pen} stroke-linecap=\"round\"/>"));
+    }
+
+    pub(super) fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
+        let (points, fill) = (points(places), hex(fill));
+        let opacity =
+            if opacity < 1.0 { format!(" fill-opacity=\"{}\"", px(opacity)) } else { String::new() };
+        self.push(format_args!("<polygon points=\"{points}\" fill=\"{fill}\"{opacity}/>"));
+    }
+
+    /// Fills boxes by their upper left and lower right corners, at least half a pixel wide and high. Boxes with a common
+    /// edge meet without a seam.
+    pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
+        let mut path = String::new();
+        for (from, to) in boxes {
+            let (left, right, bottom) = (px(from.0), px(to.0.max(from.0 + 0.5)), px(to.1.max(from.1 + 0.5)));
+            path += &format!("M{left} {}H{right}V{bottom}H{left}z", px(from.1));
+        }
+        let fill = hex(fill);
+        self.push(format_args!("<path d=\"{path}\" fill=\"{fill}\" shape-rendering=\"crispEdges\"/>"));
+    }
+
+    pub(super) fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
+        let (x, y, radius, fill) = (px(at.0), px(at.1), px(radius), hex(fill));
+        let pen = pen.map_or_else(String::new, |pen| format!(" {}", pen.attributes()));
+        self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"));
+    }
+
+    /// Writes lines of labels below each other, the first at this place, and returns the height of the next one.
+    pub(super) fn lines(&mut self, lines: &[Label], (x, y): Place, size: f64, anchor: Anchor) -> f64 {
+        lines.iter().fold(y, |y, line| {
+            self.label(line, (x, y), size, anchor);
+            y + (1.4 * size).round()
+        })
+    }
+
+    pub(super) fn label(&mut self, label: &Label, at: Place, size: f64, anchor: Anchor) {
+        let (x, y, fill) = (px(at.0), px(at.1), hex(TEXT));
+        let (side, turned) = match anchor {
+            Anchor::Left => ("start", String::new()),
+            Anchor::Middle => ("middle", String::new()),
+            Anchor::Right => ("end", String::new()),
+            Anchor::Upwards => ("middle", format!(" transform=\"rotate(-90 {x} {y})\"")),
+        };
+        // The base line is half the height of a capital letter below the middle.
+        let base = px(at.1 + 0.35 * size);
+        let (runs, size) = (runs(label, size), px(size));
+        self.push(format_args!(
+            "<text x=\"{x}\" y=\"{base}\" font-size=\"{size}\" text-anchor=\"{side}\" fill=\"{fill}\"{turned}>{runs}</text>"
+        ));
+    }
+}
+
+/// Text with minus signs in place of the hyphens before numbers.
+fn with_minus(text: &str) -> String {
+    let characters: Vec<char> = text.chars().collect();
+    let is_minus = |at: usize| {
+        let next = characters.get(at + 1).is_some_and(char::is_ascii_digit);
+        characters[at] == '-' && next && (at == 0 || [' ', '\u{a0}', '('].contains(&characters[at - 1]))
+    };
+    (0..characters.len()).map(|at| if is_minus(at) { '−' } else { characters[at] }).collect()
+}
+
+/// The runs of a label as elements within a text of this size, px.
+fn runs(label: &Label, size: f64) -> String {
+    let mut elements = String::new();
+    let mut shift = 0.0;
+    for (face, text) in label.runs() {
+        let small = || format!(" font-size=\"{}\"", px(SMALL * size));
+        let (below, looks) = match face {
+            Face::Upright => (0.0, String::new()),
+            Face::Italic => (0.0, " font-style=\"italic\"".to_owned()),
+            Face::Index => (0.25 * size, small()),
+            Face::Exponent => (-0.42 * size, small()),
+        };
+        let step = match px(below - shift).as_str() {
+            "0" => String::new(),
+            step => format!(" dy=\"{step}\""),
+        };
+        shift = below;
+        let text = escaped(&with_minus(text));
+        if step.is_empty() && looks.is_empty() {
+            elements.push_str(&text);
+        } else {
+            elements.push_str(&format!("<tspan{step}{looks}>{text}</tspan>"));
+        }
+    }
+    elements
+}
+
+fn points(places: &[Place]) -> String {
+    let texts: Vec<String> = places.iter().map(|(x, y)| format!("{},{}", px(*x), px(*y))).collect();
+    texts.join(" ")
+}
+
+/// A length to a hundredth of a pixel.
+fn px(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// Text with markup escaped. Characters that are invalid in XML become U+FFFD.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\0'..=' ' if character != ' ' => escaped.push('\u{fffd}'),
+            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            _ => escaped.push(character),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_and_exponents_return_to_the_base_line() {
+        let label = Label::symbol("F_a,max").then(" < ").join(&Label::power_of_ten(-3));
+        assert_eq!(
+            runs(&label, 10.0),
+            "<tspan font-style=\"italic\">F</tspan><tspan dy=\"2.5\" font-size=\"7.2\">a,max</tspan>\
+             <tspan dy=\"-2.5\"> &lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
+        );
+    }
+
+    #[test]
+    fn lengths_are_short() {
+        assert_eq!([0.0, -0.001, 1.0, 2.345, -12.5, 120.0].map(px), ["0", "0", "1", "2.35", "-12.5", "120"]);
+        assert_eq!(escaped("a<&>\"\u{1}\u{ffff}é"), "a&lt;&amp;&gt;&quot;\u{fffd}\u{fffd}é");
+    }
+}

@@ -1,0 +1,130 @@
+//! Ticks of axes.
+
+use super::label::{Label, number};
+use super::scale::Span;
+use asperity_data::AxisScale;
+
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tick {
+    /// Coordinate on the axis.
+    pub at: f64,
+    /// Number at the tick; `None` at a minor tick.
+    pub label: Option<Label>,
+}
+
+/// Ticks over a range of coordinates, about `most` of them labelled. Numbers are divided by `divisor`, which
+/// belongs to the prefix of the unit.
+pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, most: usize) -> Vec<Tick> {
+    if high <= low || !(high - low).is_finite() {
+        return Vec::new();
+    }
+    let (factor, shift, mut ticks) = match scale {
+        AxisScale::Linear => (divisor, 0.0, linear(low / divisor, high / divisor, most)),
+        AxisScale::Logarithmic => {
+            let shift = divisor.log10();
+            (1.0, shift, logarithmic(low - shift, high - shift, most))
+        }
+    };
+    ticks.iter_mut().for_each(|tick| tick.at = tick.at * factor + shift);
+    ticks
+}
+
+/// Step of 1, 2 or 5 times a power of ten for about `most` ticks at most, and its number of minor steps.
+fn step_for(width: f64, most: usize) -> (f64, usize) {
+    let least = width / most.max(1) as f64;
+    let power = 10_f64.powf(least.log10().floor());
+    let (factor, between) = [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)]
+        .into_iter()
+        .find(|(factor, _)| factor * power >= 0.8 * least)
+        .unwrap_or((10.0, 5));
+    (factor * power, between)
+}
+
+fn linear(low: f64, high: f64, most: usize) -> Vec<Tick> {
+    let (step, between) = step_for(high - low, most);
+    let small = step / between as f64;
+    let hair = 1e-6 * step;
+    let (first, last) = (((low - hair) / small).ceil() as i64, ((high + hair) / small).floor() as i64);
+    (first..=last)
+        .map(|index| {
+            let at = index as f64 * small;
+            let large = index.rem_euclid(between as i64) == 0;
+            Tick { at, label: large.then(|| Label::plain(&number(at, step))) }
+        })
+        .collect()
+}
+
+fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
+    let hair = 1e-9;
+    let decades = (low - hair).floor() as i32..=(high + hair).ceil() as i32;
+    let inside = |at: f64| (low - hair..=high + hair).contains(&at);
+    let whole = decades.clone().filter(|decade| inside(f64::from(*decade))).count();
+    // With fewer than three decades 2 and 5 are labelled as well.
+    let labelled: &[i32] = match whole {
+        0..=1 if high - low < 0.7 => &[1, 2, 3, 4, 5, 6, 7, 8, 9],
+        0..=2 => &[1, 2, 5],
+        _ => &[1],
+    };
+    let every = whole.div_ceil(most.max(1)).max(1) as i32;
+    // As powers where plain numbers would be long.
+    let powers = low < -3.0 - hair || high > 4.0 + hair;
+    let mut ticks = Vec::new();
+    for decade in decades {
+        for digit in 1..10_i32 {
+            let at = f64::from(decade) + f64::from(digit).log10();
+            if !inside(at) {
+                continue;
+            }
+            let shown = labelled.contains(&digit) && decade.rem_euclid(every) == 0;
+            let label = || match (powers, digit) {
+                (true, 1) => Label::power_of_ten(decade),
+                (true, digit) => Label::plain(&format!("{digit}·")).join(&Label::power_of_ten(decade)),
+                (false, digit) => {
+                    Label::plain(&number(f64::from(digit) * 10_f64.powi(decade), 10_f64.powi(decade)))
+                }
+            };
+            ticks.push(Tick { at, label: shown.then(label) });
+        }
+    }
+    // A range of less than a factor of two may contain no round number.
+    if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
+        let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most);
+        return numbers.into_iter().map(|tick| Tick { at: tick.at.log10(), ..tick }).collect();
+    }
+    ticks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(scale: AxisScale, (low, high): (f64, f64), divisor: f64) -> Vec<String> {
+        let ticks = ticks(scale, Span { low, high }, divisor, 6).into_iter();
+        ticks.filter_map(|tick| Some(tick.label?.to_string())).collect()
+    }
+
+    #[test]
+    fn ticks_are_round_numbers() {
+        use AxisScale::{Linear, Logarithmic};
+        assert_eq!(labels(Linear, (0.1, 0.9), 1.0), ["0.2", "0.4", "0.6", "0.8"]);
+        assert_eq!(labels(Linear, (0.0, 2.5e-5), 1e-6), ["0", "5", "10", "15", "20", "25"]);
+        assert_eq!(labels(Logarithmic, (-0.5, 1.0), 1.0), ["0.5", "1", "2", "5", "10"]);
+        assert_eq!(labels(Logarithmic, (-3.0, 1.0), 1.0), ["0.001", "0.01", "0.1", "1", "10"]);
+        assert_eq!(labels(Logarithmic, (0.3, 0.6), 1.0), ["2", "3"]);
+        assert_eq!(labels(Logarithmic, (0.0, 0.02), 1.0), ["1.00", "1.01", "1.02", "1.03", "1.04"]);
+        assert_eq!(labels(Logarithmic, (-9.0, -3.0), 1.0).len(), 3, "every other decade");
+        assert_eq!(labels(Linear, (1.0, 1.0), 1.0), [""; 0]);
+    }
+
+    #[test]
+    fn ticks_lie_within() {
+        for (low, high) in [(-1.3, 4.2), (0.0, 1e-12), (5.0, 5.001), (-8.1, 9.3)] {
+            for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
+                let ticks = ticks(scale, Span { low, high }, 1.0, 6);
+                let room = 1e-5 * (high - low) + 1e-8;
+                assert!(ticks.iter().all(|tick| (low - room..=high + room).contains(&tick.at)), "{ticks:?}");
+                assert!(ticks.iter().filter(|tick| tick.label.is_some()).count() <= 10, "{ticks:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! The fewest springs, with edges at or between them, that reach a tolerance.
+
+use super::estimate::{Estimate, Evidence, own_errors};
+use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
+use super::table::{REFINEMENTS, first_within};
+use crate::scene::checked::CheckedScene;
+use crate::scene::errors::SceneErrors;
+use crate::scene::model::Solver;
+use crate::simulation::outcome::RunError;
+use asperity_contact::Edges;
+use asperity_data::grouped;
+use serde::Serialize;
+use std::path::Path;
+use thiserror::Error;
+
+/// In the order of preference at the same number of springs.
+const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
+/// Most springs tried, unless the modes of the scene need more: then four times that number.
+const MOST_TRIED: u64 = 1 << 21;
+
+/// Parses a tolerance: `1e-3` or `0.1 %`; the error is the allowed range.
+pub fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
+    let text = text.trim();
+    let (number, whole) = text.strip_suffix('%').map_or((text, 1.0), |number| (number.trim_end(), 100.0));
+    let tolerance = number.parse::<f64>().map_err(|_| allowed())? / whole;
+    if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
+}
+
+/// Springs and edges that reach a tolerance.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Choice {
+    /// Allowed relative error.
+    pub tolerance: f64,
+    /// Quantity of the error.
+    pub target: Target,
+    /// Springs N.
+    pub points: u64,
+    /// Edge model.
+    pub edges: Edges,
+    /// Reached relative error: with a closed form the error itself, else an estimate that includes the estimated
+    /// error of the finest solution.
+    pub error: f64,
+    /// True if the error is relative to a closed form.
+    pub closed_form: bool,
+    /// Springs of the finest solution tried for the choice.
+    pub finest: u64,
+}
+
+impl Choice {
+    /// The scene with these springs and edges.
+    ///
+    /// # Errors
+    /// Another scene than the one of the choice, which does not allow them.
+    pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
+        refined(scene, self.points, self.edges)
+    }
+
+    /// The error of the scene with these springs and edges.
+    pub fn estimate(&self) -> Estimate {
+        let evidence =
+            if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
+        Estimate { target: self.target, error: self.error, near_step: false, evidence }
+    }
+
+    /// Choice and reason in one sentence.
+    pub fn sentence(&self) -> String {
+        let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
+        let (points, target, edges) = (grouped(points), target.name(), edges.name());
+        let estimated = format!("estimated from solutions with up to {} springs", grouped(finest));
+        let from = if closed_form { "by the closed form" } else { &estimated };
+        format!(
+            "{points} springs with edges {edges}: the fewest found to keep the {target} within {tolerance:e}; its \
+             error is {error:.1e}, {from}."
+        )
+    }
+}
+
+/// Reason why no springs were chosen.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ChoiceError {
+    /// The scene could not be computed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A tolerance out of its range.
+    #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
+    Range(f64),
+    /// The stepwise solver has an error of its own that is independent of the springs.
+    #[error(
+        "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
+    )]
+    Stepwise,
+    /// The search was stopped.
+    #[error("the search for springs was stopped")]
+    Stopped,
+    /// Not reached with the largest number of tried springs.
+    #[error("{}", unreached(.tolerance, .best))]
+    Unreached {
+        /// Requested relative error.
+        tolerance: f64,
+        /// The best choice, with a tolerance that it reaches; `None` if nothing is known.
+        best: Option<Box<Choice>>,
+    },
+}
+
+fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
+    let Some(Choice { finest, error, target, points, edges, .. }) = best.as_deref() else {
+        return format!(
+            "a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed"
+        );
+    };
+    let (finest, target, points, edges) = (grouped(*finest), target.name(), grouped(*points), edges.name());
+    format!(
+        "a tolerance of {tolerance:e} is not reached with at most {finest} springs; what is reached is {error:.1e} of \
+         the {target}, with {points} springs and edges {edges}"
+    )
+}
+
+/// Springs and edges with which a checked scene, with files in `folder`, reaches a relative error of at most
+/// `tolerance` in its adhesion force, or in its force curve without a tensile force.
+///
+/// Doubles the springs, and chooses the fewest from which on the error, including that of the finest solution, stays
+/// within the tolerance over at least two refinements: under the loads of the scene, half of them and twice of them (its
+/// target forces and indentations above zero), except where a closed form gives the error itself. With equal springs both
+/// kinds of edges take about the same time, and edges between springs are preferred, whose error falls faster if the
+/// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is polled now and then;
+/// `trying` receives the next number of springs.
+pub fn choose(
+    scene: &CheckedScene,
+    folder: &Path,
+    tolerance: f64,
+    stop: &dyn Fn() -> bool,
+    trying: &mut dyn FnMut(u64),
+) -> Result<Choice, ChoiceError> {
+    if !(tolerance > 0.0 && tolerance < 1.0) {
+        return Err(ChoiceError::Range(tolerance));
+    }
+    if scene.numerics.solver != Solver::Exact {
+        return Err(ChoiceError::Stepwise);
+    }
+    let most = allowed_points(scene).next().map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
+    let mut tried: Vec<[Solution; 2]> = Vec::new();
+    let mut runs = Runs::new(folder, stop);
+    let (mut refused, mut of_finest) = (None, None);
+    for points in allowed_points(scene).take_while(|&points| points <= most) {
+        trying(points);
+        let mut solved = Vec::new();
+        for edges in EDGES {
+            match runs.solve_around(&refined(scene, points, edges).map_err(RunError::from)?) {
+                Err(error) if is_too_coarse(&error) => refused = Some(error),
+                Err(error) if is_spent(&error) => {}
+                solution => solved.push(solution?),
+            }
+        }
+        if stop() {
+            return Err(ChoiceError::Stopped);
+        }
+        let Ok(solved) = solved.try_into() else { continue };
+        tried.push(solved);
+        of_finest = None;
+        let is_enough = |error| judge(&tried, error, tolerance).filter(|choice| choice.error <= tolerance);
+        if is_enough(0.0).is_some() {
+            of_finest = error_of_finest(scene, &mut runs, &tried);
+            if let Some(choice) = of_finest.and_then(is_enough) {
+                return Ok(choice);
+            }
+        }
+    }
+    match refused {
+        Some(error) if tried.is_empty() => return Err(error.into()),
+        _ => of_finest = of_finest.or_else(|| error_of_finest(scene, &mut runs, &tried)),
+    }
+    let best = of_finest.and_then(|error| judge(&tried, error, tolerance)).map(Box::new);
+    Err(ChoiceError::Unreached { tolerance, best })
+}
+
+/// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and
+/// around them; 0 for a scene with a closed form, and `None` if unknown.
+fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution; 2]]) -> Option<f64> {
+    let [finest, _] = tried.last()?;
+    if finest.closed_form.is_some() {
+        return Some(0.0);
+    }
+    own_errors(scene, finest, runs)?[Target::of(finest) as usize]
+}
+
+/// Returns the choice among solutions with edges between and at springs, given the error of the finest; if none is good
+/// enough, the best that is confirmed. `None` for too few solutions.
+fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choice> {
+    let [finest, _] = tried.last()?;
+    let (target, reference, closed_form) =
+        (Target::of(finest), finest.reference(), finest.closed_form.is_some());
+    let candidates = [0, 1].into_iter().filter_map(|index| {
+        let error = |pair: &[Solution; 2]| Some(target.difference(&pair[index], &reference)? + of_finest);
+        let errors = tried.iter().map(error).collect::<Option<Vec<_>>>()?;
+        let confirmed = errors.len().checked_sub(1 + REFINEMENTS)?;
+        let within = first_within(errors.iter().copied().map(Some), tolerance);
+        let largest = || errors[confirmed..].iter().copied().fold(0.0, f64::max);
+        let (place, error) = within.map_or_else(|| (confirmed, largest()), |place| (place, errors[place]));
+        let (points, edges, finest) = (tried[place][index].points, EDGES[index], finest.points);
+        Some(Choice { tolerance, target, points, edges, error, closed_form, finest })
+    });
+    let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
+    // The first of equal choices: edges between springs.
+    let fewest = good.into_iter().min_by_key(|choice| choice.points);
+    fewest.or_else(|| others.into_iter().min_by(|one, other| one.error.total_cmp(&other.error)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Solutions whose adhesion force converges to 1 N from these errors with these orders.
+    fn solutions(count: u32, edges: [(f64, i32); 2]) -> Vec<[Solution; 2]> {
+        let solution = |k: u32, (error, order): (f64, i32)| Solution {
+            points: 16 << k,
+            adhesion_force: Some(1.0 + error * f64::from(1 << k).powi(-order)),
+            ..Solution::default()
+        };
+        (0..count).map(|k| edges.map(|edges| solution(k, edges))).collect()
+    }
+
+    /// Gives each solution a closed form of 1 N.
+    fn known(solutions: Vec<[Solution; 2]>) -> Vec<[Solution; 2]> {
+        let known = |solution| Solution { closed_form: Some(1.0), ..solution };
+        solutions.into_iter().map(|pair| pair.map(known)).collect()
+    }
+
+    #[test]
+    fn tolerances_are_numbers_or_per_cent() {
+        for (text, expected) in [("1e-3", 1e-3), ("0.1%", 1e-3), (" 10 % ", 0.1), ("0.5", 0.5)] {
+            assert!((parse_tolerance(text).unwrap() / expected - 1.0).abs() < 1e-15, "{text}");
+        }
+        for wrong in ["0", "-1", "1", "100%", "nan", "inf", "", "%", "1e-3 %%", "abc"] {
+            assert!(parse_tolerance(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_fewest_springs_that_two_refinements_confirm_are_chosen() {
+        // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
+        let tried = |count| solutions(count, [(0.1, 2), (0.5, 1)]);
+        let choice = judge(&known(tried(5)), 0.0, 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
+        assert!((choice.error - 0.00625).abs() < 1e-12);
+        // With the error of the finest solution.
+        let choice = judge(&tried(6), 0.005, 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (128, Edges::SubCell));
+        assert!((0.006..0.01).contains(&choice.error), "{choice:?}");
+        assert_eq!(judge(&tried(2), 0.0, 0.01), None);
+        // Edges at the springs only if fewer springs suffice.
+        let choice = judge(&known(solutions(5, [(0.1, 2), (0.1, 2)])), 0.0, 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
+        let choice = judge(&known(solutions(5, [(0.5, 1), (0.1, 2)])), 0.0, 0.01).unwrap();
+        assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
+        // The best confirmed choice if none suffices.
+        let choice = judge(&known(tried(4)), 0.0, 1e-6).unwrap();
+        assert_eq!((choice.points, choice.edges), (32, Edges::SubCell));
+        assert!((choice.error - 0.025).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_error_that_is_small_under_one_load_is_not_small() {
+        let mut tried = solutions(5, [(0.1, 2), (1e-4, 1)]);
+        for solution in tried.iter_mut().flatten() {
+            solution.around = vec![Some(1.0)];
+        }
+        let chosen = |tried: &[[Solution; 2]]| {
+            judge(tried, 0.0, 0.01).map(|choice| (choice.points, choice.edges)).unwrap()
+        };
+        assert_eq!(chosen(&tried), (16, Edges::Grid));
+        tried[0][1].around = vec![Some(1.07)];
+        assert_eq!(chosen(&tried), (32, Edges::Grid));
+        tried[2][1].around = vec![None];
+        assert_eq!(chosen(&tried), (64, Edges::SubCell));
+    }
+}

@@ -1,0 +1,253 @@
+//! Estimated error of one outcome, from two more solutions.
+
+use super::solution::{Errors, FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
+use crate::scene::checked::CheckedScene;
+use crate::simulation::outcome::Outcome;
+use asperity_contact::Edges;
+use asperity_data::per_cent;
+use serde::Serialize;
+use std::array;
+use std::path::Path;
+
+/// Most springs of a solution for an estimate only.
+const MOST_SPRINGS: u64 = 1 << 23;
+/// Springs from which on the transform takes most of the time of a solution.
+const MANY_SPRINGS: u64 = 1 << 16;
+/// Springs of two other solutions over those of an estimate: fewer springs, or more where the waves need more.
+const OTHERS: [[(u64, u64); 2]; 2] = [[(7, 8), (2, 3)], [(3, 2), (2, 1)]];
+/// Error over the larger difference from the other solutions.
+///
+/// The other solutions have edges between springs. Whole springs differ from them by their whole error of the first order
+/// in the spacing, and do not agree with them by chance as whole springs on several grids do. An error that falls with the
+/// square of the spacing differs by more than itself on 2/3 of the springs. On rough profiles errors change their sign by
+/// chance. On random scenes at least 95 of 100 true errors are within the estimate, and the estimate is at most ten times
+/// the true error in the median (`tests/program/estimates.rs`).
+const FACTOR: f64 = 4.0;
+/// Relative difference of an adhesion force that may be a step of F_a(F_n).
+const STEP: f64 = 0.05;
+/// Factors of the loads near those of a scene.
+const NEAR: [f64; 2] = [0.95, 1.05];
+
+/// The estimated relative error of an outcome.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Estimate {
+    /// Quantity of the error.
+    pub target: Target,
+    /// The relative error.
+    pub error: f64,
+    /// True if F_n lies near a step of F_a(F_n): another number of springs has another adhesion force, and nearly the same
+    /// under slightly other loads. The error then includes the step.
+    pub near_step: bool,
+    /// Basis of the estimate.
+    pub evidence: Evidence,
+}
+
+impl Estimate {
+    /// Absolute error of the adhesion force of an outcome, N; `None` for an estimate of the curve.
+    pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
+        let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
+        Some(self.error * force.abs()).filter(|error| error.is_finite())
+    }
+
+    /// Error of the force curve, as a share of the largest force; `None` for an estimate of the adhesion force.
+    pub fn of_curve(&self) -> Option<f64> {
+        Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
+    }
+
+    /// The error in words that name its kind, to follow the adhesion force: in per cent, with one digit, or two after
+    /// a leading one, according to the accuracy of an estimate.
+    pub fn words(&self) -> String {
+        match self.target {
+            Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
+            Target::AdhesionForce => format!("grid ± {}", per_cent(self.error)),
+            Target::Curve => format!("grid ± {} of the curve", per_cent(self.error)),
+        }
+    }
+}
+
+/// Basis of an estimate.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Evidence {
+    /// A closed form: the value is the error itself.
+    ClosedForm,
+    /// Solutions of the same profile with these numbers of springs, with edges between springs.
+    Solutions(Vec<u64>),
+}
+
+/// Estimates the error of the adhesion force of an outcome, or of its force curve without a tensile force.
+///
+/// A closed form yields the error itself. Otherwise the same profile is solved exactly with about 7/8 and 2/3 of the springs,
+/// with edges between springs, and the error is four times the larger difference. A profile whose modes need more springs
+/// than that is solved with about 3/2 and twice as many instead. A difference is relative to the smaller of two values.
+///
+/// Returns `None` if the scene has no such figure, if the foundation allows no other number of springs or would need more
+/// than the limit, if a solution on another number of springs cannot reach a target of the loading, or if `stop` ends the
+/// computation.
+pub fn estimate(
+    scene: &CheckedScene,
+    folder: &Path,
+    outcome: &Outcome,
+    stop: &dyn Fn() -> bool,
+) -> Option<Estimate> {
+    let own = Solution::of(scene, outcome);
+    let target = Target::of(&own);
+    if let (Some(exact), Some(force)) = (own.closed_form, own.adhesion_force) {
+        let error = relative_error(force, exact);
+        return Some(Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm });
+    }
+    let mut runs = Runs::new(folder, stop);
+    let mut solved = |scene: &CheckedScene| runs.solve(scene).ok();
+    let others = others(&target.only(scene).ok()?, &mut solved)?;
+    let difference = |solution: &Solution| {
+        Some(target.difference(solution, &own)?.max(target.difference(&own, solution)?))
+    };
+    let differences = others.each_ref().map(|(scene, solution)| (scene, difference(solution)));
+    let near_step = target == Target::AdhesionForce
+        && differences.iter().any(|&(scene, step)| {
+            let step = step.filter(|&step| step > STEP);
+            let mut near = NEAR.iter().filter_map(|&factor| difference(&solved(&loaded(scene, factor)?)?));
+            step.is_some_and(|step| near.any(|rest| rest < step / 3.0))
+        });
+    let error = FACTOR * differences[0].1?.max(differences[1].1?);
+    let springs = others.iter().map(|(_, solution)| solution.points).collect();
+    Some(Estimate { target, error, near_step, evidence: Evidence::Solutions(springs) })
+}
+
+/// Estimates the errors of a solution of a scene with edges between springs, under all loads.
+pub(super) fn own_errors(scene: &CheckedScene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
+    let scene = refined(scene, finest.points, Edges::SubCell).ok()?;
+    let others = others(&scene, &mut |scene| runs.solve_around(scene).ok())?;
+    let [one, other] = others.map(|(_, solution)| solution.errors(finest));
+    Some(array::from_fn(|index| Some(FACTOR * one[index]?.max(other[index]?))))
+}
+
+/// Solves a scene on two other numbers of springs, with edges between springs; `None` where they are not allowed or have
+/// no solution.
+fn others(
+    scene: &CheckedScene,
+    solved: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
+) -> Option<[(CheckedScene, Solution); 2]> {
+    let own = scene.numerics.points;
+    let on = |(times, over): (u64, u64)| {
+        let points = apart_from(own.saturating_mul(times) / over);
+        let is_other = points != own && (points < own) == (times < over);
+        let is_allowed = is_other && (FEWEST..=MOST_SPRINGS).contains(&points);
+        refined(scene, points, Edges::SubCell).ok().filter(|_| is_allowed)
+    };
+    let (one, other) = OTHERS.into_iter().find_map(|[one, other]| Some((on(one)?, on(other)?)))?;
+    let (of_one, of_other) = (solved(&one)?, solved(&other)?);
+    Some([(one, of_one), (other, of_other)])
+}
+
+/// The least number of springs from this one on that suits a Fourier transform, without a prime factor above 13: an odd
+/// one, or twice an odd one where the transform takes most of the time and an odd one doubles it.
+///
+/// Springs of an even number lie at no springs of an odd one, whether the axis of a form is on a spring or not, and powers
+/// of two share two springs with twice an odd number. So no height is the same by the arrangement of the springs.
+fn apart_from(least: u64) -> u64 {
+    let without = |mut number: u64, prime: &u64| {
+        while number.is_multiple_of(*prime) {
+            number /= prime;
+        }
+        number
+    };
+    let suits = |number: &u64| [3, 5, 7, 11, 13].iter().fold(*number, without) == 1;
+    let factor = if least < MANY_SPRINGS { 1 } else { 2 };
+    (least.div_ceil(factor) | 1..).step_by(2).find(suits).map_or(least, |odd| factor * odd)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::document::Document;
+    use crate::scene::open::open;
+    use crate::simulation::stages::Simulation;
+
+    fn run(document: &Document) -> Outcome {
+        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+    }
+
+    fn estimated(document: &Document) -> Option<Estimate> {
+        estimate(document.scene(), Path::new(""), &run(document), &|| false)
+    }
+
+    fn with(scene: &str, fields: &[(&str, &str)]) -> Document {
+        let fields: Vec<_> =
+            fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        open(scene).unwrap().set_all(&fields).unwrap()
+    }
+
+    #[test]
+    fn errors_have_one_digit_and_two_after_a_one() {
+        let words = |target, error| {
+            Estimate { target, error, near_step: false, evidence: Evidence::ClosedForm }.words()
+        };
+        let errors = [0.0042, 0.0104, 0.0148, 0.0096, 0.123, 1.5, 2.3e-5, 9e-6];
+        let texts = ["0.4 %", "1 %", "1.5 %", "1 %", "12 %", "> 100 %", "0.002 %", "< 0.001 %"];
+        for (error, text) in errors.into_iter().zip(texts) {
+            assert_eq!(words(Target::AdhesionForce, error), format!("grid ± {text}"), "{error}");
+        }
+        assert_eq!(words(Target::Curve, 0.9), "grid ± 90 % of the curve");
+    }
+
+    #[test]
+    fn other_numbers_of_springs_are_odd_or_twice_odd() {
+        assert_eq!([14_336, 10_922].map(apart_from), [14_553, 10_935]);
+        assert_eq!([917_504, 699_050].map(apart_from), [2 * 459_375, 2 * 351_351]);
+    }
+
+    #[test]
+    fn errors_of_known_orders_are_within_the_estimate() {
+        for [one, other] in OTHERS {
+            for order in [1.0, 1.5, 2.0, 2.5] {
+                let difference =
+                    |(times, over): (u64, u64)| ((over as f64 / times as f64).powf(order) - 1.0).abs();
+                let estimate = FACTOR * difference(one).max(difference(other));
+                assert!((1.0..10.0).contains(&estimate), "{order}: {estimate}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_closed_form_gives_the_error_itself() {
+        let document = with("jkr-sphere", &[("numerics.points", "1024"), ("numerics.edges", "Grid")]);
+        let Estimate { error, evidence, .. } = estimated(&document).unwrap();
+        let force = run(&document).figures.adhesion_force.unwrap();
+        let expected = (force / (1.5 * std::f64::consts::PI * 0.05 * 1e-4) - 1.0).abs();
+        assert!(evidence == Evidence::ClosedForm && (error / expected - 1.0).abs() < 1e-9, "{error}");
+    }
+
+    #[test]
+    fn the_evidence_is_what_the_scene_allows() {
+        let evidence =
+            |fields: &[(&str, &str)]| estimated(&with("pressure-sensitive", fields)).map(|one| one.evidence);
+        let solutions = |springs: &[u64]| Some(Evidence::Solutions(springs.to_vec()));
+        assert_eq!(evidence(&[("numerics.points", "8192")]), solutions(&[7203, 5577]));
+        // 512 modes need 1024 springs.
+        assert_eq!(evidence(&[("numerics.points", "1024")]), solutions(&[1573, 2079]));
+        assert_eq!(evidence(&[("numerics.points", "1025")]), solutions(&[1573, 2079]));
+        // Few odd numbers suit a transform: none between 27 and 33.
+        let few = [("roughness.modes", "(1, 4)"), ("numerics.points", "33")];
+        assert_eq!(evidence(&few), solutions(&[49, 75]));
+        // Whole springs and the step of the stepwise solver are errors, too.
+        let few = [("roughness.modes", "(1, 64)"), ("numerics.edges", "Grid")];
+        let on = |points, solver| {
+            let numerics = [("numerics.points", points), ("numerics.solver", solver)];
+            with("pressure-sensitive", &[&few[..], &numerics].concat())
+        };
+        let force = |document: &Document| run(document).figures.adhesion_force.unwrap();
+        let truth = force(&on("131072", "Exact"));
+        for solver in ["Exact", "Stepwise(step: 2e-9)", "Stepwise(step: 2e-8)"] {
+            let document = on("512", solver);
+            let (stated, error) =
+                (estimated(&document).unwrap().error, relative_error(force(&document), truth));
+            assert!((1.0..10.0).contains(&(stated / error)), "{solver}: {stated} for {error}");
+        }
+        // No tensile force: the curve; and nothing without a contact.
+        let bare = with("pressure-sensitive", &[("adhesion", "None"), ("numerics.points", "4096")]);
+        assert_eq!(estimated(&bare).unwrap().target, Target::Curve);
+        assert_eq!(estimated(&bare.set("loading", "[ToTouch]").unwrap()), None);
+        assert_eq!(estimate(bare.scene(), Path::new(""), &run(&bare), &|| true), None);
+    }
+}

@@ -1,0 +1,340 @@
+//! Solutions of a scene and its variants, and their relative differences.
+
+use crate::analysis::branches::{Branch, pull_off_point};
+use crate::reference::{PowerLaw, smooth_adhesion_force};
+use crate::scene::checked::CheckedScene;
+use crate::scene::errors::SceneErrors;
+use crate::scene::model::{Scene, Solver};
+use crate::simulation::outcome::{Outcome, RunError};
+use crate::simulation::reversals::FEW_SAMPLES;
+use crate::simulation::stages::Simulation;
+use asperity_contact::{ContactError, Direction, History, LegRecord};
+use asperity_contact::{Edges, Move};
+use asperity_surface::Form;
+use asperity_surface::SurfaceError;
+use serde::Serialize;
+use std::f64::consts::PI;
+use std::path::Path;
+
+pub(super) const FEWEST: u64 = 16;
+/// Factors of the loads of a scene for the loads around them.
+const AROUND: [f64; 2] = [0.5, 2.0];
+
+/// Relative errors or differences in the order of [`crate::accuracy::table::QUANTITIES`]; `None` without such a figure.
+pub(super) type Errors = [Option<f64>; 4];
+
+/// Figures and curve of one solution; a figure of zero has no relative error and is left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Solution {
+    pub points: u64,
+    pub adhesion_force: Option<f64>,
+    /// The adhesion force in closed form, N, if the scene has one.
+    pub closed_form: Option<f64>,
+    /// Adhesion forces under half and under twice the loads, N, if solved.
+    pub around: Vec<Option<f64>>,
+    pub dissipated_energy: Option<f64>,
+    pub contact_length: Option<f64>,
+    pub curve: ForceCurve,
+}
+
+impl Solution {
+    pub(super) fn of(scene: &Scene, outcome: &Outcome) -> Self {
+        let some = |value: f64| (value != 0.0 && value.is_finite()).then_some(value);
+        let figures = &outcome.figures;
+        Solution {
+            points: outcome.line.points as u64,
+            adhesion_force: figures.adhesion_force.and_then(some),
+            closed_form: closed_form_adhesion(scene, outcome),
+            around: Vec::new(),
+            dissipated_energy: figures.dissipated_energy.and_then(some),
+            contact_length: some(longest_contact(outcome)),
+            curve: force_curve(&outcome.history),
+        }
+    }
+
+    /// Returns this solution as a reference, with the adhesion force in closed form if there is one.
+    pub(super) fn reference(&self) -> Solution {
+        match self.closed_form {
+            Some(_) => Solution { adhesion_force: self.closed_form, around: Vec::new(), ..self.clone() },
+            None => self.clone(),
+        }
+    }
+
+    /// Returns the relative differences from a reference. That of the adhesion force is the largest under all loads which
+    /// both have: an error that changes its sign from load to load is not small at all of them by chance.
+    pub(super) fn errors(&self, reference: &Solution) -> Errors {
+        let relative = |value: Option<f64>, reference: Option<f64>| {
+            reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
+        };
+        let around = self.around.iter().zip(&reference.around).map(|(&one, &other)| match (one, other) {
+            (Some(_), None) => f64::INFINITY,
+            _ => relative(one, other).unwrap_or(0.0),
+        });
+        let own = relative(self.adhesion_force, reference.adhesion_force);
+        [
+            own.map(|own| around.fold(own, f64::max)),
+            difference(&self.curve, &reference.curve),
+            relative(self.dissipated_energy, reference.dissipated_energy),
+            relative(self.contact_length, reference.contact_length),
+        ]
+    }
+}
+
+/// Quantity of a tolerance: one of the first two of [`crate::accuracy::table::QUANTITIES`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Target {
+    /// The adhesion force.
+    AdhesionForce,
+    /// The force curve, without a tensile force; the mean difference of forces at equal indentations over the largest force.
+    Curve,
+}
+
+impl Target {
+    /// Name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::AdhesionForce => "adhesion force",
+            Target::Curve => "force curve",
+        }
+    }
+
+    pub(super) fn of(solution: &Solution) -> Self {
+        if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
+    }
+
+    /// Returns a scene that is solved for this quantity alone.
+    pub(super) fn only(self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
+        scene.with(|scene| {
+            scene.observe.clear();
+            if self == Target::AdhesionForce {
+                // The adhesion force is an exact extreme.
+                scene.numerics.samples = FEW_SAMPLES;
+            }
+        })
+    }
+
+    /// Returns the relative difference of the quantity from a reference.
+    pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
+        solution.errors(reference)[self as usize]
+    }
+}
+
+/// |value − reference|/|reference|.
+pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
+    ((value - reference) / reference).abs()
+}
+
+/// Returns the scene with another number of springs and edge model, and with the exact solver.
+pub(super) fn refined(scene: &CheckedScene, points: u64, edges: Edges) -> Result<CheckedScene, SceneErrors> {
+    scene.with(|scene| {
+        let numerics = &mut scene.numerics;
+        (numerics.points, numerics.edges, numerics.solver) = (points, edges, Solver::Exact);
+    })
+}
+
+/// Returns the scene with its target forces and indentations above zero multiplied by a factor; `None` without such
+/// targets, or beyond their range.
+pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> {
+    let loaded = |other: &mut Scene| {
+        for leg in &mut other.loading {
+            if let Move::ToForce(target) | Move::ToIndentation(target) = leg
+                && *target > 0.0
+            {
+                *target *= factor;
+            }
+        }
+    };
+    scene.with(loaded).ok().filter(|other| other.loading != scene.loading)
+}
+
+/// Returns the powers of two allowed as the scene's number of springs, ascending.
+pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> {
+    let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
+    let allowed = |points| refined(scene, points, scene.numerics.edges).is_ok();
+    // Skips numbers too small for the modes, then stops at those too large for the field.
+    powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
+}
+
+/// Runs of scenes that share an unchanged profile.
+pub(super) struct Runs<'a>(Simulation, &'a dyn Fn() -> bool);
+
+impl<'a> Runs<'a> {
+    pub(super) fn new(folder: &Path, stop: &'a dyn Fn() -> bool) -> Self {
+        Runs(Simulation::new(folder.to_path_buf()), stop)
+    }
+
+    pub(super) fn solve(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
+        let outcome = self.0.run(scene, self.1, &mut |_, _, _| Ok(()))?;
+        Ok(Solution::of(scene, &outcome))
+    }
+
+    /// Solves a scene, with the adhesion forces under the loads around its own.
+    pub(super) fn solve_around(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
+        let mut solution = self.solve(scene)?;
+        let scene = Target::of(&solution).only(scene)?;
+        let others = AROUND.into_iter().filter_map(|factor| loaded(&scene, factor));
+        for scene in others.take_while(|_| solution.adhesion_force.is_some()).collect::<Vec<_>>() {
+            solution.around.push(match self.solve(&scene) {
+                Err(error) if is_too_coarse(&error) => None,
+                other => other?.adhesion_force,
+            });
+        }
+        Ok(solution)
+    }
+}
+
+/// Returns true if the memory or the time did not suffice.
+pub(super) fn is_spent(error: &RunError) -> bool {
+    use RunError::{Contact, OutOfMemory, Surface};
+    let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory(_)));
+    is_short || matches!(error, Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted))
+}
+
+/// Returns true if no spring is under the body, or the contact of too few springs does not reach a target of the loading.
+pub(super) fn is_too_coarse(error: &RunError) -> bool {
+    match error {
+        RunError::Contact(error) => error.is_out_of_reach(),
+        error => matches!(error, RunError::Surface(SurfaceError::NoSprings { .. })),
+    }
+}
+
+fn longest_contact(outcome: &Outcome) -> f64 {
+    let points = outcome.history.legs.iter().flat_map(|leg| &leg.curve);
+    points.map(|point| point.contact_length).fold(0.0, f64::max)
+}
+
+/// Returns the adhesion force of a scene in closed form, N, if there is one: a smooth body that is pulled beyond the
+/// indentation of its smallest force, on a profile longer than its contact. `outcome` is its solution.
+fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
+    let work = outcome.governing.adhesive_work()?;
+    if scene.roughness.is_some() {
+        return None;
+    }
+    let (length, modulus) = (scene.length, outcome.governing.effective_modulus);
+    let flat_pull_off = |width: f64| -(PI * width * work / modulus).sqrt();
+    let form = scene.form.as_ref();
+    let (pull_off, widest) = match (form, form.and_then(Form::flat_end)) {
+        (None, _) => (flat_pull_off(length), length),
+        (_, Some(radius)) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
+        (Some(form), _) => {
+            let body = PowerLaw::of(form, modulus, work)?;
+            let (radius, _) = body.force_controlled_pull_off();
+            // An edge of the contact at the end of the profile is no longer the body's own.
+            (body.indentation(radius), length - 2.0 * outcome.line.spacing)
+        }
+    };
+    let legs = &outcome.history.legs;
+    pull_off_point(legs)?;
+    let pulled = &legs[Branch::last_unloading(legs)?.stages];
+    let passes = pulled.first()?.start() >= pull_off && pulled.last()?.end_in_contact().is_none();
+    // Lengths are sums with rounding errors.
+    let is_inside = longest_contact(outcome) <= widest * (1.0 + 1e-9);
+    smooth_adhesion_force(form, length, modulus, [work; 2], f64::INFINITY).filter(|_| passes && is_inside)
+}
+
+/// Indentations at which the forces of a loading stage are compared.
+const COMPARED: usize = 2048;
+
+/// Indentation, m, and force, N, at points of ascending indentation, for each loading stage.
+pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
+
+pub(super) fn force_curve(history: &History) -> ForceCurve {
+    let points = |leg: &LegRecord| {
+        let mut points: Vec<_> = leg.curve.iter().map(|point| [point.indentation, point.force]).collect();
+        if leg.direction == Direction::Unloading {
+            points.reverse();
+        }
+        points
+    };
+    history.legs.iter().map(points).collect()
+}
+
+/// Mean difference of the forces of a loading stage from those of a reference at equal indentations, in units of the
+/// largest force of the reference; the largest of all stages. A jump that is late by a hundredth of the indentations
+/// counts a hundredth of its height. `None` if the reference has no forces or another number of stages.
+pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f64> {
+    let largest = reference.iter().flatten().map(|point| point[1].abs()).fold(0.0, f64::max);
+    if curve.len() != reference.len() || largest == 0.0 || largest.is_nan() {
+        return None;
+    }
+    let mean = |(one, other): (&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
+        let (first, last) = (other.first()?[0], other.last()?[0]);
+        let at = |index: usize| first + (last - first) * (index as f64 + 0.5) / COMPARED as f64;
+        let apart = |at: f64| Some((force(one, at)? - force(other, at)?).abs());
+        let sum: Option<f64> = (0..COMPARED).map(|index| apart(at(index))).sum();
+        Some(sum? / COMPARED as f64 / largest)
+    };
+    curve.iter().zip(reference).map(mean).try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
+}
+
+/// Force of a curve at an indentation; beyond its ends that of the end. `None` without points.
+fn force(curve: &[[f64; 2]], at: f64) -> Option<f64> {
+    let above = curve.partition_point(|point| point[0] < at).min(curve.len().checked_sub(1)?);
+    let ([low, before], [high, after]) = (curve[above.saturating_sub(1)], curve[above]);
+    let share = if high > low { ((at - low) / (high - low)).clamp(0.0, 1.0) } else { 1.0 };
+    Some(before + share * (after - before))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open::open;
+
+    fn closed_form(scene: &str, overrides: &[(&str, &str)]) -> Option<f64> {
+        let overrides: Vec<_> =
+            overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        let document = open(scene).unwrap().set_all(&overrides).unwrap();
+        Runs::new(&document.resolve(""), &|| false).solve(document.scene()).unwrap().closed_form
+    }
+
+    #[test]
+    fn closed_forms_are_given_where_they_hold() {
+        let sphere = closed_form("jkr-sphere", &[]).unwrap();
+        assert!((sphere / (1.5 * PI * 0.05 * 1e-4) - 1.0).abs() < 1e-12, "{sphere}");
+        assert!(closed_form("jkr-sphere", &[("loading", "[ToTouch, ToSeparation]")]).is_some());
+        assert!(closed_form("kendall-punch", &[]).is_some());
+        // Not pulled off, a profile that is too short, no adhesion, rough.
+        let held = "[ToForce(1e-4), ToIndentation(0.0)]";
+        assert_eq!(closed_form("jkr-sphere", &[("loading", held)]), None);
+        assert_eq!(closed_form("jkr-sphere", &[("length", "2.0e-5")]), None);
+        assert_eq!(closed_form("jkr-sphere", &[("adhesion", "None")]), None);
+        assert_eq!(closed_form("rough-sphere", &[]), None);
+    }
+
+    #[test]
+    fn springs_are_powers_of_two_that_the_scene_allows() {
+        let fewest = |scene: &str| allowed_points(open(scene).unwrap().scene()).next();
+        assert_eq!(fewest("jkr-sphere"), Some(16));
+        assert_eq!(fewest("pressure-sensitive"), Some(1024));
+        assert_eq!(fewest("million-springs"), Some(1 << 19));
+        assert_eq!(allowed_points(open("jkr-sphere").unwrap().scene()).last(), Some(1 << 28));
+    }
+
+    fn curve(points: &[[f64; 2]]) -> ForceCurve {
+        vec![points.to_vec()]
+    }
+
+    #[test]
+    fn a_late_jump_counts_its_share_of_the_indentations() {
+        let jump = |at: f64| curve(&[[0.0, 0.0], [at, 0.0], [at, 1.0], [1.0, 1.0]]);
+        let late = difference(&jump(0.51), &jump(0.5)).unwrap();
+        assert!((late - 0.01).abs() < 1.0 / COMPARED as f64, "{late}");
+        assert_eq!(difference(&jump(0.5), &jump(0.5)), Some(0.0));
+    }
+
+    #[test]
+    fn a_wrong_force_counts_its_share_of_the_largest() {
+        let flat = |force: f64| curve(&[[0.0, force], [2.0, force]]);
+        let wrong = difference(&flat(-4.1), &flat(-4.0)).unwrap();
+        assert!((wrong - 0.025).abs() < 1e-15, "{wrong}");
+        // A curve that ends early continues with its last force.
+        let short = curve(&[[0.0, 0.0], [1.0, 1.0]]);
+        let long = curve(&[[0.0, 0.0], [2.0, 2.0]]);
+        let wrong = difference(&short, &long).unwrap();
+        assert!((wrong - 0.125).abs() < 1e-3, "{wrong}");
+        assert_eq!(difference(&flat(1.0), &flat(0.0)), None);
+        assert_eq!(difference(&flat(1.0), &Vec::new()), None);
+        assert_eq!(difference(&vec![Vec::new()], &flat(1.0)), None);
+    }
+}

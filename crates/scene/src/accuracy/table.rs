@@ -1,0 +1,284 @@
+//! The table of the cost of accuracy.
+
+use asperity_data::format_rounded;
+use asperity_data::grouped;
+use asperity_data::slope;
+use serde::{Serialize, Serializer};
+use strum::IntoStaticStr;
+
+/// Finer solutions that confirm an error.
+pub(super) const REFINEMENTS: usize = 2;
+/// Quantities with errors: the adhesion force F_a, the whole force curve (the mean difference of forces at equal
+/// indentations over the largest force), the dissipated energy, and the largest length in contact.
+pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
+
+/// Relative errors of the answers.
+const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
+
+/// Setting that affects accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
+pub enum Knob {
+    /// Springs N with edges between them.
+    SubCellSprings,
+    /// Springs N with edges at them, as in the paper.
+    GridSprings,
+    /// Step Δd of the stepwise solver.
+    Step,
+}
+
+impl Knob {
+    /// All knobs, in the order of the table.
+    pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
+
+    /// Name of the knob in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Knob::SubCellSprings => "springs N, edges between springs",
+            Knob::GridSprings => "whole springs N",
+            Knob::Step => "step Δd of the stepwise solver",
+        }
+    }
+}
+
+/// Times of repeated runs after a warm-up run, s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Timing {
+    /// The shortest.
+    pub minimum: f64,
+    /// The median.
+    pub median: f64,
+    /// Number of runs.
+    pub runs: usize,
+}
+
+impl Timing {
+    /// Timing from the times of some runs, s; `None` without any.
+    pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
+        seconds.sort_by(f64::total_cmp);
+        let runs = seconds.len();
+        let (minimum, upper) = (*seconds.first()?, *seconds.get(runs / 2)?);
+        let lower = seconds.get((runs - 1) / 2).copied().unwrap_or(upper);
+        Some(Timing { minimum, median: f64::midpoint(lower, upper), runs })
+    }
+}
+
+/// One relative error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ErrorFigure {
+    /// The error; if it is not resolved, that of the reference itself.
+    pub error: f64,
+    /// True if the error is larger than that of the reference.
+    pub resolved: bool,
+    /// Observed order of convergence relative to the previous row, if both errors are resolved.
+    pub order: Option<f64>,
+}
+
+/// One setting: its cost and its errors.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Setting.
+    pub knob: Knob,
+    /// Value of the setting: a number, or m for a step.
+    pub setting: f64,
+    /// Springs N.
+    pub springs: u64,
+    /// Time of a whole run without any reuse; `None` without time for one.
+    pub seconds: Option<Timing>,
+    /// The shortest time in Fourier transforms, see [`CostTable::transform_seconds`].
+    pub transforms: Option<f64>,
+    /// Relative errors of the [`QUANTITIES`].
+    #[serde(serialize_with = "by_name")]
+    pub errors: [Option<ErrorFigure>; 4],
+}
+
+/// Reference of the errors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Reference {
+    /// Springs of the finest solution with edges between springs.
+    pub springs: u64,
+    /// Adhesion force, N.
+    pub adhesion_force: Option<f64>,
+    /// True if `adhesion_force` is a closed form; all other references are from the finest solution.
+    pub closed_form: bool,
+    /// Estimated relative errors of the reference itself in the [`QUANTITIES`].
+    #[serde(serialize_with = "by_name")]
+    pub errors: [Option<f64>; 4],
+}
+
+fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(QUANTITIES.iter().zip(values))
+}
+
+/// Cost of accuracy for one scene.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct CostTable {
+    /// Time limit, s.
+    pub budget: f64,
+    /// Time used, s.
+    pub spent: f64,
+    /// The unit of time: the shortest time of one real Fourier transform of 2^20 points, planned beforehand,
+    /// s.
+    pub transform_seconds: f64,
+    /// Reference of the errors.
+    pub reference: Reference,
+    /// The settings, knob by knob, from coarse to fine.
+    pub rows: Vec<Row>,
+    /// Settings that were not tried or not reached, with reasons.
+    pub left_out: Vec<String>,
+}
+
+impl CostTable {
+    /// The rows of one knob.
+    pub fn rows_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Row> {
+        self.rows.iter().filter(move |row| row.knob == knob)
+    }
+
+    /// The main error: that of the adhesion force, or of the curve without a tensile force.
+    pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
+        let [adhesion_force, curve, ..] = row.errors;
+        if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
+    }
+
+    /// Least time, s, and main error of a row, if both have logarithms.
+    pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
+        let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
+        (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
+    }
+
+    /// The first row of a knob from which on the main error is within a bound, as at least two finer rows confirm.
+    pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
+        let rows: Vec<_> = self.rows_of(knob).collect();
+        let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
+        first_within(errors, bound).map(|index| rows[index])
+    }
+
+    /// Order of convergence of a knob over all its rows with resolved errors, by least squares. `None` with fewer than
+    /// three such rows.
+    pub fn order(&self, knob: Knob) -> Option<f64> {
+        let point = |row: &Row| {
+            let figure = self.main_error(row).filter(|figure| figure.resolved)?;
+            Some((row.setting.ln(), figure.error.ln()))
+        };
+        let points: Vec<_> = self.rows_of(knob).filter_map(point).collect();
+        // A smaller step or more springs reduce the error.
+        slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
+    }
+
+    /// Returns the springs and times for one per cent and one per mille of the adhesion force, or of the force curve
+    /// without a tensile force: one sentence each.
+    pub fn answer(&self) -> Vec<String> {
+        let of_force = self.reference.adhesion_force.is_some();
+        let what = if of_force { "the adhesion force" } else { "the force curve" };
+        let found = |knob: Knob, edges: &str, bound: f64| {
+            if let Some(Row { springs, seconds, .. }) = self.first_row_within(knob, bound) {
+                let time = seconds.map(|time| format!(", {}", format_rounded(time.minimum, 3, "s")));
+                let (springs, time) = (grouped(*springs), time.unwrap_or_default());
+                return format!("{springs} springs{time} with edges {edges}");
+            }
+            let finest = self.rows_of(knob).next_back().map(|row| grouped(row.springs));
+            let missed = |finest| format!("not found up to {finest} springs with edges {edges}");
+            finest.map_or_else(|| format!("edges {edges} were not affordable"), missed)
+        };
+        let sentence = |(bound, percent): (f64, &str)| {
+            let sub_cell = found(Knob::SubCellSprings, "SubCell", bound);
+            format!("{percent} of {what}: {sub_cell}; {}.", found(Knob::GridSprings, "Grid", bound))
+        };
+        TARGETS.map(sentence).into()
+    }
+}
+
+/// Index of the first of these errors, from coarse to fine, from which on none is above a bound. Two finer ones confirm
+/// an error: one that changes its sign may be small by chance.
+pub(super) fn first_within(
+    errors: impl DoubleEndedIterator<Item = Option<f64>>,
+    bound: f64,
+) -> Option<usize> {
+    let errors: Vec<_> = errors.collect();
+    let above = errors.iter().rposition(|error| error.is_none_or(|error| error.is_nan() || error > bound));
+    let first = above.map_or(0, |above| above + 1);
+    (first + REFINEMENTS < errors.len()).then_some(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_is_met_from_the_first_error_on_that_two_finer_ones_confirm() {
+        let first = |errors: &[f64], bound| first_within(errors.iter().copied().map(Some), bound);
+        assert_eq!(first(&[0.5, 0.01, 0.2, 0.1, 0.05, 0.02], 0.1), Some(3));
+        assert_eq!(first(&[0.5, 0.01, 0.2], 0.1), None, "small by chance");
+        assert_eq!(first(&[0.5, 0.01, 0.02], 0.1), None, "one refinement");
+        assert_eq!(first(&[0.05, 0.0, 0.0], 0.1), Some(0));
+        assert_eq!(first(&[], 0.1), None);
+        assert_eq!(first(&[f64::NAN, 0.0, 0.0, 0.0], 0.1), Some(1));
+        assert_eq!(first_within([Some(0.0), Some(0.0), None].into_iter(), 0.1), None);
+    }
+
+    #[test]
+    fn times_have_a_minimum_and_a_median() {
+        let of =
+            |times: &[f64]| Timing::of(times.to_vec()).map(|time| (time.minimum, time.median, time.runs));
+        assert_eq!(of(&[]), None);
+        assert_eq!(of(&[4.0, 1.0]), Some((1.0, 2.5, 2)));
+        assert_eq!(of(&[4.0, 1.0, 2.0]), Some((1.0, 2.0, 3)));
+    }
+
+    fn rows(knob: Knob, of: &[(f64, f64)]) -> Vec<Row> {
+        let row = |&(setting, error): &(f64, f64)| Row {
+            knob,
+            setting,
+            springs: setting as u64,
+            seconds: Timing::of(vec![1e-6 * setting]),
+            transforms: None,
+            errors: [Some(ErrorFigure { error, resolved: error > 1e-6, order: None }), None, None, None],
+        };
+        of.iter().map(row).collect()
+    }
+
+    fn table(rows: &[Vec<Row>]) -> CostTable {
+        let reference = Reference { adhesion_force: Some(1.0), ..Reference::default() };
+        CostTable { reference, rows: rows.concat(), ..CostTable::default() }
+    }
+
+    #[test]
+    fn the_order_is_the_slope_of_resolved_errors() {
+        let steps = [(1.0, 1.0), (0.5, 0.25), (0.25, 0.0625), (1e-6, 1e-7)];
+        let table = table(&[rows(Knob::Step, &steps), rows(Knob::GridSprings, &steps[..2])]);
+        assert!((table.order(Knob::Step).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(table.order(Knob::GridSprings), None, "two rows are no order");
+    }
+
+    #[test]
+    fn the_first_row_within_a_bound_answers() {
+        let sub_cell = [
+            (16.0, 0.3),
+            (32.0, 1e-4),
+            (64.0, 0.02),
+            (128.0, 0.005),
+            (256.0, 9e-4),
+            (512.0, 1e-4),
+            (1024.0, 1e-5),
+        ];
+        let grid = [(16.0, 0.3), (2048.0, 0.009), (4096.0, 0.0045), (8192.0, 0.0009)];
+        let mut table = table(&[rows(Knob::SubCellSprings, &sub_cell), rows(Knob::GridSprings, &grid)]);
+        assert_eq!(
+            table.answer(),
+            [
+                "1 % of the adhesion force: 128 springs, 128 µs with edges SubCell; 2 048 springs, 2.05 ms with \
+                 edges Grid.",
+                "0.1 % of the adhesion force: 256 springs, 256 µs with edges SubCell; not found up to 8 192 \
+                 springs with edges Grid.",
+            ]
+        );
+        table.reference.adhesion_force = None;
+        table.rows.retain(|row| row.knob == Knob::SubCellSprings);
+        table.rows.iter_mut().for_each(|row| row.errors.swap(0, 1));
+        assert_eq!(
+            table.answer()[0],
+            "1 % of the force curve: 128 springs, 128 µs with edges SubCell; edges Grid were not affordable."
+        );
+    }
+}

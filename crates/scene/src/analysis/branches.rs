@@ -1,0 +1,154 @@
+//! Branches of a loading history, and the preload and the pull-off on them. They depend on the path of the body alone, not on
+//! the stages that it is cut into.
+
+use asperity_contact::{CurvePoint, Direction, LegRecord};
+use std::ops::Range;
+
+/// Relative difference of equal forces, which are different sums, and of equal indentations.
+pub(super) const ROUNDING: f64 = 1e-9;
+/// Motion over the indentation that is rounding alone: a force or a displacement that is reached again.
+const NO_MOTION: f64 = 4.0 * f64::EPSILON;
+
+/// Consecutive loading stages of a history that move the body in one direction: one motion.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Branch {
+    /// Direction of the motion.
+    pub direction: Direction,
+    /// Numbers of its stages, with those that leave the body in place.
+    pub stages: Range<usize>,
+}
+
+impl Branch {
+    /// Divides the stages of a history into branches, in their order.
+    pub fn all(legs: &[LegRecord]) -> Vec<Branch> {
+        let mut branches: Vec<Branch> = Vec::new();
+        for (stage, leg) in legs.iter().enumerate() {
+            match branches.last_mut() {
+                Some(last) if last.direction == leg.direction || is_still(leg) => last.stages.end += 1,
+                // The first stages may leave the body in place.
+                Some(last) if legs[last.stages.clone()].iter().all(is_still) => {
+                    *last = Branch { direction: leg.direction, stages: last.stages.start..stage + 1 };
+                }
+                _ => branches.push(Branch { direction: leg.direction, stages: stage..stage + 1 }),
+            }
+        }
+        branches
+    }
+
+    /// The last unloading of a body in contact.
+    pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
+        let unloads = |branch: &Branch| {
+            branch.direction == Direction::Unloading && branch.touching(legs).next().is_some()
+        };
+        Branch::all(legs).into_iter().rfind(unloads)
+    }
+
+    /// Stages of the branch with contact in its direction, and their numbers. Stages of a separated body have no extremes of
+    /// the contact.
+    fn touching<'l>(&self, legs: &'l [LegRecord]) -> impl DoubleEndedIterator<Item = (usize, &'l LegRecord)> {
+        touching(legs, self.stages.clone(), self.direction)
+    }
+
+    /// The smallest force in contact, and the number of its stage.
+    pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+        let smallest = self.touching(legs).map(|(stage, leg)| (stage, leg.smallest));
+        // Of equal forces the one at the smallest indentation, as on one stage.
+        smallest.min_by(|(_, a), (_, b)| {
+            a.force.total_cmp(&b.force).then(a.indentation.total_cmp(&b.indentation))
+        })
+    }
+}
+
+fn is_still(leg: &LegRecord) -> bool {
+    let [start, end] = [leg.start(), leg.end()];
+    (start - end).abs() <= NO_MOTION * start.abs().max(end.abs())
+        && leg.curve.iter().all(|point| (point.springs == 0) == (leg.curve[0].springs == 0))
+}
+
+fn touching(
+    legs: &[LegRecord],
+    stages: Range<usize>,
+    direction: Direction,
+) -> impl DoubleEndedIterator<Item = (usize, &LegRecord)> {
+    let touches = |leg: &LegRecord| leg.curve.iter().any(|point| point.springs > 0);
+    let numbered = stages.clone().zip(&legs[stages]);
+    numbered.filter(move |(_, leg)| leg.direction == direction && touches(leg))
+}
+
+/// Finds the preload: the largest force of a loading since the last separation and before the last unloading, and the number
+/// of its stage.
+pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+    let end = Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
+    let separates = |leg: &LegRecord| leg.direction == Direction::Unloading && leg.end_in_contact().is_none();
+    let start = legs[..end].iter().rposition(separates).map_or(0, |stage| stage + 1);
+    let largest = touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
+    // Of equal forces the last one, as on one stage.
+    largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
+}
+
+/// Finds the pull-off: the smallest force of the last unloading in contact, and the number of its stage. There is none if that
+/// force is above zero, or if the unloading ends in contact while the force still falls.
+pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
+    let unloading = Branch::last_unloading(legs)?;
+    let (stage, least) = unloading.smallest(legs)?;
+    let (first, last) = (legs.get(unloading.stages.start)?, legs.get(unloading.stages.end - 1)?);
+    let end = last.curve.last()?;
+    let is_passed = end.springs == 0 || least.force < end.force - ROUNDING * first.largest.force.abs();
+    Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_contact::Move;
+
+    fn leg(from: f64, to: f64, springs: [u64; 2]) -> LegRecord {
+        let point = |indentation, springs| CurvePoint {
+            indentation,
+            force: indentation,
+            springs,
+            ..CurvePoint::default()
+        };
+        let curve = vec![point(from, springs[0]), point(to, springs[1])];
+        let direction = if to < from { Direction::Unloading } else { Direction::Loading };
+        let [largest, smallest] = if to < from { [curve[0], curve[1]] } else { [curve[1], curve[0]] };
+        LegRecord { direction, curve, largest, smallest, ..LegRecord::still(Move::ToTouch, point(to, 1)) }
+    }
+
+    fn ranges(legs: &[LegRecord]) -> Vec<Range<usize>> {
+        Branch::all(legs).into_iter().map(|branch| branch.stages).collect()
+    }
+
+    #[test]
+    fn stages_in_one_direction_are_one_branch() {
+        let still = |at: f64| LegRecord::still(Move::ToIndentation(at), leg(at, at, [1, 1]).curve[0]);
+        let legs = [
+            leg(0.0, 2.0, [0, 5]),
+            leg(2.0, 3.0, [5, 6]),
+            leg(3.0, 1.0, [6, 3]),
+            still(1.0),
+            // A displacement that is reached again, but for rounding.
+            leg(1.0, 1.0 + f64::EPSILON, [3, 3]),
+            leg(1.0, -1.0, [3, 1]),
+            leg(-1.0, 0.5, [1, 2]),
+        ];
+        assert_eq!(ranges(&legs), [0..2, 2..6, 6..7]);
+        assert_eq!(ranges(&[still(0.0), leg(1.0, 0.0, [1, 0])]), std::slice::from_ref(&(0..2)));
+        assert_eq!(ranges(&[]), []);
+        // A first contact without a motion is one.
+        assert_eq!(ranges(&[leg(1.0, 0.0, [1, 0]), leg(0.0, 0.0, [0, 3])]), [0..1, 1..2]);
+    }
+
+    #[test]
+    fn the_preload_is_the_largest_force_since_the_last_separation() {
+        let cycle = |most: f64| [leg(0.0, most, [0, 5]), leg(most, -1.0, [5, 0])];
+        let preload =
+            |legs: &[&[LegRecord]]| preload_point(&legs.concat()).map(|(stage, at)| (stage, at.force));
+        assert_eq!(preload(&[&cycle(7.0), &cycle(3.0)]), Some((2, 3.0)));
+        assert_eq!(preload(&[&cycle(7.0), &cycle(3.0)[..1]]), Some((0, 7.0)), "before the last unloading");
+        let minor =
+            [leg(0.0, 7.0, [0, 5]), leg(7.0, 1.0, [5, 2]), leg(1.0, 3.0, [2, 3]), leg(3.0, -1.0, [3, 0])];
+        assert_eq!(preload(&[&minor]), Some((0, 7.0)), "a minor loop does not separate");
+        assert_eq!(preload(&[&cycle(7.0)[1..]]), None);
+    }
+}

@@ -1,0 +1,341 @@
+//! Governing parameters of a scene: κ, eq. (11), and e_el/γ, which compare roughness with adhesion; and the limits of the rule
+//! of Hess, which is that of short-ranged attraction and of profiles that rise everywhere.
+//!
+//! Attraction of a finite range dissipates less: in three dimensions the hysteresis vanishes at a Tabor number near 1.
+//! Adhesion forces of smooth bodies are in [`crate::reference`], the rule of Hess is [`asperity_contact::HessRule`].
+
+use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
+use crate::scene::model::{Roughness, Scene};
+use asperity_contact::{Foundation, HessRule};
+use asperity_surface::Amplitude;
+use asperity_surface::Form;
+use serde::Serialize;
+use std::f64::consts::PI;
+
+/// The governing parameters of a scene, each given or derived from the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Governing {
+    /// Effective modulus E*, Pa.
+    pub effective_modulus: f64,
+    /// Work of adhesion γ, J/m²; `None` without adhesion.
+    pub work_of_adhesion: Option<f64>,
+    /// Work of adhesion γ₁ on closing, J/m²; `None` if equal to `work_of_adhesion`.
+    pub closing_work: Option<f64>,
+    /// Amplitude of the roughness; `None` for a smooth profile.
+    pub amplitude: Option<Amplitude>,
+    /// κ = √(h⟨∇z⟩E*/γ), eq. (11); `None` without roughness or adhesion.
+    pub kappa: Option<f64>,
+    /// Elastic energy of conformity over the work of adhesion e_el/γ; `None` without roughness or adhesion.
+    pub elastic_energy_ratio: Option<f64>,
+}
+
+impl Governing {
+    /// Derives the parameters of a checked scene from the amplitude of its self-affine profile of rms height 1, or that
+    /// of its measured one.
+    ///
+    /// Given κ, γ = h⟨∇z⟩E*/κ². Similarly for e_el/γ, with e_el = E* h² q̄/4 and the mean wave number q̄.
+    pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
+        let effective_modulus = scene.material.effective_modulus();
+        let amplitude = measured.or_else(|| {
+            let unit = unit?;
+            let Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }) = scene.roughness else {
+                return None;
+            };
+            let rms_height = rms_height.or(rms_gradient.map(|gradient| gradient / unit.rms_gradient))?;
+            let amplitude = unit.scaled(rms_height);
+            Some(Amplitude { rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient), ..amplitude })
+        });
+        Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
+    }
+
+    /// The same profile with another adhesion.
+    pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
+        let given = adhesion.and_then(|adhesion| adhesion.parameter());
+        let work_of_adhesion = adhesion.and_then(|adhesion| self.work_of(adhesion));
+        let value = |parameter: RoughnessParameter| match given {
+            Some((same, value)) if same == parameter => Some(value),
+            _ => value_of(parameter, self.energy(parameter)?, work_of_adhesion?),
+        };
+        Governing {
+            work_of_adhesion,
+            closing_work: adhesion.and_then(|adhesion| adhesion.closing_work()),
+            kappa: value(RoughnessParameter::Kappa),
+            elastic_energy_ratio: value(RoughnessParameter::ElasticEnergyRatio),
+            ..self
+        }
+    }
+
+    /// Work of adhesion of an adhesion on the same profile, J/m²; `None` for a parameter without roughness.
+    fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
+        match adhesion.strength {
+            Strength::Work { opening, .. } => Some(opening),
+            Strength::Parameter(parameter, value) => self.work_for(parameter, value),
+        }
+    }
+
+    /// Work of adhesion for this value of a parameter, J/m²; `None` without roughness.
+    pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
+        Some(self.energy(parameter)? / parameter.energy_over_work(value))
+    }
+
+    /// Value of a parameter; `None` without roughness or adhesion.
+    pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
+        match parameter {
+            RoughnessParameter::Kappa => self.kappa,
+            RoughnessParameter::ElasticEnergyRatio => self.elastic_energy_ratio,
+        }
+    }
+
+    /// Elastic energy of conformity e_el per area, J/m²; `None` without roughness.
+    pub fn elastic_energy(&self) -> Option<f64> {
+        self.energy(RoughnessParameter::ElasticEnergyRatio)
+    }
+
+    /// Energy per area that a parameter compares with the work of adhesion, J/m²: h⟨∇z⟩E* or e_el; `None` without roughness.
+    pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
+        self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
+    }
+
+    /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness. Pohrt, Popov and Filippov (2012).
+    pub fn force_unit(&self, length: f64) -> Option<f64> {
+        Some(self.effective_modulus * self.amplitude?.rms_height * length)
+    }
+
+    /// The rule of Hess on the foundation under a profile; `None` without adhesion.
+    pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
+        let [closing, opening] = self.adhesive_works()?;
+        Some(HessRule::from_works(foundation, closing, opening))
+    }
+
+    /// The works of adhesion on closing and on opening if there is any, J/m².
+    pub fn adhesive_works(&self) -> Option<[f64; 2]> {
+        let work = self.adhesive_work()?;
+        Some([self.closing_work.unwrap_or(work), work])
+    }
+
+    /// The work of adhesion if there is any, J/m².
+    pub fn adhesive_work(&self) -> Option<f64> {
+        self.work_of_adhesion.filter(|&work| work > 0.0)
+    }
+}
+
+fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
+    match parameter {
+        RoughnessParameter::Kappa => amplitude.rms_height * amplitude.rms_gradient * effective_modulus,
+        RoughnessParameter::ElasticEnergyRatio => amplitude.elastic_energy(effective_modulus),
+    }
+}
+
+/// Value of a parameter at this energy and work of adhesion per area, J/m². `None` if adhesion is so small that the
+/// value overflows.
+fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
+    Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
+}
+
+/// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L, m, with a work of adhesion γ, J/m², and an
+/// effective modulus E*, Pa. Popov and Filippov (2012), eq. (14); Kendall (1971).
+pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
+    (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
+}
+
+/// Default range of attraction z₀, m, of a scene: an interatomic distance.
+pub const DEFAULT_RANGE: f64 = 0.3e-9;
+
+/// Tabor number below which dissipated energies are overestimated.
+pub const LEAST_TABOR_NUMBER: f64 = 5.0;
+
+/// Tabor number μ of a scene, (ργ²/(E*²z₀³))^(1/3); `None` without adhesion, and for bodies without a radius of
+/// curvature. Of two works of adhesion, that of opening is used.
+pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
+    let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
+    let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
+    Some(tabor_number(radius, work, governing.effective_modulus, range)).filter(|number| number.is_finite())
+}
+
+/// Radius of curvature ρ of the summits of a form and its roughness, m; `None` for flat faces, cones and powers.
+///
+/// ρ = 2/z″ with the rms curvature z″ of the profile, the rms Laplacian of the surface: twice its mean curvature.
+/// A paraboloid of radius R has the profile x²/R and thus ρ = R; crests of a sphere with waves have 1/R + 4π²A/λ². On a
+/// rough form the squares of both curvatures add.
+fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
+    // A flat face has the curvature of the flat end of a punch.
+    let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
+    let of_roughness = governing.amplitude.map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
+    Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
+}
+
+/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a summit of curvature radius ρ, m, under a work of adhesion γ, J/m², an effective
+/// modulus E*, Pa, and an attraction of range z₀, m. Tabor (1977).
+fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus: f64, range: f64) -> f64 {
+    ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
+}
+
+/// Waves of a sphere whose equivalent profile does not rise everywhere: by the rule of Hess the most stretched spring,
+/// here an inner one, detaches first, while JKR lets the contact recede at its edge.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SteepWaves {
+    /// λ²/(AR), below [`SteepWaves::LEAST_RATIO`].
+    pub ratio: f64,
+    /// Pull-off force over that of the sphere without waves by JKR, (1 + A√(πE*/2λγ))², for waves short against the
+    /// contact radius (Kesari and Lew 2011).
+    pub jkr_factor: f64,
+}
+
+impl SteepWaves {
+    /// Quotient λ²/(AR) above which the equivalent profile rises everywhere.
+    pub const LEAST_RATIO: f64 = 12.391;
+
+    /// Finds the waves of an adhesive scene that are too steep; `None` for any other scene.
+    pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
+        let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
+            return None;
+        };
+        let stretch = governing.adhesive_work()? / governing.effective_modulus;
+        let ratio = wavelength.powi(2) / (amplitude * radius);
+        let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);
+        // Without a finite factor there is next to no adhesion.
+        (ratio < Self::LEAST_RATIO && jkr_factor.is_finite()).then_some(SteepWaves { ratio, jkr_factor })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::document::Document;
+    use crate::scene::model::Roughness;
+    use crate::scene::open::open;
+    use crate::simulation::stages::Simulation;
+    use std::f64::consts::TAU;
+
+    const ROUGH: Option<Amplitude> =
+        Some(Amplitude { rms_height: 3.0, rms_gradient: 6.0, rms_curvature: 15.0, mean_wave_number: 0.5 });
+
+    /// The parameters of a scene with E* = 4 Pa and the given roughness and adhesion; `None` for no roughness.
+    fn governing(amplitude: Option<&str>, adhesion: &str) -> Governing {
+        let roughness = amplitude.map_or_else(String::new, |amplitude| {
+            format!("roughness: SelfAffine(hurst: 0.5, {amplitude} modes: (1, 8), seed: 1), ")
+        });
+        let text = format!(
+            "(version: 1, material: (effective_modulus: 4.0), length: 1.0, {roughness}adhesion: {adhesion})"
+        );
+        let document = Document::parse(&text, "scene").unwrap_or_else(|errors| panic!("{errors}"));
+        let unit = amplitude.map(|_| Amplitude {
+            rms_height: 1.0,
+            rms_gradient: 2.0,
+            rms_curvature: 5.0,
+            mean_wave_number: 0.5,
+        });
+        Governing::of(document.scene(), unit, None)
+    }
+
+    #[test]
+    fn work_and_parameters_follow_from_each_other() {
+        // h⟨∇z⟩E* = 72, and 72/2 is the square of 6. E* h² q̄/4 = 4.5.
+        let expected = Governing {
+            effective_modulus: 4.0,
+            work_of_adhesion: Some(2.0),
+            closing_work: None,
+            amplitude: ROUGH,
+            kappa: Some(6.0),
+            elastic_energy_ratio: Some(2.25),
+        };
+        for (amplitude, adhesion) in [
+            ("rms_height: 3.0,", "(work: 2.0)"),
+            ("rms_gradient: 6.0,", "(work: 2.0)"),
+            ("rms_height: 3.0,", "(kappa: 6.0)"),
+            ("rms_gradient: 6.0,", "(kappa: 6.0)"),
+            ("rms_height: 3.0,", "(elastic_energy_ratio: 2.25)"),
+            ("rms_gradient: 6.0,", "(elastic_energy_ratio: 2.25)"),
+        ] {
+            assert_eq!(governing(Some(amplitude), adhesion), expected, "{amplitude} {adhesion}");
+        }
+    }
+
+    #[test]
+    fn a_smooth_line_has_no_kappa_and_no_work_is_no_adhesion() {
+        let smooth = governing(None, "(work: 2.0)");
+        assert_eq!((smooth.adhesive_work(), smooth.kappa, smooth.amplitude), (Some(2.0), None, None));
+        let none = governing(Some("rms_height: 3.0,"), "(work: 0.0)");
+        assert_eq!((none.work_of_adhesion, none.kappa, none.adhesive_work()), (Some(0.0), None, None));
+        let without = governing(Some("rms_height: 3.0,"), "None");
+        assert_eq!((without.work_of_adhesion, without.kappa, without.amplitude), (None, None, ROUGH));
+        // A parameter that overflows.
+        assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
+    }
+
+    #[test]
+    fn another_adhesion_on_the_same_line() {
+        let base = governing(Some("rms_height: 3.0,"), "(work: 2.0)");
+        let by = |parameter, value| {
+            let changed = base.with_adhesion(Some(Adhesion::by_parameter(parameter, value)));
+            assert_eq!(changed.work_of_adhesion, base.work_for(parameter, value));
+            (changed.work_of_adhesion, changed.kappa)
+        };
+        assert_eq!(by(RoughnessParameter::Kappa, 3.0), (Some(8.0), Some(3.0)));
+        assert_eq!(by(RoughnessParameter::ElasticEnergyRatio, 0.5), (Some(9.0), Some(8.0_f64.sqrt())));
+        assert_eq!(base.with_adhesion(Some(Adhesion::by_work(8.0))).kappa, Some(3.0));
+        assert_eq!(base.with_adhesion(None).kappa, None);
+    }
+
+    fn of(document: &Document) -> Option<f64> {
+        let mut simulation = Simulation::default();
+        let (_, _, governing) = simulation.make_line(document.scene()).unwrap();
+        scene_tabor_number(document.scene(), &governing)
+    }
+
+    fn set(document: &Document, fields: &[(&str, &str)]) -> Document {
+        let fields: Vec<_> =
+            fields.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect();
+        document.set_all(&fields).unwrap()
+    }
+
+    #[test]
+    fn quantities_follow_from_plain_numbers() {
+        // π γ E* L³ = 750 π, and ρ γ²/(E*² z₀³) = 27.
+        let force = ideal_adhesion_force(2.0, 3.0, 5.0);
+        assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
+        let number = tabor_number(6.0, 3.0, 0.5, 2.0);
+        assert!((number - 3.0).abs() < 1e-14, "{number}");
+    }
+
+    #[test]
+    fn a_sphere_has_the_number_of_its_radius() {
+        let fields = [
+            ("form", "Paraboloid(radius: 2.0e-4)"),
+            ("material", "(effective_modulus: 4.0e6)"),
+            ("adhesion", "(work: 0.05, range: 1.0e-9)"),
+        ];
+        let sphere = set(&open("jkr-sphere").unwrap(), &fields);
+        let expected = tabor_number(2e-4, 0.05, 4e6, 1e-9);
+        assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-12);
+        // The default range is 0.3 nm: μ ∝ 1/z₀.
+        let usual = of(&sphere.set("adhesion.range", "None").unwrap()).unwrap();
+        assert!((usual * 0.3 / expected - 1.0).abs() < 1e-12);
+        let opening = sphere.set("adhesion.closing_work", "0.01").unwrap();
+        assert_eq!(of(&opening), of(&sphere), "by the work of opening");
+        assert_eq!(of(&sphere.set("adhesion", "None").unwrap()), None);
+        assert_eq!(of(&sphere.set("form", "Cone(angle: 0.1)").unwrap()), None);
+    }
+
+    #[test]
+    fn a_rough_line_has_the_number_of_its_rms_curvature() {
+        let fields = [("adhesion", "(work: 0.05)"), ("numerics.points", "4096")];
+        let rough = set(&open("pressure-sensitive").unwrap(), &fields);
+        let scene = rough.scene();
+        let Some(Roughness::SelfAffine { rms_height: Some(height), .. }) = scene.roughness else {
+            panic!("no self-affine roughness with an rms height");
+        };
+        let spectrum = scene.spectrum().unwrap();
+        let squares = |power: f64| -> f64 {
+            (spectrum.first..=spectrum.last)
+                .map(|k| (k as f64).powf(power) * spectrum.relative_amplitude(k).powi(2))
+                .sum()
+        };
+        let curvature = height * (TAU / scene.length).powi(2) * (squares(4.0) / squares(0.0)).sqrt();
+        let expected = tabor_number(2.0 / curvature, 0.05, scene.material.effective_modulus(), DEFAULT_RANGE);
+        assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);
+        // A sphere with a radius far larger than that of the summits has almost no effect.
+        let sphere = rough.set("form", "Paraboloid(radius: 10.0)").unwrap();
+        assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,7 @@
+//! Figures derived from a scene and its history: the governing parameters, adhesion, regime and energy.
+
+pub(crate) mod branches;
+pub(crate) mod figures;
+pub(crate) mod governing;
+pub(crate) mod instrument;
+pub(crate) mod reversal_map;

@@ -1,0 +1,65 @@
+//! Maps of first-order reversal curves and their Everett function.
+
+use asperity_contact::Reversal;
+
+/// First-order reversal curves on a uniform grid of indentations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReversalMap {
+    /// Equally spaced indentations, m; the last ones are the turning points.
+    pub points: Vec<f64>,
+    /// Number of points below the first turning point.
+    pub below: usize,
+    /// The reversal from each turning point, with its forces at the points up to the turning point.
+    pub reversals: Vec<Reversal>,
+}
+
+impl ReversalMap {
+    /// Indentations of the turning points, m.
+    pub fn turns(&self) -> &[f64] {
+        &self.points[self.below..]
+    }
+
+    /// Distance between points, m.
+    pub fn step(&self) -> f64 {
+        let intervals = self.points.len().saturating_sub(1).max(1);
+        (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
+    }
+
+    /// Force on the reversal from a turning point at a point, both by number, N; `None` above the turning point.
+    pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
+        self.reversals.get(turn)?.forces.get(point).copied()
+    }
+
+    /// Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)), N: half of the fall of the force from the turning point.
+    pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
+        let reversal = self.reversals.get(turn)?;
+        Some(0.5 * (reversal.turn.force - self.force(turn, point)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_contact::CurvePoint;
+
+    /// A map from a force as a function of the turning point and the indentation.
+    fn map(force: impl Fn(f64, f64) -> f64) -> ReversalMap {
+        let points: Vec<f64> = (0..20).map(|index| 0.25 * f64::from(index) - 2.0).collect();
+        let below = 8;
+        let reversal = |turn: usize| {
+            let at = points[below + turn];
+            let forces = points[..=below + turn].iter().map(|&point| force(at, point)).collect();
+            let turn = CurvePoint { indentation: at, force: force(at, at), ..CurvePoint::default() };
+            Reversal { turn, smallest: turn, separation: -0.5, dissipated_energy: 1.0, forces }
+        };
+        ReversalMap { reversals: (0..12).map(reversal).collect(), points, below }
+    }
+
+    #[test]
+    fn the_everett_function_is_half_of_the_fall() {
+        let map = map(|r, d| 10.0 * r + d);
+        assert_eq!(map.everett(0, 8), Some(0.0));
+        assert_eq!(map.everett(1, 8), Some(0.125));
+        assert_eq!((map.everett(0, 9), map.step()), (None, 0.25));
+    }
+}

@@ -1,0 +1,14 @@
+//! The computation of a scene in one call.
+
+use crate::error::Error;
+use crate::scene::document::Document;
+use crate::simulation::outcome::Outcome;
+use crate::simulation::stages::Simulation;
+
+/// Computes the scene of a document. Its measured files are looked for in the folder of the scene file.
+///
+/// # Errors
+/// [`Error::Run`] for a scene that cannot be computed.
+pub fn run(document: &Document) -> Result<Outcome, Error> {
+    Ok(Simulation::new(document.resolve("")).run(document.scene(), &|| false, &mut |_, _, _| Ok(()))?)
+}

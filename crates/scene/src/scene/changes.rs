@@ -1,0 +1,130 @@
+//! Differences between two scenes, by technical names.
+
+use super::document::Document;
+use super::field::{Field, target_field};
+use super::model::Scene;
+use super::stages::loading_text;
+use super::tree::{Tree, differing};
+use asperity_contact::Move;
+use asperity_data::format_quantity;
+use std::fmt;
+
+/// A field with different values in two scenes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// Symbol of the field, or its name if it has no symbol.
+    pub name: String,
+    /// Value in the first scene, with its unit.
+    pub from: String,
+    /// Value in the second scene.
+    pub to: String,
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{} {} → {}", self.name, self.from, self.to)
+    }
+}
+
+fn symbol_or_name(field: &Field) -> &'static str {
+    if field.symbol.is_empty() { field.name } else { field.symbol }
+}
+
+fn with_unit(field: &Field, value: &str) -> String {
+    let words = || value.split_whitespace().collect::<Vec<_>>().join(" ");
+    field.quantities(value, format_quantity).unwrap_or_else(words)
+}
+
+/// A field by its value, a group by its choice and the values given in it: `SelfAffine(H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
+fn in_words(tree: &Tree, field: &Field) -> String {
+    let value = tree.written(field).unwrap_or_default();
+    let inside = tree.inside(field);
+    if inside.is_empty() {
+        return with_unit(field, &value);
+    }
+    let given = inside.into_iter().filter(|field| tree.value(field).is_some());
+    let given: Vec<String> =
+        given.map(|field| format!("{} {}", symbol_or_name(field), in_words(tree, field))).collect();
+    let (choice, given) = (value.split('(').next().unwrap_or_default(), given.join(", "));
+    if choice.is_empty() { given } else { format!("{choice}({given})") }
+}
+
+impl Document {
+    /// The fields, other than texts, with different values in this scene and another one: each by itself where both
+    /// scenes make the same choices, else their group; loading stages one by one if both scenes have as many.
+    pub fn changes_to(&self, other: &Document) -> Vec<Change> {
+        let scenes = [self, other].map(|document| &**document.scene());
+        let [here, there] = scenes.map(Tree::of);
+        let mut changes = Vec::new();
+        for field in differing([&here, &there], |one, other| one == other) {
+            match field.path {
+                "title" | "notice" | "version" => {}
+                "loading" => changes.extend(changed_stages(scenes)),
+                _ => {
+                    let [from, to] = [&here, &there].map(|tree| in_words(tree, field));
+                    changes.push(Change { name: symbol_or_name(field).to_owned(), from, to });
+                }
+            }
+        }
+        changes
+    }
+}
+
+/// The changed stages of two histories, or the histories as a whole where these are shorter to name.
+fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
+    let [one, other] = scenes.map(|scene| &scene.loading);
+    let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);
+    let changes: Vec<Change> = pairs.map(change_of_stage).collect();
+    let [from, to] = [one, other].map(|loading| loading_text(loading, format_quantity));
+    // A change takes the room of its value and of some fourteen characters.
+    let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
+    if one.len() == other.len() && length < 14 + from.len() {
+        return changes;
+    }
+    vec![Change { name: "loading".to_owned(), from, to }]
+}
+
+fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
+    let [from, to] = [one, other].map(|stage| loading_text(&[*stage], format_quantity));
+    let symbol = match (target_field(*one), target_field(*other)) {
+        (Some((field, _)), Some((same, _))) if field == same => format!(" {}", field.symbol),
+        _ => String::new(),
+    };
+    Change { name: format!("stage {}{symbol}", index + 1), from, to }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open::open;
+
+    fn changes(from: &Document, to: &Document) -> Vec<String> {
+        from.changes_to(to).iter().map(Change::to_string).collect()
+    }
+
+    #[test]
+    fn changes_name_fields_with_both_values() {
+        let scene = open("pressure-sensitive").unwrap();
+        assert_eq!(changes(&scene, &scene), Vec::<String>::new());
+        let other = scene.set("roughness.hurst", "0.5").unwrap().set("title", "\"other\"").unwrap();
+        assert_eq!(changes(&scene, &other), ["H 0.7 → 0.5"]);
+        assert_eq!(changes(&other, &scene), ["H 0.5 → 0.7"]);
+        let other = scene.set("roughness.seed", "12345678901").unwrap();
+        assert_eq!(changes(&scene, &other), ["seed 5 → 12345678901"]);
+        let other = scene.set("loading.0.0", "2e-5").unwrap();
+        assert_eq!(changes(&scene, &other), ["stage 1 F 10 µN → 20 µN"]);
+        let other = scene.set("loading", "5 µN").unwrap();
+        assert_eq!(changes(&scene, &other), ["loading 10 µN, separation → 5 µN"]);
+        let text = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"a\"))";
+        let line = Document::parse(text, "test").unwrap();
+        let profile = line.set("roughness.as_line", "true").unwrap();
+        assert_eq!(changes(&line, &profile), ["profile as line false → true"]);
+        assert_eq!(changes(&line, &line), Vec::<String>::new());
+        let other = scene.set("material", "(effective_modulus: 3e6)").unwrap();
+        assert_eq!(changes(&scene, &other), ["material E 2 MPa, ν 0.5 → E* 3 MPa"]);
+        let other = scene.set("adhesion", "(work: 0.03)").unwrap();
+        assert_eq!(changes(&scene, &other), ["adhesion κ 6 → γ 30 mJ/m²"]);
+        let other = scene.set("form", "Paraboloid(radius: 1e-3)").unwrap();
+        assert_eq!(changes(&scene, &other), ["form None → Paraboloid(R 1 mm)"]);
+    }
+}

@@ -1,0 +1,469 @@
+//! Invalid values of a scene: every field against its range, then the fields against each other, where values over-
+//! or under-determine a scene, or exclude each other.
+//!
+//! No allocation here is proportional to a value of the scene, so an excessive scene is refused before anything is
+//! built.
+
+use serde_json::Value;
+
+use super::adhesion::{Adhesion, Strength};
+use super::errors::SceneError;
+use super::field::{FILE_NAME, Field, LEG_INDENTATION, target_field};
+use super::fields::{FIELDS, field};
+use super::measured::Measured;
+use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
+use super::range::Range;
+use super::text::index::is_within;
+use super::text::{ron_float, ron_string};
+use super::tree::{Tree, in_ron, written};
+use asperity_contact::{Edges, Move};
+use asperity_data::is_control;
+use asperity_surface::Form;
+use asperity_surface::{Unit, UnitError};
+
+/// Most samples of all loading stages together; a curve of this size still fits the memory of a small machine.
+const MOST_SAMPLES: u64 = 1 << 24;
+
+/// All errors of a scene, in the order of its fields; empty for a scene that can be computed.
+pub fn check(scene: &Scene) -> Vec<SceneError> {
+    let mut found = Found { scene, tree: Tree::of(scene), errors: Vec::new() };
+    for field in FIELDS {
+        found.check_range(field);
+        if field.path == "loading" {
+            found.check_targets();
+        }
+    }
+    found.check_material();
+    found.check_form();
+    found.check_roughness();
+    found.check_adhesion();
+    found.check_loading();
+    found.errors
+}
+
+/// The wrong part of a text, and what is allowed.
+fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
+    let range = if let Range::Text { .. } = field.range { field.range } else { FILE_NAME };
+    let Range::Text { least, most, lines } = range else { return None };
+    // Control characters would reach the terminal of any reader of the scene.
+    let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
+    match (text.chars().find(forbidden), text.chars().count()) {
+        (Some(c), _) => {
+            let but = if lines { " but line breaks" } else { "" };
+            Some((format!("text with {c:?}"), format!("no control characters{but}")))
+        }
+        (None, count) if count > most => Some((format!("{count} characters"), field.allowed())),
+        (None, count) if count < least => Some((ron_string(text), field.allowed())),
+        _ => None,
+    }
+}
+
+/// The errors found so far in a scene.
+struct Found<'s> {
+    scene: &'s Scene,
+    tree: Tree,
+    errors: Vec<SceneError>,
+}
+
+impl Found<'_> {
+    /// Returns true if an error of this field, or of anything inside it, was found.
+    fn has(&self, path: &str) -> bool {
+        self.errors.iter().any(|error| is_within(&error.field, path))
+    }
+
+    /// Refuses the value of a field, unless a condition is met or there are errors of these fields already. `allowed` is
+    /// empty if `message` contains the allowed values; the value of a group is not repeated.
+    fn require(&mut self, is_met: bool, of: &[&str], path: &str, allowed: &str, message: &str) {
+        if is_met || of.iter().any(|path| self.has(path)) {
+            return;
+        }
+        let here = FIELDS.iter().find(|field| field.path == path && self.tree.has(field));
+        let here = here.filter(|field| self.tree.inside(field).is_empty());
+        let value = here.and_then(|field| self.tree.written(field)).unwrap_or_default();
+        self.refuse(path, value, allowed, message);
+    }
+
+    fn refuse(&mut self, path: &str, value: String, allowed: &str, message: &str) {
+        let [field, allowed, message] = [path, allowed, message].map(str::to_owned);
+        self.errors.push(SceneError { field, value, allowed, message, ..SceneError::default() });
+    }
+
+    /// Checks the value of a field against its range.
+    fn check_range(&mut self, field: &Field) {
+        let Some(value) = self.tree.value(field) else { return };
+        let range = &field.range;
+        let wrong = match (range, value) {
+            (Range::Real(..), value) => {
+                (!value.as_f64().is_some_and(|value| range.contains(value))).then(|| written(value))
+            }
+            (Range::Whole(..), value) => {
+                (!value.as_u64().is_some_and(|value| range.contains_whole(value))).then(|| written(value))
+            }
+            (Range::Band(..), Value::Array(ends)) => {
+                let ends: Vec<u64> = ends.iter().filter_map(Value::as_u64).collect();
+                let is_allowed = ends.is_sorted() && ends.iter().all(|end| range.contains_whole(*end));
+                (!is_allowed).then(|| format!("({}, {})", ends[0], ends[1]))
+            }
+            (Range::Wavelengths(..), Value::Array(ends)) => {
+                let ends = ends.iter().map(|end| end.as_f64().unwrap_or(f64::NAN));
+                let is_allowed =
+                    ends.clone().all(|end| range.contains(end)) && ends.is_sorted_by(|a, b| a >= b);
+                (!is_allowed).then(|| self.tree.written(field).unwrap_or_default())
+            }
+            (Range::List { least, most, .. }, Value::Array(list))
+                if !(*least..=*most).contains(&list.len()) =>
+            {
+                Some(if list.is_empty() { "[]".to_owned() } else { format!("a list of {}", list.len()) })
+            }
+            _ => None,
+        };
+        let texts = match (range, value) {
+            (Range::Text { .. }, text) => std::slice::from_ref(text),
+            (Range::List { .. }, Value::Array(list)) if field.variant.is_some() => list,
+            _ => &[],
+        };
+        let wrong_texts: Vec<_> = texts.iter().filter_map(|text| wrong_text(field, text.as_str()?)).collect();
+        for (value, allowed) in wrong.map(|value| (value, field.allowed())).into_iter().chain(wrong_texts) {
+            self.refuse(field.path, value, &allowed, field.name);
+        }
+    }
+
+    fn check_targets(&mut self) {
+        let scene = self.scene;
+        for (index, stage) in scene.loading.iter().enumerate() {
+            if let Some((field, value)) = target_field(*stage)
+                && !field.range.contains(value)
+            {
+                let path = format!("loading.{index}.0");
+                self.refuse(&path, ron_float(value), &field.allowed(), field.name);
+            }
+        }
+    }
+
+    fn check_material(&mut self) {
+        let Material { youngs_modulus, poisson_ratio, effective_modulus } = self.scene.material;
+        let wrong = match (effective_modulus, youngs_modulus, poisson_ratio) {
+            (Some(_), None, None) | (None, Some(_), Some(_)) => "",
+            (Some(_), ..) => {
+                "effective_modulus replaces youngs_modulus and poisson_ratio: give one or the other"
+            }
+            (None, Some(_), None) => "youngs_modulus requires poisson_ratio, which is missing",
+            (None, None, Some(_)) => "poisson_ratio requires youngs_modulus, which is missing",
+            (None, None, None) => "give youngs_modulus with poisson_ratio, or effective_modulus",
+        };
+        self.require(wrong.is_empty(), &[], "material", "", wrong);
+        let modulus = self.scene.material.effective_modulus();
+        let Some(field) = field("material.effective_modulus", None) else { return };
+        if !field.range.contains(modulus) && !self.has("material") {
+            let value = format!("E* = {}", ron_float(modulus));
+            self.refuse("material", value, &field.allowed(), "effective modulus E/(1 − ν²)");
+        }
+    }
+
+    fn check_form(&mut self) {
+        let (scene, spacing) = (self.scene, self.scene.spacing());
+        let (Some(form), half) = (&scene.form, scene.length / 2.0) else { return };
+        let (body, grid) = (["form", "length"], ["form", "length", "numerics.points"]);
+        if let Some(radius) = form.flat_end() {
+            let reason =
+                format!("a punch is not wider than the line: at most length/2 = {}", ron_float(half));
+            self.require(radius <= half, &body, "form.radius", "", &reason);
+            let reason = format!(
+                "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
+                ron_float(spacing)
+            );
+            let has_springs = !scene.springs_under_body().is_empty();
+            return self.require(has_springs, &grid, "form.radius", "", &reason);
+        }
+        if let Form::Table { unit, .. } = form {
+            let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
+            self.require(is_unit, &["form"], "form.unit", UnitError::ALLOWED, "unit of the table");
+        }
+        if let &Form::WavySphere { wavelength, .. } = form {
+            let shortest = SPRINGS_PER_WAVE as f64 * spacing;
+            let allowed = format!("at least {} m", ron_float(shortest));
+            let reason =
+                format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
+            self.require(wavelength >= shortest, &grid, "form.wavelength", &allowed, &reason);
+        }
+        let (depth, waves) = (form.without_waves().mdr_profile(half), form.wave_depth(half));
+        // The first number of a form is its size; waves may be higher than their sphere.
+        let is_size = |field: &&Field| match waves > depth {
+            true => field.path == "form.amplitude",
+            false => field.parent() == "form" && self.tree.has(field),
+        };
+        let size = FIELDS.iter().find(is_size).map_or("form", |field| field.path);
+        let most = LEG_INDENTATION.range.ends().map_or(0.0, |(_, most)| most);
+        let reason = format!(
+            "the form is too steep: it exceeds the largest indentation ({most} m) within the length of the profile"
+        );
+        self.require(LEG_INDENTATION.range.contains(depth + waves), &body, size, "", &reason);
+    }
+
+    fn check_roughness(&mut self) {
+        let scene = self.scene;
+        match &scene.roughness {
+            None => {}
+            &Some(Roughness::SelfAffine {
+                rms_height, rms_gradient, modes, wavelengths, roll_off, ..
+            }) => {
+                self.check_waves(modes, wavelengths, roll_off);
+                let wrong = match (rms_height, rms_gradient) {
+                    (Some(_), Some(_)) => {
+                        "rms_height and rms_gradient determine each other: give one of them"
+                    }
+                    (None, None) => "the amplitude is missing: give rms_height or rms_gradient",
+                    _ => "",
+                };
+                self.require(wrong.is_empty(), &[], "roughness", "", wrong);
+            }
+            // A profile is one row or one column; several files have a common spectrum and no profile.
+            Some(Roughness::Measured(measured)) => {
+                let Measured { unit, height_unit, further_files, opposite, row, column, .. } = measured;
+                for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
+                    let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
+                    self.require(is_unit, &[path], path, UnitError::ALLOWED, "unit of the file");
+                }
+                let (has_both, as_line) = (row.is_some() && column.is_some(), measured.as_line);
+                let reason = "a profile is a row or a column: give one of them";
+                self.require(!has_both, &[], "roughness.column", "", reason);
+                let reason = "spectra of two faces add, their profiles do not: give as_line: false";
+                self.require(!as_line || opposite.is_none(), &[], "roughness.opposite", "", reason);
+                let reason = "several files have one spectrum, and no profile: give as_line: false";
+                self.require(
+                    !as_line || further_files.is_empty(),
+                    &[],
+                    "roughness.further_files",
+                    "",
+                    reason,
+                );
+            }
+        }
+    }
+
+    /// Waves that fit the length and are resolved by the springs, with the roll-off among them.
+    fn check_waves(
+        &mut self,
+        modes: Option<(u64, u64)>,
+        wavelengths: Option<(f64, f64)>,
+        roll_off: Option<f64>,
+    ) {
+        let (length, points) = (self.scene.length, self.scene.numerics.points);
+        let most = points / 2;
+        let Some(spectrum) = self.scene.spectrum().filter(|_| modes.is_none() || wavelengths.is_none())
+        else {
+            let both =
+                "modes and wavelengths determine each other: give one of them and set the other to None";
+            let none = "give modes, in waves per length, or wavelengths (longest, shortest), in m";
+            let reason = if modes.is_some() { both } else { none };
+            return self.refuse("roughness", String::new(), "", reason);
+        };
+        let reason = format!("{points} springs carry no shorter wave");
+        let (path, allowed) = match modes {
+            Some(_) => ("roughness.modes", format!("last mode at most points/2 = {most}")),
+            None => {
+                let shortest = ron_float(length / most as f64);
+                ("roughness.wavelengths", format!("shortest at least two springs = {shortest} m"))
+            }
+        };
+        let of = [path, "numerics.points", if modes.is_some() { path } else { "length" }];
+        self.require(spectrum.last <= most, &of, path, &allowed, &reason);
+        let mode = |mode: u64| length / mode as f64;
+        let (longest, shortest) = wavelengths.unwrap_or((mode(spectrum.first), mode(spectrum.last)));
+        let allowed = format!("longest at most length = {} m", ron_float(length));
+        let reason = "a longer wave does not fit the profile";
+        self.require(longest <= length, &[path, "length"], path, &allowed, reason);
+        let allowed = format!("from {} to {} m", ron_float(shortest), ron_float(longest));
+        let is_met = roll_off.is_none_or(|wavelength| (shortest..=longest).contains(&wavelength));
+        let (of, roll_off) = ([path, "roughness.roll_off", "length"], "roughness.roll_off");
+        self.require(is_met, &of, roll_off, &allowed, "a roll-off lies within the waves of the profile");
+    }
+
+    /// Works of adhesion in their order, and a parameter only with roughness.
+    fn check_adhesion(&mut self) {
+        let Some(Adhesion { strength, .. }) = self.scene.adhesion else { return };
+        match strength {
+            // A spring that attaches with more energy than it detaches with would detach at once.
+            Strength::Work { opening, closing } => {
+                let (path, allowed) = ("adhesion.closing_work", format!("0 to {} J/m²", ron_float(opening)));
+                let is_met = closing.is_none_or(|closing| closing <= opening);
+                self.require(is_met, &["adhesion"], path, &allowed, "at most adhesion.work");
+            }
+            Strength::Parameter(parameter, _) if self.scene.roughness.is_none() => {
+                let end = "there is none: give roughness, or adhesion by work";
+                let reason = format!("{} measures adhesion against roughness, and {end}", parameter.symbol());
+                self.refuse(parameter.path(), String::new(), "", &reason);
+            }
+            Strength::Parameter(..) => {}
+        }
+    }
+
+    fn check_loading(&mut self) {
+        let (scene, mut is_separated) = (self.scene, true);
+        for (index, stage) in scene.loading.iter().enumerate() {
+            let pulls = *stage == Move::ToSeparation || matches!(stage, Move::ToForce(force) if *force < 0.0);
+            if is_separated && pulls {
+                let reason = "cannot pull before contact: start with ToTouch, ToForce or ToIndentation";
+                self.refuse(&format!("loading.{index}"), in_ron(stage), "", reason);
+            }
+            is_separated = *stage == Move::ToSeparation;
+        }
+        let (stages, numerics) = (scene.loading.len() as u64, scene.numerics);
+        let allowed = format!("at most {}", MOST_SAMPLES / stages.max(1));
+        let reason =
+            format!("too many points: samples × loading stages ({stages}) must not exceed {MOST_SAMPLES}");
+        let (is_met, path) = (stages.saturating_mul(numerics.samples) <= MOST_SAMPLES, "numerics.samples");
+        self.require(is_met, &[path, "loading"], path, &allowed, &reason);
+        let is_met = numerics.solver == Solver::Exact || scene.loading_stiffness.is_none();
+        let reason =
+            "the stepwise solver moves the body itself: numerics.solver: Exact, or no loading_stiffness";
+        self.require(is_met, &[], "loading_stiffness", "", reason);
+        let is_met = numerics.solver == Solver::Exact || numerics.edges == Edges::Grid;
+        let reason = "the stepwise solver moves whole springs: edges: Grid";
+        self.require(is_met, &[], "numerics.edges", "", reason);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::Document;
+    use super::*;
+
+    /// A valid rough scene with adhesion.
+    fn sound() -> Scene {
+        const TEXT: &str = r#"(
+            version: 1,
+            title: "A line",
+            material: (youngs_modulus: 2.0e6, poisson_ratio: 0.5),
+            length: 1.0e-4,
+            roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+            adhesion: (work: 0.05),
+            loading: [ToForce(1.0e-5), ToSeparation],
+            numerics: (points: 4096, edges: Grid),
+        )"#;
+        Scene::clone(Document::parse(TEXT, "sound").unwrap().scene())
+    }
+
+    fn errors_with(sets: &str) -> Vec<String> {
+        let sound = Document::from_scene(&sound(), "sound").unwrap();
+        let pairs = sets.split("; ").filter_map(|set| set.split_once('='));
+        let pairs: Vec<_> = pairs.map(|(path, value)| (path.to_owned(), value.to_owned())).collect();
+        let errors = sound.set_all(&pairs).err();
+        errors.iter().flat_map(|errors| errors.iter().map(SceneError::what)).collect()
+    }
+
+    #[test]
+    fn fields_that_contradict_each_other_are_refused() {
+        let no_amplitude = "roughness=SelfAffine(hurst: 0.7, modes: (1, 512), seed: 1)";
+        let measured = "roughness=Measured(file: \"a.txt\", as_line: true";
+        let waves = |pair: &str| format!("roughness.modes=None; roughness.wavelengths={pair}");
+        for (sets, said) in [
+            (
+                "material=(effective_modulus: 1e6, poisson_ratio: 0.5)",
+                "material: effective_modulus replaces ",
+            ),
+            ("material=(youngs_modulus: 1e6)", "requires poisson_ratio, which is missing"),
+            ("material=(poisson_ratio: 0.5)", "requires youngs_modulus, which is missing"),
+            ("material=()", "give youngs_modulus with poisson_ratio, or"),
+            // Nearly −1: E* is enormous, though E and ν are in their ranges.
+            ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)", "material = E* = 5.0"),
+            ("material=(youngs_modulus: 1e6, poisson_ratio: -0.999999)", ""),
+            ("roughness.rms_gradient=0.1", "rms_height and rms_gradient determine each other"),
+            (
+                "adhesion.kappa=2.0",
+                "adhesion: the strength of the adhesion is given in one way: type adhesion=(work: 0.05) or \
+                 adhesion=(kappa: 2.0)",
+            ),
+            ("adhesion.work=None; adhesion.elastic_energy_ratio=2.0", ""),
+            (
+                "adhesion=(kappa: 2.0, elastic_energy_ratio: 1.0)",
+                "type adhesion=(kappa: 2.0) or adhesion=(elastic_energy_ratio: 1.0)",
+            ),
+            ("adhesion=()", "adhesion: give work, kappa or elastic_energy_ratio"),
+            ("adhesion=(work: 0.0)", ""),
+            (
+                "adhesion=(kappa: 2.0); roughness=None",
+                "adhesion.kappa: κ measures adhesion against roughness",
+            ),
+            (no_amplitude, "roughness: the amplitude is missing"),
+            ("adhesion.closing_work=0.05", ""),
+            (
+                "adhesion.closing_work=0.0500001",
+                "closing_work = 0.0500001: allowed: 0 to 0.05 J/m² (at most adhesion.work)",
+            ),
+            ("adhesion=(kappa: 2.0, closing_work: 0.0)", "closing_work requires adhesion.work"),
+            ("numerics.points=1024", ""),
+            ("numerics.points=1023", "roughness.modes = (1, 512): allowed: last mode at most points/2 = 511"),
+            ("roughness.modes=(5, 4)", "(5, 4): allowed: a pair"),
+            ("roughness.modes=(0, 4)", "(0, 4): allowed: a pair"),
+            ("roughness.wavelengths=(1e-4, 1e-6)", "roughness: modes and wavelengths determine each other"),
+            ("roughness.modes=None", "roughness: give modes, in waves per length, or wavelengths (longest"),
+            (&waves("50 µm, 1 µm"), ""),
+            (&waves("1 µm, 50 µm"), "longest ≥ shortest"),
+            (&waves("1 µm, 0 m"), "roughness.wavelengths = (1.0e-6, 0.0): allowed: a pair"),
+            (&waves("100 µm, 48 nm"), "allowed: shortest at least two springs = 4.8828125e-8 m"),
+            (&waves("100.1 µm, 1 µm"), "allowed: longest at most length = 1.0e-4 m"),
+            ("roughness.roll_off=1e-4", ""),
+            (
+                "roughness.roll_off=1.1e-4",
+                "roughness.roll_off = 1.1e-4: allowed: from 1.953125e-7 to 1.0e-4 m",
+            ),
+            (
+                &format!("{}; roughness.roll_off=60um", waves("50 µm, 1 µm")),
+                "allowed: from 1.0e-6 to 5.0e-5 m",
+            ),
+            (&format!("{}; length=4e-5", waves("50 µm, 1 µm")), "allowed: longest at most length = 4.0e-5 m"),
+            ("form=Punch(radius: 5.1e-5)", "a punch is not wider than the line"),
+            // Below a quarter of the spacing the diameter is nearer to no cell than to one.
+            ("form=Punch(radius: 5.8e-9)", "no spring lies under the punch"),
+            ("form=Punch(radius: 6.4e-9)", ""),
+            (
+                "form=WavySphere(radius: 1.0, amplitude: 1e-9, wavelength: 9e-8)",
+                "a wave has at least 4 springs",
+            ),
+            ("length=10; form=Cone(angle: 1.570796)", "form.angle = 1.570796: the form is too steep"),
+            (
+                "length=1; form=WavySphere(radius: 1.0, amplitude: 1e6, wavelength: 0.1)",
+                "form.amplitude = 1.0e6: the form is too steep",
+            ),
+            ("loading=[ToSeparation]", "loading.0 = ToSeparation: cannot pull before contact"),
+            ("loading=[ToForce(-1e-6)]", "loading.0 = ToForce(-1.0e-6): cannot pull"),
+            ("loading=[ToTouch, ToSeparation, ToForce(-1.0)]", "loading.2 = ToForce(-1.0): "),
+            ("loading=[ToForce(1.0), ToForce(-1e-6), ToSeparation, ToForce(0.0), ToZeroForce]", ""),
+            (
+                "numerics.solver=Stepwise(step: 1e-9); numerics.edges=SubCell",
+                "moves whole springs: edges: Grid",
+            ),
+            (&format!("{measured}, row: 1, column: 2)"), "a profile is a row or a column"),
+            (&format!("{measured}, opposite: \"b.txt\")"), "spectra of two faces add"),
+            (&format!("{measured}, further_files: [\"b.txt\"])"), "several files have one spectrum"),
+            (&format!("{measured}, unit: \"px\")"), "roughness.unit = \"px\": allowed: m, cm"),
+            (
+                "roughness=Measured(file: \"a\", as_line: false, further_files: [\"\"])",
+                "roughness.further_files = \"\": allowed: ",
+            ),
+            ("title=\"a\\nb\"", "title = text with '\\n': allowed: no control characters"),
+            ("notice=\"a\\nb\"", ""),
+            (
+                "notice=\"\\u{1b}[2J\"",
+                "notice = text with '\\u{1b}': allowed: no control characters but line breaks",
+            ),
+        ] {
+            match (errors_with(sets).as_slice(), said) {
+                ([], "") => {}
+                ([error], said) if !said.is_empty() => assert!(error.contains(said), "{sets}: {error}"),
+                (errors, _) => panic!("{sets}: {errors:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn samples_of_all_legs_are_bounded_together() {
+        let mut scene = sound();
+        scene.loading = vec![Move::ToTouch; 1 << 14];
+        scene.numerics.samples = 1 << 10;
+        assert_eq!(check(&scene), vec![]);
+        scene.numerics.samples += 1;
+        assert_eq!(check(&scene)[0].field, "numerics.samples");
+    }
+}

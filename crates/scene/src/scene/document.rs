@@ -1,0 +1,489 @@
+//! A scene with its text, changed field by field without loss of a comment.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use super::checked::CheckedScene;
+use super::edit::{field_at, set};
+use super::effects::Effect;
+use super::errors::{Origin, SceneError, SceneErrors, origin_at, overrides_behind};
+use super::field::Field;
+use super::fields::{FIELDS, field};
+use super::model::Scene;
+use super::range::Range;
+use super::read::read;
+use super::text::edit::NOT_ONE_VALUE;
+use super::text::index::{Text, is_within, line_column};
+use super::tree::{Tree, in_ron, to_ron};
+use asperity_contact::Move;
+
+/// Longest text; longer ones are refused unread. Scenes are a few hundred bytes.
+pub const LONGEST_TEXT: usize = 1 << 20;
+
+/// A checked scene, its text, and the overrides of its fields. A change returns a new document; a refused change
+/// leaves the old one unchanged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Document {
+    name: String,
+    opened: String,
+    text: Text,
+    scene: CheckedScene,
+    overrides: Vec<(String, String)>,
+    table_head: String,
+    /// Effects switched off, each with the paths of the changed values, their former and their present text.
+    pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
+    /// Choices that keys have left, each with the path of its field and its last text.
+    pub(super) left: Vec<(&'static str, String)>,
+}
+
+impl Document {
+    /// Reads and checks a scene. `name` is that of the file or of the built-in scene, for errors.
+    ///
+    /// # Errors
+    /// The first syntax error of the text, or all invalid values, each with line and column. An unsupported version is
+    /// stated instead of a syntax error.
+    pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
+        // Some editors put a byte order mark before the text.
+        let source = source.strip_prefix('\u{feff}').unwrap_or(source);
+        check_length(source)
+            .map_err(|message| SceneError::whole(Origin::File { name: name.into(), place: None }, message))?;
+        let place = |offset| origin_at(source, name, offset);
+        let scene = read(source, place)?;
+        let text = Text::new(source)
+            .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
+        let scene = CheckedScene::of(scene, Some(&text), |error| place(text.nearest_value(&error.field)))?;
+        let (name, opened) = (name.to_string(), source.to_string());
+        Ok(Document {
+            name,
+            opened,
+            text,
+            scene,
+            overrides: Vec::new(),
+            table_head: String::new(),
+            removed: Vec::new(),
+            left: Vec::new(),
+        })
+    }
+
+    /// The document of a scene that was not read from text, in canonical form.
+    ///
+    /// # Errors
+    /// All invalid values.
+    pub fn from_scene(scene: &Scene, name: &str) -> Result<Document, SceneErrors> {
+        scene.clone().checked()?;
+        Document::parse(&to_ron(scene), name)
+    }
+
+    /// This document with one field overridden; see [`Document::set_all`].
+    ///
+    /// # Errors
+    /// As [`Document::set_all`].
+    pub fn set(&self, path: &str, value: &str) -> Result<Document, SceneErrors> {
+        self.set_all(&[pair(path, value)])
+    }
+
+    /// This document with fields overridden, one after the other. Values are in RON; a number may have an SI prefix
+    /// and its unit, `50 mJ/m²`.
+    ///
+    /// A field missing from the text is inserted, with its group; `None` removes an optional part. Ranges are
+    /// checked once, at the end, so that overrides allowed only together may come in any order.
+    ///
+    /// # Errors
+    /// All errors, each with the overrides that caused it.
+    pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
+        let (mut new, mut errors) = (self.clone(), Vec::new());
+        for (path, value) in overrides {
+            match spliced(&new.text, path, value) {
+                Ok(text) => {
+                    new.text = text;
+                    remember(&mut new.overrides, path, value);
+                }
+                Err(refused) => errors.extend(refused.0),
+            }
+        }
+        let origin = |error: &SceneError| overrides_behind(error, overrides);
+        let read = read(new.text.as_str(), |_| Origin::Scene).map_err(|unread| {
+            errors.extend(unread.0.into_iter().map(|error| error.clone().at(origin(&error))));
+        });
+        SceneErrors::result(errors, |error| error.origin.clone())?;
+        if let (Ok(scene), false) = (read, overrides.is_empty()) {
+            new.scene = CheckedScene::of(scene, Some(&new.text), origin)?;
+        }
+        if !new.is_changed() {
+            new.overrides.clear();
+        }
+        Ok(new)
+    }
+
+    /// The stages of the loading with their places.
+    pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
+        self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
+    }
+
+    /// This document with another loading: its stages, those that stay with their places in the present loading, by which
+    /// they keep their notation and their comments.
+    ///
+    /// # Errors
+    /// As [`Document::set`].
+    pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
+        let elements: Vec<_> = stages.iter().map(|(place, stage)| (*place, in_ron(stage))).collect();
+        let mut new =
+            self.set("loading", &in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>()))?;
+        let is_same = |text: &Text| {
+            check_length(text.as_str()).is_ok()
+                && read(text.as_str(), |_| Origin::Scene).is_ok_and(|scene| scene == *new.scene)
+        };
+        if let Some(text) = self.text.arrange("loading", &elements).filter(is_same) {
+            new.text = text;
+        }
+        if !new.is_changed() {
+            new.overrides.clear();
+        }
+        Ok(new)
+    }
+
+    /// The present text, with all comments.
+    pub fn text(&self) -> &str {
+        self.text.as_str()
+    }
+
+    /// The checked scene.
+    pub fn scene(&self) -> &CheckedScene {
+        &self.scene
+    }
+
+    /// Value of a field as written, or its default if the field is omitted. `None` if the scene has no such field,
+    /// such as the radius of another form.
+    pub fn value(&self, path: &str) -> Option<&str> {
+        self.text.value(path).or_else(|| {
+            let field = FIELDS.iter().find(|field| field.path == path && self.has(field))?;
+            Some(Tree::of(&self.scene).default(field)).filter(|default| !default.is_empty())
+        })
+    }
+
+    /// Fields that this scene has or could have: all but those of unselected choices.
+    pub fn fields(&self) -> Vec<&'static Field> {
+        FIELDS.iter().filter(|field| self.has(field)).collect()
+    }
+
+    fn has(&self, field: &Field) -> bool {
+        field.variant.is_none() || field.variant == self.text.variant(field.parent())
+    }
+
+    /// Name of the file or of the built-in scene.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Title of the scene, or if there is none the name of its file without folders.
+    pub fn title(&self) -> &str {
+        let file = || Path::new(&self.name).file_name().and_then(OsStr::to_str);
+        if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
+    }
+
+    /// The effective overrides since the text was opened, in order: applied to the opened text they
+    /// result in this document's scene.
+    pub fn overrides(&self) -> &[(String, String)] {
+        &self.overrides
+    }
+
+    /// The document of a scene that was read from a table of results.
+    pub(super) fn of_table(self, head: &str) -> Document {
+        Document { table_head: head.to_string(), ..self }
+    }
+
+    /// The lines above the scene in the table of results that it was read from; empty for a scene from another source.
+    pub fn table_head(&self) -> &str {
+        &self.table_head
+    }
+
+    /// Number of comments in the text; smaller after a change that replaces a value with a comment inside.
+    pub fn comments(&self) -> usize {
+        self.text.comments()
+    }
+
+    /// Place of a field in the text, or of the nearest group around it: line and column, from 1.
+    pub fn place(&self, path: &str) -> (usize, usize) {
+        line_column(self.text(), self.text.nearest_value(path))
+    }
+
+    /// This document with another opened text, from which these overrides have made the present one.
+    pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
+        Document { opened, overrides, ..self }
+    }
+
+    /// The text that was opened.
+    pub fn opened(&self) -> &str {
+        &self.opened
+    }
+
+    /// Returns true if the text differs from the opened one.
+    pub fn is_changed(&self) -> bool {
+        self.text.as_str() != self.opened
+    }
+
+    /// This document with other names of its measured files, in canonical form if one of them changes.
+    ///
+    /// # Errors
+    /// All invalid values.
+    pub fn moved_to(&self, rename: impl Fn(&str) -> String) -> Result<Document, SceneErrors> {
+        let mut scene = Scene::clone(&self.scene);
+        scene.rename_measured_files(rename);
+        if scene == *self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
+    }
+
+    /// Path of a file named in the scene, relative to the scene's own file.
+    pub fn resolve(&self, file: &str) -> PathBuf {
+        Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
+    }
+}
+
+/// The text with another value of a field.
+fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
+    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+    let band = || {
+        field(parent, None).filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
+    };
+    let known = field_at(text, path).or_else(band);
+    let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
+    let refused = |message| SceneErrors::from(SceneError::whole(origin(), message));
+    let wrong = |known: &Field, why: &str| {
+        SceneErrors::from(SceneError::of(path, value, known.allowed(), why).at(origin()))
+    };
+    let typed = match known {
+        Some(known) => known.read_typed(value).map_err(|error| wrong(known, &error.to_string()))?,
+        None => value.to_string(),
+    };
+    let typed = group_in_ron(path, &typed).unwrap_or(typed);
+    let text = set(text, path, &typed).map_err(|message| match known {
+        Some(known) if message == NOT_ONE_VALUE => wrong(known, ""),
+        _ => refused(message),
+    })?;
+    check_length(text.as_str()).map_err(refused)?;
+    Ok(text)
+}
+
+/// A group of values with prefixes and units inside, `Cone(angle: 70°)`, in RON; `None` for any other text and for a group
+/// that is in RON already.
+fn group_in_ron(path: &str, typed: &str) -> Option<String> {
+    let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
+    let mut depth = 0_usize;
+    let between = |c: char| {
+        depth = match c {
+            '(' | '[' => depth + 1,
+            ')' | ']' => depth.saturating_sub(1),
+            _ => depth,
+        };
+        c == ',' && depth == 0
+    };
+    let value = |part: &str| {
+        let (field, value) = part.split_once(':')?;
+        let (field, value) = (field.trim(), value.trim());
+        let path = if path.is_empty() { field.to_owned() } else { format!("{path}.{field}") };
+        let known = FIELDS.iter().find(|field| field.path == path)?;
+        let value = known.read_typed(value).ok()?;
+        Some(format!("{field}: {}", group_in_ron(&path, &value).unwrap_or(value)))
+    };
+    // A text or a comment may contain any sign.
+    let is_plain = !["\"", "//", "/*"].iter().any(|sign| inside.contains(sign));
+    let parts = Some(inside).filter(|_| is_plain)?.split(between);
+    let parts: Vec<_> = parts.filter(|part| !part.trim().is_empty()).collect();
+    let read = parts.iter().map(|part| value(part)).collect::<Option<Vec<_>>>()?;
+    let is_read = parts.iter().zip(&read).any(|(part, read)| part.trim() != read);
+    is_read.then(|| format!("{name}({})", read.join(", ")))
+}
+
+/// An override: a path and a value in RON.
+pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
+    (path.to_string(), value.into())
+}
+
+/// Adds an override, replacing earlier ones of the same field or of fields inside it.
+fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
+    overrides.retain(|(earlier, _)| !is_within(earlier, path));
+    overrides.push(pair(path, value));
+}
+
+fn check_length(text: &str) -> Result<(), String> {
+    if text.len() > LONGEST_TEXT {
+        return Err(format!("the scene is {} bytes long, at most {LONGEST_TEXT} are read", text.len()));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"(
+    version: 1,
+    material: (effective_modulus: 1.0e6), // soft
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+    loading: [ToForce(1.0e-5), ToSeparation],
+)
+"#;
+
+    fn document() -> Document {
+        Document::parse(SCENE, "a/scene.ron").unwrap()
+    }
+
+    fn lines(errors: &SceneErrors) -> Vec<String> {
+        errors.to_string().lines().map(str::to_string).collect()
+    }
+
+    fn pairs(overrides: &[(&str, &str)]) -> Vec<(String, String)> {
+        overrides.iter().map(|(path, value)| (path.to_string(), value.to_string())).collect()
+    }
+
+    #[test]
+    fn groups_take_prefixes_and_units_inside() {
+        let document = document();
+        for (path, group, expected) in [
+            ("form", "Cone(angle: 45°)", ("form.angle", "0.7853981633974483")),
+            (
+                "form",
+                "WavySphere(radius: 1 mm, amplitude: 20nm, wavelength: 10 µm)",
+                ("form.amplitude", "2e-8"),
+            ),
+            (
+                "roughness",
+                "SelfAffine(hurst: 0.7, rms_height: 2nm, modes: (1, 512), seed: 1)",
+                ("roughness.rms_height", "2e-9"),
+            ),
+            ("adhesion", "(work: 45 mJ/m2)", ("adhesion.work", "0.045")),
+            (
+                "material",
+                "(youngs_modulus: 2 MPa, poisson_ratio: 0.5)",
+                ("material.youngs_modulus", "2000000.0"),
+            ),
+        ] {
+            let set = document.set(path, group).unwrap();
+            let same = document.set(path, group).and_then(|document| document.set(expected.0, expected.1));
+            assert_eq!(set.scene(), same.unwrap().scene(), "{group}");
+        }
+        let refused = document.set("form", "Cone(angle: 3 kg)").unwrap_err().to_string();
+        assert!(refused.contains("form"), "{refused}");
+    }
+
+    #[test]
+    fn several_errors_are_stated_with_their_places() {
+        let text = SCENE.replace("0.7", "1.4").replace("1.0e-4", "NaN").replace("ToForce(1.0e-5), ", "");
+        assert_eq!(
+            lines(&Document::parse(&text, "a/scene.ron").unwrap_err()),
+            [
+                "a/scene.ron:4:13: length = NaN: allowed: from 1e-9 to 10 m (apparent diameter)",
+                "a/scene.ron:5:34: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)",
+                "a/scene.ron:6:15: loading.0 = ToSeparation: cannot pull before contact: start with \
+                 ToTouch, ToForce or ToIndentation",
+            ]
+        );
+    }
+
+    #[test]
+    fn a_wrong_version_is_stated_first() {
+        let newer = SCENE.replace("version: 1", "version: 2");
+        for text in [newer.replace("hurst", "hurts"), newer] {
+            let errors = Document::parse(&text, "x").unwrap_err();
+            assert_eq!(lines(&errors), ["x:2:14: version = 2: allowed: 1 (version)"]);
+        }
+        let missing = Document::parse(&SCENE.replace("version: 1,", ""), "x").unwrap_err();
+        assert_eq!(missing.first().field, "version");
+    }
+
+    #[test]
+    fn a_flood_of_errors_is_counted() {
+        let text = SCENE.replace("ToForce(1.0e-5), ", &"ToForce(NaN), ".repeat(50_000));
+        let errors = Document::parse(&text, "x").unwrap_err();
+        assert_eq!(errors.iter().count(), 101);
+        assert!(errors.to_string().ends_with("and 49900 more errors"));
+    }
+
+    #[test]
+    fn overrides_allowed_only_together_are_checked_together() {
+        let document = document();
+        assert!(document.set("numerics.points", "64").is_err());
+        for both in [
+            [("numerics.points", "64"), ("roughness.modes", "(1, 32)")],
+            [("roughness.modes", "(1, 32)"), ("numerics.points", "64")],
+        ] {
+            assert_eq!(document.set_all(&pairs(&both)).unwrap().scene().numerics.points, 64);
+        }
+    }
+
+    #[test]
+    fn errors_name_the_overrides_that_cause_them() {
+        let document = document();
+        let refused = |overrides: &[(&str, &str)]| lines(&document.set_all(&pairs(overrides)).unwrap_err());
+        assert_eq!(
+            refused(&[("length", "2.0e-4"), ("roughness.hurst", "1.4")]),
+            [
+                "--set roughness.hurst=1.4: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)"
+            ]
+        );
+        assert_eq!(
+            refused(&[("length", "2.0e-4"), ("numerics.points", "64")]),
+            [
+                "--set length=2.0e-4 --set numerics.points=64: roughness.modes = (1, 512): allowed: last mode at most \
+                 points/2 = 32 (64 springs carry no shorter wave)"
+            ]
+        );
+        let errors = refused(&[("roughness.seed", "1.5"), ("length", "\"x\""), ("nothing", "1")]);
+        assert_eq!(errors.len(), 2);
+        assert!(errors[0].starts_with("--set nothing=1: no such field"));
+        assert!(errors[1].starts_with("--set length=\"x\": length = \"x\": allowed: from 1e-9 to 10 m"));
+    }
+
+    #[test]
+    fn overrides_that_matter_are_remembered() {
+        let mut document = document();
+        assert!(!document.is_changed());
+        for (path, value) in [
+            ("roughness.hurst", "0.6"),
+            ("length", "2.0e-4"),
+            ("roughness.hurst", "0.5"),
+            ("numerics.points", "2048"),
+            ("loading.0", "ToTouch"),
+            ("loading", "[ToTouch, ToSeparation]"),
+        ] {
+            document = document.set(path, value).unwrap();
+        }
+        let expected = [
+            ("length", "2.0e-4"),
+            ("roughness.hurst", "0.5"),
+            ("numerics.points", "2048"),
+            ("loading", "[ToTouch, ToSeparation]"),
+        ];
+        assert_eq!(document.overrides(), pairs(&expected));
+        assert!(document.is_changed());
+        let again = self::document().set_all(document.overrides()).unwrap();
+        assert_eq!(again.scene(), document.scene());
+        assert!(document.text().contains("// soft"));
+        assert!(!self::document().set("length", "1.0e-4").unwrap().is_changed());
+    }
+
+    #[test]
+    fn values_are_given_as_written_or_as_left_out() {
+        let document = document().set("adhesion", "Some(work: Some(0.1))").unwrap();
+        for (path, value) in [
+            ("length", Some("1.0e-4")),
+            ("roughness.hurst", Some("0.7")),
+            ("loading.0.0", Some("1.0e-5")),
+            ("adhesion.work", Some("0.1")),
+            ("adhesion.kappa", Some("None")),
+            ("form", Some("None")),
+            ("form.radius", None),
+            ("numerics.points", Some("16384")),
+            ("numerics.solver.step", None),
+            ("nothing", None),
+        ] {
+            assert_eq!(document.value(path), value, "{path}");
+        }
+        let paths: Vec<_> = document.fields().iter().map(|field| field.path).collect();
+        assert!(paths.contains(&"roughness.hurst") && paths.contains(&"material.poisson_ratio"));
+        assert!(!paths.contains(&"form.radius") && !paths.contains(&"roughness.file"));
+        let punch = document.set("form", "Punch(radius: 1.0e-5)").unwrap();
+        let radius = punch.fields().into_iter().find(|field| field.path == "form.radius").unwrap();
+        assert_eq!(radius.variant, Some("Punch"));
+    }
+}

@@ -1,0 +1,206 @@
+//! Change of one field in the text of a scene, with every comment preserved.
+
+use super::errors::did_you_mean;
+use super::field::{Field, LEG_FIELDS};
+use super::fields::{FIELDS, field};
+use super::range::{Range, choice_name};
+use super::text::edit::NOT_ONE_VALUE;
+use super::text::index::Text;
+
+/// The field at a path, by the variant of its group or loading stage.
+pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
+    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
+    let variant = text.variant(parent);
+    if parent.starts_with("loading.") {
+        return LEG_FIELDS.into_iter().find(|field| field.variant == variant);
+    }
+    field(path, variant).or_else(|| field(path, None))
+}
+
+/// Sets the field at `path` to `value`, in RON, and returns the new text.
+///
+/// A missing field is inserted, with its group if that is missing too; a missing part set to `None` is not
+/// inserted. Any value changes this one place only.
+///
+/// # Errors
+/// The reason in a sentence: no such field, not a single value, or no place for it.
+pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
+    let value = value.trim();
+    // A position in a list or pair refers to that list or pair.
+    let is_position = |name: &str| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
+    let mut base = path;
+    while let Some((before, last)) = base.rsplit_once('.')
+        && is_position(last)
+    {
+        base = before;
+    }
+    // Several if variants of a choice share the name.
+    let fields: Vec<&Field> = FIELDS.iter().filter(|field| field.path == base).collect();
+    let Some(field) = fields.first() else {
+        let mut names: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
+        names.sort_unstable();
+        names.dedup();
+        let near = did_you_mean(path, names.iter().copied());
+        return Err(format!("no such field{near} (fields: {})", names.join(", ")));
+    };
+    let (parent, name) = (field.parent(), field.last());
+    let variant = text.variant(parent);
+    if text.span(path).is_some() {
+        return text.replace(path, value);
+    }
+    if base != path {
+        return Err("there is no such element".into());
+    } else if value == "None" && fields.iter().any(|field| field.default == "None") {
+        return Ok(text.clone());
+    } else if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
+        return Err(wrong_variant(parent, variant, &fields));
+    }
+    let group = format!("({name}: {value})");
+    let edited = match text.span(parent) {
+        None if parent.is_empty() => Err("the scene is not a group of fields".into()),
+        None => set(text, parent, &group),
+        Some(_) if text.written(parent) == Some("None") => text.replace(parent, &group),
+        Some(_) => {
+            let siblings = FIELDS.iter().filter(|field| field.parent() == parent);
+            let order: Vec<&str> = siblings.map(Field::last).collect();
+            text.insert(parent, name, value, &order)
+        }
+    }?;
+    // The value may have ended its new group.
+    if edited.written(path) == Some(value) { Ok(edited) } else { Err(NOT_ONE_VALUE.into()) }
+}
+
+/// Message with the values of the choice that have the field.
+fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> String {
+    let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
+        return format!("{parent} has no such field");
+    };
+    let has_it = |choice: &&&str| fields.iter().any(|field| field.variant == Some(choice_name(choice)));
+    let choices = choices.iter().filter(has_it).map(|choice| format!("{parent}={choice}"));
+    let here = match variant {
+        Some(variant) if variant != "None" => format!("{parent} is {variant}, which has no such field"),
+        _ => format!("there is no {parent}"),
+    };
+    format!("{here}: set {}", choices.collect::<Vec<_>>().join(" or "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"(
+    version: 1,
+    // Its parts.
+    material: (effective_modulus: 1.0e6), // soft
+    length: 1.0e-4, /* as long
+                       as it is */
+    roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1),
+    numerics: (
+        points: 4096, // enough
+        samples: 64 // few
+    ),
+    observe: []
+)
+"#;
+
+    fn set_text(text: &str, path: &str, value: &str) -> Result<String, String> {
+        set(&Text::new(text).unwrap(), path, value).map(|text| text.as_str().to_owned())
+    }
+
+    fn changed(path: &str, value: &str, from: &str, to: &str) {
+        assert_eq!(SCENE.matches(from).count(), 1, "{from}");
+        assert_eq!(set_text(SCENE, path, value).unwrap(), SCENE.replace(from, to), "{path}={value}");
+    }
+
+    #[test]
+    fn values_are_exchanged_in_their_place() {
+        changed("length", " 2.0e-4 ", "1.0e-4,", "2.0e-4,");
+        changed("roughness.hurst", "0.5", "hurst: 0.7", "hurst: 0.5");
+        changed("roughness.modes", "(2, 4)", "(1, 512)", "(2, 4)");
+        changed("roughness.modes.1", "4", "(1, 512)", "(1, 4)");
+        changed("observe", "[Fragments]", "[]", "[Fragments]");
+        let rough = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)";
+        changed("roughness", "None", rough, "None");
+    }
+
+    #[test]
+    fn missing_fields_are_inserted_where_the_table_has_them() {
+        let after_length = "as it is */\n";
+        let line = |line: &str| format!("{after_length}    {line}\n");
+        changed("form", "Cone(angle: 0.1)", after_length, &line("form: Cone(angle: 0.1),"));
+        changed("title", "\"A\"", "version: 1,\n", "version: 1,\n    title: \"A\",\n");
+        changed("material.poisson_ratio", "0.5", "1.0e6)", "1.0e6, poisson_ratio: 0.5)");
+        changed("roughness.rms_gradient", "0.1", "1.0e-7,", "1.0e-7, rms_gradient: 0.1,");
+        changed("numerics.solver", "Exact", "// enough\n", "// enough\n        solver: Exact,\n");
+        changed("numerics.edges", "Grid", "// enough\n", "// enough\n        edges: Grid,\n");
+        let rough = "seed: 1),\n";
+        changed("adhesion.work", "0.1", rough, &format!("{rough}    adhesion: (work: 0.1),\n"));
+    }
+
+    #[test]
+    fn the_last_entry_keeps_its_comment_and_its_lack_of_a_comma() {
+        let text = "(\n    version: 1,\n    length: 1.0 // last\n)\n";
+        let new = "(\n    version: 1,\n    length: 1.0, // last\n    observe: []\n)\n";
+        assert_eq!(set_text(text, "observe", "[]").unwrap(), new);
+        let text = "(\r\n\tversion: 1,\r\n\tlength: 1.0\r\n)\r\n";
+        let new = "(\r\n\tversion: 1,\r\n\tlength: 1.0,\r\n\tobserve: []\r\n)\r\n";
+        assert_eq!(set_text(text, "observe", "[]").unwrap(), new);
+    }
+
+    #[test]
+    fn one_line_stays_one_line() {
+        for (text, path, value, new) in [
+            ("(length: 1.0)", "observe", "[]", "(length: 1.0, observe: [])"),
+            ("(length: 1.0,)", "observe", "[]", "(length: 1.0, observe: [],)"),
+            ("(length: 1.0 /* c */)", "observe", "[]", "(length: 1.0, observe: [] /* c */)"),
+            ("(observe: [])", "length", "1.0", "(observe: [], length: 1.0)"),
+            ("()", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("(adhesion: None)", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("(adhesion: ())", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
+            ("( // c\n)", "length", "1.0", "(length: 1.0 // c\n)"),
+            (
+                "Scene(form: Some(Cone(angle: 1.0)))",
+                "form.angle",
+                "0.1",
+                "Scene(form: Some(Cone(angle: 0.1)))",
+            ),
+        ] {
+            assert_eq!(set_text(text, path, value).as_deref(), Ok(new), "{text} {path}");
+        }
+    }
+
+    #[test]
+    fn a_value_is_one_value_and_stays_in_its_place() {
+        let values = "|1.0), title: (\"x\"|1 // |1 /* |1 /* a */|/* a */ 1|// a\n1|1.0, title: \"x\"|1.0 title|title: 1.0\
+                      |\"a|\"a\" \"b\"|r#\"a\"|'|(|)|[1)|,|:|1,|(1) (2)|#![enable(unwrap_newtypes)] 1";
+        for value in values.split('|') {
+            assert!(set_text(SCENE, "length", value).is_err(), "{value}");
+            assert!(set_text(SCENE, "adhesion.work", value).is_err(), "{value}");
+        }
+    }
+
+    #[test]
+    fn refusals_say_what_to_do() {
+        for (path, said) in [
+            ("roughness.hurts", "did you mean roughness.hurst?"),
+            ("hurst", "did you mean roughness.hurst?"),
+            ("nothing", "no such field (fields: adhesion, adhesion."),
+            ("", "no such field"),
+            ("loading.", "no such field"),
+            ("..", "no such field"),
+            ("roughness..hurst", "no such field"),
+            ("form.radius", "there is no form: set form=Paraboloid(radius: 1.0e-3) or form=WavySphere("),
+            ("roughness.file", "roughness is SelfAffine, which has no such field: set roughness=Measured("),
+            ("numerics.solver.step", "set numerics.solver=Stepwise(step: 1.0e-9)"),
+            ("loading.0", "no such element"),
+            ("roughness.modes.2", "no such element"),
+            ("version.0", "no such element"),
+        ] {
+            let message = set_text(SCENE, path, "1").unwrap_err();
+            assert!(message.contains(said), "{path}: {message}");
+        }
+        let without = SCENE.replace("observe: []", "form: None");
+        let message = set_text(&without, "form.radius", "1").unwrap_err();
+        assert!(message.contains("there is no form: set "), "{message}");
+    }
+}

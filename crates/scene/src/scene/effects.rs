@@ -1,0 +1,134 @@
+//! Optional effects of a scene beyond the nonadhesive contact of a flat body.
+
+use super::adhesion::{Adhesion, RoughnessParameter};
+use super::model::{Roughness, Scene};
+use asperity_contact::Move;
+use asperity_data::round_to;
+use asperity_surface::Form;
+
+/// Optional effect of a scene, switched by [`Document::with`](crate::scene::document::Document::with) and [`Document::without`](crate::scene::document::Document::without).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Effect {
+    /// A macroscopic form; off: nominally flat.
+    Form,
+    /// Roughness; off: smooth.
+    Roughness,
+    /// Adhesion; off: the bodies do not attract each other.
+    Adhesion,
+    /// Loading stages that may pull; off: pressed and held.
+    Unloading,
+}
+
+impl Effect {
+    /// All effects, in the order of a scene file.
+    pub const ALL: [Effect; 4] = [Effect::Form, Effect::Roughness, Effect::Adhesion, Effect::Unloading];
+
+    /// Technical name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Effect::Form => "form",
+            Effect::Roughness => "roughness",
+            Effect::Adhesion => "adhesion",
+            Effect::Unloading => "unloading",
+        }
+    }
+
+    /// Path of the effect's [field](crate::scene::fields::FIELDS).
+    pub const fn path(self) -> &'static str {
+        if let Effect::Unloading = self { "loading" } else { self.name() }
+    }
+
+    /// Returns true if the scene has the effect. A work of adhesion of zero is no adhesion.
+    pub fn is_on(self, scene: &Scene) -> bool {
+        match self {
+            Effect::Form => scene.form.is_some(),
+            Effect::Roughness => scene.roughness.is_some(),
+            Effect::Adhesion => scene.adhesion.is_some_and(|adhesion| adhesion.work() != Some(0.0)),
+            Effect::Unloading => may_pull(&scene.loading),
+        }
+    }
+
+    /// The scene with the effect, at values that suit the others.
+    pub(super) fn suited(self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        match self {
+            // At the ends of the profile its height is an eighth of the length.
+            Effect::Form => scene.form = Some(Form::Paraboloid { radius: scene.length }),
+            Effect::Roughness => {
+                // Smooth on the scale of a spring and, under a form, on that of the contact.
+                let last = (scene.numerics.points / 8).clamp(1, 512);
+                let first = if scene.form.is_some() { last.min(4) } else { 1 };
+                scene.roughness = Some(Roughness::SelfAffine {
+                    hurst: 0.7,
+                    rms_height: Some(round_to(scene.length / 500.0, 2)),
+                    rms_gradient: None,
+                    modes: Some((first, last)),
+                    wavelengths: None,
+                    roll_off: None,
+                    seed: 1,
+                });
+            }
+            Effect::Adhesion => {
+                let usual = match scene.roughness {
+                    Some(_) => Adhesion::by_parameter(RoughnessParameter::Kappa, 2.0),
+                    None => Adhesion::by_work(0.05),
+                };
+                let range = scene.adhesion.and_then(|adhesion| adhesion.range);
+                scene.adhesion = Some(Adhesion { range, ..usual });
+            }
+            Effect::Unloading => scene.loading.push(Move::ToSeparation),
+        }
+        scene
+    }
+}
+
+/// Returns true for a stage that may pull. A first stage cannot, since it begins at separation.
+fn may_pull(loading: &[Move]) -> bool {
+    let mut reached = f64::NEG_INFINITY;
+    loading.iter().enumerate().any(|(index, stage)| {
+        // The indentation of a force or a displacement is unknown: it may be shallower or deeper than any other.
+        let (to, pulls) = match *stage {
+            Move::ToIndentation(to) => (to, to < reached),
+            Move::ToTouch => (0.0, 0.0 < reached),
+            Move::ToForce(_) | Move::ToZeroForce | Move::ToDisplacement(_) => (f64::INFINITY, true),
+            Move::ToSeparation => (f64::NEG_INFINITY, true),
+        };
+        reached = reached.max(to);
+        index > 0 && pulls
+    })
+}
+
+/// The stage that presses most: the largest force, else the deepest indentation, else the first stage.
+pub(super) fn pressing(loading: &[Move]) -> Move {
+    let pressure = |stage: &Move| match *stage {
+        Move::ToForce(force) if force > 0.0 => (2, force),
+        Move::ToIndentation(to) | Move::ToDisplacement(to) if to > 0.0 => (1, to),
+        _ => (0, 0.0),
+    };
+    let less = |one: &&Move, other: &&Move| {
+        let ((one, size), (other, other_size)) = (pressure(one), pressure(other));
+        one.cmp(&other).then(size.total_cmp(&other_size))
+    };
+    // The first of equal ones.
+    loading.iter().rev().max_by(less).copied().unwrap_or(Move::ToZeroForce)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Move::{ToForce, ToIndentation, ToSeparation, ToTouch, ToZeroForce};
+
+    #[test]
+    fn the_stage_that_presses_most_is_left() {
+        for (loading, left) in [
+            (vec![ToForce(1.0), ToSeparation], ToForce(1.0)),
+            (vec![ToZeroForce, ToSeparation], ToZeroForce),
+            (vec![ToForce(1.0), ToForce(2.0), ToForce(0.5), ToZeroForce], ToForce(2.0)),
+            (vec![ToIndentation(-1.0), ToTouch, ToForce(1.0), ToSeparation], ToForce(1.0)),
+            (vec![ToTouch, ToIndentation(1.0), ToIndentation(2.0), ToTouch], ToIndentation(2.0)),
+            (vec![ToIndentation(-1.0), ToTouch], ToIndentation(-1.0)),
+        ] {
+            assert_eq!(pressing(&loading), left, "{loading:?}");
+        }
+    }
+}

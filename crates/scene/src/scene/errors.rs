@@ -1,0 +1,210 @@
+//! Errors of a scene: place, value, allowed values.
+
+use std::fmt;
+
+use strsim::osa_distance;
+
+use super::text::index::{is_within, line_column};
+use asperity_data::shown;
+
+/// Most errors listed; further ones are only counted.
+pub(super) const MOST_LISTED: usize = 100;
+
+/// Origin of an error.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Origin {
+    /// A scene file.
+    File {
+        /// Name of the file or of the built-in scene.
+        name: String,
+        /// Line and column, both from 1, columns counted in characters; `None`: the file as a whole.
+        place: Option<(usize, usize)>,
+    },
+    /// One or more overrides, as `path=value`.
+    Overrides(Vec<String>),
+    /// A scene without a text.
+    #[default]
+    Scene,
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Origin::File { name, place: Some((line, column)) } => {
+                write!(f, "{}:{line}:{column}: ", shown(name))
+            }
+            Origin::File { name, place: None } => write!(f, "{}: ", shown(name)),
+            Origin::Overrides(overrides) => {
+                let all: Vec<_> = overrides.iter().map(|one| format!("--set {}", shown(one))).collect();
+                write!(f, "{}: ", all.join(" "))
+            }
+            Origin::Scene => Ok(()),
+        }
+    }
+}
+
+/// One error of a scene.
+#[derive(Clone, Debug, Default, PartialEq, Eq, thiserror::Error)]
+#[error("{origin}{}", self.what())]
+pub struct SceneError {
+    /// Origin.
+    pub origin: Origin,
+    /// Path of the field, `loading.0` for a loading stage; empty for an error of no single field.
+    pub field: String,
+    /// The value as written; empty if there is none.
+    pub value: String,
+    /// Allowed values; empty if `message` contains them.
+    pub allowed: String,
+    /// Reason, or the name of the field.
+    pub message: String,
+}
+
+impl SceneError {
+    /// An error about a file or scene as a whole.
+    pub(super) fn whole(origin: Origin, message: impl Into<String>) -> SceneError {
+        SceneError { origin, message: message.into(), ..SceneError::default() }
+    }
+
+    /// An error of a value without its origin.
+    pub(super) fn of(
+        field: &str,
+        value: impl Into<String>,
+        allowed: impl Into<String>,
+        message: &str,
+    ) -> SceneError {
+        let (value, allowed) = (value.into(), allowed.into());
+        SceneError { field: field.into(), value, allowed, ..SceneError::whole(Origin::Scene, message) }
+    }
+
+    /// The same error with another origin.
+    pub(super) fn at(self, origin: Origin) -> SceneError {
+        SceneError { origin, ..self }
+    }
+
+    /// The error without its origin: `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
+    pub fn what(&self) -> String {
+        let of =
+            [&self.field, &self.value].map(|part| shown(part)).into_iter().filter(|part| !part.is_empty());
+        let of = of.collect::<Vec<_>>().join(" = ");
+        let of = if of.is_empty() { of } else { of + ": " };
+        match (self.allowed.as_str(), self.message.as_str()) {
+            ("", message) => format!("{of}{message}"),
+            (allowed, "") => format!("{of}allowed: {allowed}"),
+            (allowed, message) => format!("{of}allowed: {allowed} ({message})"),
+        }
+    }
+}
+
+/// All errors of a scene in the order of their detection, at least one, each a line of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneErrors(pub(super) Vec<SceneError>);
+
+impl SceneErrors {
+    /// Returns `Err` for a list of errors that is not empty: the errors with their origins, a long list shortened.
+    pub(super) fn result(
+        mut errors: Vec<SceneError>,
+        origin: impl Fn(&SceneError) -> Origin,
+    ) -> Result<(), SceneErrors> {
+        let more = errors.len().saturating_sub(MOST_LISTED);
+        errors.truncate(MOST_LISTED);
+        errors.iter_mut().for_each(|error| error.origin = origin(error));
+        if more > 0 {
+            errors.push(SceneError::whole(Origin::Scene, format!("and {more} more errors")));
+        }
+        if errors.is_empty() { Ok(()) } else { Err(SceneErrors(errors)) }
+    }
+
+    /// The first error.
+    pub fn first(&self) -> &SceneError {
+        &self.0[0]
+    }
+
+    /// All errors.
+    pub fn iter(&self) -> std::slice::Iter<'_, SceneError> {
+        self.0.iter()
+    }
+}
+
+impl From<SceneError> for SceneErrors {
+    fn from(error: SceneError) -> SceneErrors {
+        SceneErrors(vec![error])
+    }
+}
+
+impl fmt::Display for SceneErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines: Vec<String> = self.iter().map(SceneError::to_string).collect();
+        f.write_str(&lines.join("\n"))
+    }
+}
+
+impl std::error::Error for SceneErrors {}
+
+/// Line and column of a byte in a scene with this name.
+pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
+    Origin::File { name: name.into(), place: Some(line_column(text, offset)) }
+}
+
+/// Overrides that cause an error: the overrides of its field, of a group around it or of a field inside it, else all.
+pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
+    let is_behind = |path: &str| is_within(&error.field, path) || is_within(path, &error.field);
+    let is_known = overrides.iter().any(|(path, _)| is_behind(path));
+    let behind = overrides.iter().filter(|(path, _)| !is_known || is_behind(path));
+    Origin::Overrides(behind.map(|(path, value)| format!("{path}={value}")).collect())
+}
+
+/// Longest name that is compared; longer ones are not mistyped.
+const LONGEST: usize = 64;
+
+/// The nearest name, if it is near enough to be the intended one.
+///
+/// The last component of a name suffices: `hurst` means `roughness.hurst`.
+pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_lowercase();
+    // At most a third of the name is wrong.
+    let near_enough = |name: &str, candidate: &str| {
+        Some(osa_distance(name, candidate)).filter(|far| *far <= (name.chars().count() / 3).max(1))
+    };
+    let near = |candidate: &'n str| {
+        let whole = near_enough(&name.to_lowercase(), &candidate.to_lowercase()).map(|far| 2 * far);
+        // A match of the last component alone counts slightly less than one of the whole.
+        let end = near_enough(&last(name), &last(candidate)).map(|far| 2 * far + 1);
+        Some((whole.into_iter().chain(end).min()?, candidate))
+    };
+    let names = names.into_iter().filter(|_| !name.is_empty() && name.len() <= LONGEST);
+    names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
+}
+
+/// The question for the nearest name, behind a message: `; did you mean length?`. Empty if no name is near.
+pub fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
+    nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn foreign_text_neither_floods_nor_controls_the_terminal() {
+        assert_eq!(shown("a\u{1b}[2J\nb"), "a\\u{1b}[2J b");
+        assert_eq!(shown("a\u{202e}b"), "a\\u{202e}b");
+        assert_eq!(shown(&"x".repeat(1000)).chars().count(), 81);
+    }
+
+    #[test]
+    fn near_names_are_suggested_and_far_ones_are_not() {
+        let names = ["roughness.hurst", "adhesion.work", "numerics.points", "length"];
+        for (name, expected) in [
+            ("roughness.hurts", Some("roughness.hurst")),
+            ("hurst", Some("roughness.hurst")),
+            ("adhesion.Work", Some("adhesion.work")),
+            ("lenght", Some("length")),
+            ("points", Some("numerics.points")),
+            ("nothing.like.it", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(name, names), expected, "{name}");
+        }
+        assert_eq!(nearest(&"x".repeat(1_000_000), names), None);
+    }
+}

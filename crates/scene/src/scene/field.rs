@@ -1,0 +1,375 @@
+//! One field of a scene: path, symbol, unit, range, step, default and meaning.
+
+use super::range::Range;
+use super::stages::{STAGES, read_loading, stage_in_ron};
+use super::text::{ron_float, ron_string};
+use asperity_contact::Move;
+use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
+
+/// One field of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Path from the top of the scene, components joined by dots: `roughness.hurst`.
+    pub path: &'static str,
+    /// Variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`. `None` if the field
+    /// does not depend on a choice.
+    pub variant: Option<&'static str>,
+    /// Technical name: `Hurst exponent`.
+    pub name: &'static str,
+    /// Symbol in the equations; empty if there is none.
+    pub symbol: &'static str,
+    /// SI unit; `1` for numbers without one, empty for other values.
+    pub unit: &'static str,
+    /// Allowed values.
+    pub range: Range,
+    /// Steps of the keys.
+    pub step: Step,
+    /// Value of an omitted field, as written; empty if the field is required.
+    pub default: &'static str,
+    /// Meaning in one line.
+    pub meaning: &'static str,
+    /// The value of a typed text in RON.
+    pub(super) read: Read,
+}
+
+/// Returns in RON what is typed, without blanks around it, as the value of a field.
+pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
+
+/// Step of a field for a key press.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// By addition of the first number, or of the second as the large step; the result is a multiple of the first.
+    Linear(f64, f64),
+    /// To the next preferred number: twenty to a decade (the Renard series R20) as the small step,
+    /// 1–2–5 as the large one.
+    Logarithmic,
+    /// By addition of the first number to an integer, or of the second as the large step.
+    Integer(u64, u64),
+    /// To the next power of two; the large step is four of them.
+    Doubling,
+    /// The last mode of a pair to the next power of two; the large step moves the first mode. The shortest wavelength of
+    /// a pair to the next preferred number; the large step moves the longest one.
+    Band,
+    /// To the next choice.
+    Choice,
+    /// No steps, only typed values.
+    Typed,
+}
+
+/// A required field, with the usual unit and step of its range; its name is its path.
+pub(super) const fn row(path: &'static str, range: Range) -> Field {
+    let (step, unit, read): (_, _, Read) = match range {
+        Range::Real(..) => (Step::Logarithmic, "1", read_number),
+        Range::Whole(..) => (Step::Typed, "1", read_whole),
+        Range::Band(..) | Range::Wavelengths(..) => (Step::Band, "1", read_pair),
+        Range::Choice(_) => (Step::Choice, "", read_choice),
+        Range::Text { .. } => (Step::Typed, "", read_text),
+        Range::List { .. } | Range::Group => (Step::Typed, "", |_, typed| Ok(typed.to_owned())),
+    };
+    Field { path, variant: None, name: path, symbol: "", unit, range, step, default: "", meaning: "", read }
+}
+
+/// Changes of a row in the table of fields.
+impl Field {
+    pub(super) const fn of(self, variant: &'static str) -> Field {
+        Field { variant: Some(variant), ..self }
+    }
+
+    pub(super) const fn name(self, name: &'static str) -> Field {
+        Field { name, ..self }
+    }
+
+    pub(super) const fn quantity(
+        self,
+        name: &'static str,
+        symbol: &'static str,
+        unit: &'static str,
+    ) -> Field {
+        Field { name, symbol, unit, ..self }
+    }
+
+    pub(super) const fn step(self, step: Step) -> Field {
+        Field { step, ..self }
+    }
+
+    pub(super) const fn default(self, default: &'static str) -> Field {
+        Field { default, ..self }
+    }
+
+    pub(super) const fn meaning(self, meaning: &'static str) -> Field {
+        Field { meaning, ..self }
+    }
+
+    pub(super) const fn read(self, read: Read) -> Field {
+        Field { read, ..self }
+    }
+}
+
+impl Field {
+    /// Allowed values with the unit: `from 1 to 1e13 Pa`.
+    pub fn allowed(&self) -> String {
+        match self.unit {
+            "" | "1" => self.range.to_string(),
+            unit => format!("{} {unit}", self.range),
+        }
+    }
+
+    /// The number, or both wavelengths, of a written value with the unit: `100 µm, 200 nm`; `None` for other values.
+    pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
+        let ends = match self.range {
+            Range::Real(..) => vec![written.parse().ok()?],
+            Range::Wavelengths(..) => <[f64; 2]>::from(ron::from_str::<(f64, f64)>(written).ok()?).to_vec(),
+            _ => return None,
+        };
+        Some(ends.into_iter().map(|end| format(end, self.unit)).collect::<Vec<_>>().join(", "))
+    }
+
+    /// A typed value with the units of the shown one, where it has none of its own: `50` beside `4.356 mJ/m²`, `80, 500`
+    /// beside `100 µm, 200 nm`.
+    pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
+        match (self.range, shown.split_once(", "), split_pair(typed)) {
+            (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
+            (Range::Wavelengths(..), Some((long, short)), Some((first, last))) => {
+                format!("{}, {}", in_unit(first.trim(), unit_of(long)), in_unit(last.trim(), unit_of(short)))
+            }
+            _ => typed.to_owned(),
+        }
+    }
+
+    /// Path of the enclosing group; empty at the top of the scene.
+    pub fn parent(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
+    }
+
+    /// The last component of the path.
+    pub fn last(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or(self.path, |(_, last)| last)
+    }
+}
+
+/// Fields are equal if path and variant are equal.
+impl PartialEq for Field {
+    fn eq(&self, other: &Field) -> bool {
+        (self.path, self.variant) == (other.path, other.variant)
+    }
+}
+
+/// Range of file names.
+pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
+
+/// The force of a loading stage [`ToForce`](asperity_contact::Move::ToForce), at `loading.0.0` for the first stage.
+pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
+    .of("ToForce")
+    .quantity("force of stage", "F", "N")
+    .meaning("target: the stage ends where the force first reaches this value; compression is positive");
+
+/// The indentation of a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation), at `loading.0.0`
+/// for the first stage.
+pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
+    .of("ToIndentation")
+    .quantity("indentation of stage", "d", "m")
+    .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
+
+/// A loading stage without a number, at `loading.0` for the first stage.
+pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
+    "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
+);
+/// The displacement of a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement), at `loading.0.0` for the first
+/// stage.
+pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
+    .of("ToDisplacement")
+    .quantity("displacement of stage", "D", "m")
+    .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
+
+/// The fields of the targets of loading stages.
+pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
+
+/// Returns the field and the value of the target of a loading stage, if the stage has a numeric target.
+pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
+    match stage {
+        Move::ToForce(force) => Some((&LEG_FORCE, force)),
+        Move::ToIndentation(indentation) => Some((&LEG_INDENTATION, indentation)),
+        Move::ToDisplacement(displacement) => Some((&LEG_DISPLACEMENT, displacement)),
+        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
+    }
+}
+
+/// Integers from here on are not all exact as floating-point numbers.
+const MOST_EXACT: f64 = 9.0e15;
+
+impl Field {
+    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
+    /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, a work with
+    /// its unit is an adhesion, and a loading may be a list of stages, as
+    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text is unchanged but for surrounding blanks.
+    ///
+    /// # Errors
+    /// Text that begins as a number and continues as another unit, or a number that is too large.
+    pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
+        (self.read)(self, typed.trim())
+    }
+}
+
+fn begins_as_number(typed: &str) -> bool {
+    typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
+}
+
+/// A number in RON, or one with a prefix and the unit.
+fn read_number(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
+        true => parse_quantity(typed, field.unit).map(ron_float),
+        false => Ok(typed.to_owned()),
+    }
+}
+
+fn whole(value: f64) -> Option<String> {
+    (value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value)).then(|| (value as u64).to_string())
+}
+
+/// A whole number, with blanks between its digits or with a prefix.
+fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let digits: String = typed.split_whitespace().collect();
+    if digits.parse::<u64>().is_ok() {
+        return Ok(digits);
+    }
+    // A seed has more digits than a floating-point number keeps.
+    match begins_as_number(typed) && ron::from_str::<u64>(typed).is_err() {
+        true => Ok(whole(parse_quantity(typed, field.unit)?).unwrap_or_else(|| typed.to_owned())),
+        false => Ok(typed.to_owned()),
+    }
+}
+
+/// Two numbers, or one as for a field of one number.
+fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let is_whole = matches!(field.range, Range::Band(..));
+    let Some((first, last)) = split_pair(typed) else {
+        return if is_whole { read_whole(field, typed) } else { read_number(field, typed) };
+    };
+    let [first, last] = [first, last].map(|end| parse_quantity(end.trim(), field.unit));
+    let written = |end: f64| whole(end).filter(|_| is_whole).unwrap_or_else(|| ron_float(end));
+    Ok(format!("({}, {})", written(first?), written(last?)))
+}
+
+/// A text with or without quotes.
+fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let is_omitted = field.range == FILE_NAME && (typed.is_empty() || typed == "None");
+    let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
+    Ok(if is_omitted || is_quoted { typed.to_owned() } else { ron_string(typed) })
+}
+
+/// A choice in RON or in words.
+fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    let Range::Choice(choices) = field.range else { return Ok(typed.to_owned()) };
+    let in_words = choices.iter().find(|choice| choice_in_words(choice) == typed);
+    Ok(in_words.map_or(typed, |choice| choice).to_owned())
+}
+
+/// A form, or the file of a table.
+pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match is_file_name(typed) {
+        true => Ok(format!("Table(file: {})", ron_string(typed))),
+        false => read_choice(field, typed),
+    }
+}
+
+/// A roughness, or the file of a measured surface.
+pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match is_file_name(typed) {
+        true => Ok(format!("Measured(file: {})", ron_string(typed))),
+        false => read_choice(field, typed),
+    }
+}
+
+/// An adhesion, or a work of adhesion with its unit.
+pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, QuantityError> {
+    match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
+        true => parse_quantity(typed, "J/m²").map(|work| format!("(work: {})", ron_float(work))),
+        false => read_choice(field, typed),
+    }
+}
+
+/// A list of loading stages in RON or in words.
+pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityError> {
+    if ron::from_str::<Vec<Move>>(typed).is_ok() {
+        return Ok(typed.to_owned());
+    }
+    let stages: Vec<_> = read_loading(typed)?.iter().map(stage_in_ron).collect();
+    Ok(format!("[{}]", stages.join(", ")))
+}
+
+/// The two parts of a typed pair: `4, 512`, `4–512`, `4 to 512`, in brackets or not.
+fn split_pair(typed: &str) -> Option<(&str, &str)> {
+    let pair = typed.trim_matches(['(', ')', ' ', ',']);
+    [",", "–", " to "].iter().find_map(|between| pair.split_once(between))
+}
+
+/// A choice without fields in words, as users read and type it: `sub-cell` of `SubCell`.
+pub fn choice_in_words(name: &str) -> String {
+    let mut words = String::new();
+    for character in name.chars() {
+        if character.is_uppercase() && !words.is_empty() {
+            words.push('-');
+        }
+        words.extend(character.to_lowercase());
+    }
+    words
+}
+
+/// Returns true for a name with an ending or a folder, unlike any choice of a field.
+fn is_file_name(typed: &str) -> bool {
+    typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::field;
+
+    #[test]
+    fn numbers_may_have_prefix_and_unit() {
+        for row in [
+            "adhesion.work|50mJ/m2|0.05",
+            "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToForce(0.0), ToIndentation(-5.0e-9), ToSeparation]",
+            "loading_stiffness|40 mN/m|0.04",
+            "adhesion.work| 50 mN/m |0.05",
+            "adhesion|30 mJ/m²|(work: 0.03)",
+            "adhesion|(kappa: 2.0)|(kappa: 2.0)",
+            "adhesion.work|5.0e-2|5.0e-2",
+            "numerics.points|64Ki|65536",
+            "numerics.points|1_024|1_024",
+            "numerics.points|16 384|16384",
+            "numerics.edges|sub-cell|SubCell",
+            "roughness.modes|4, 512|(4, 512)",
+            "roughness.modes|4–512|(4, 512)",
+            "roughness.modes|(4, 1Ki)|(4, 1024)",
+            "roughness.wavelengths|100 µm to 0.2 µm|(1.0e-4, 2.0e-7)",
+            "numerics.points|1.5|1.5",
+            "roughness.seed|18446744073709551616|18446744073709551616",
+            "length|-inf|-inf",
+            "form.angle|90°|1.5707963267948966",
+            "title|\"10 µm\"|\"10 µm\"",
+            "roughness|a b/1.txt|Measured(file: \"a b/1.txt\")",
+            "roughness|Measured(file: \"a.txt\")|Measured(file: \"a.txt\")",
+            "roughness|None|None",
+            "roughness.wavelengths|100 µm, 0.2um|(1.0e-4, 2.0e-7)",
+            "roughness.wavelengths|(1e-4, 2e-7,)|(1.0e-4, 2.0e-7)",
+            "roughness.wavelengths|200 nm|2.0e-7",
+            "roughness.roll_off|20 µm|2.0e-5",
+            "roughness.file|7.txt|\"7.txt\"",
+            "roughness.opposite|None|None",
+        ] {
+            let [path, typed, ron] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(field(path, None).unwrap().read_typed(typed).as_deref(), Ok(ron), "{row}");
+        }
+        for row in [
+            "length|5|100 µm|5 µm",
+            "roughness.wavelengths|80, 500|100 µm, 200 nm|80 µm, 500 nm",
+            "roughness.wavelengths|(80, 0.5 µm)|= 100 µm, 200 nm|80 µm, 0.5 µm",
+            "roughness.modes|4, 512|1, 64|4, 512",
+        ] {
+            let [path, typed, shown, read] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(field(path, None).unwrap().in_shown_units(typed, shown), read, "{row}");
+        }
+        let wrong = field("length", None).unwrap().read_typed("10 kg").unwrap_err();
+        assert_eq!(wrong.to_string(), "kg is not a unit of length: use m, mm, µm, nm");
+    }
+}

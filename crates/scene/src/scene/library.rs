@@ -1,0 +1,328 @@
+//! Sources of scenes: the user's own folder and the working folder, beside the built-in scenes.
+
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf, is_separator};
+
+use etcetera::{BaseStrategy, choose_base_strategy, home_dir};
+
+use super::document::{Document, LONGEST_TEXT};
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::text::index::Text;
+use asperity_data::{ReadError, read_regular_text};
+use asperity_data::{path_name, printable};
+
+/// Name of the default scene.
+pub const DEFAULT: &str = "pressure-sensitive";
+
+/// A built-in scene or plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// Text in RON.
+    pub text: &'static str,
+}
+
+/// Built-in files of a folder of presets, by their names.
+#[macro_export]
+macro_rules! built_in {
+    ($folder:literal: $($name:literal),* $(,)?) => {
+        &[$($crate::Preset {
+            name: $name,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../presets/", $folder, $name, ".ron")),
+        }),*]
+    };
+}
+
+const PRESETS: &[Preset] = built_in!["":
+    "ideal-adhesion",
+    "pressure-sensitive",
+    "non-adhesive",
+    "profile-hurst-025",
+    "profile-hurst-075",
+    "fragment-closeup",
+    "jkr-sphere",
+    "kendall-punch",
+    "rough-sphere",
+    "million-springs",
+    "two-works",
+    "wavy-sphere",
+    "elastic-energy-below",
+    "elastic-energy-above",
+];
+
+/// All built-in scenes, in the recommended order.
+pub fn presets() -> &'static [Preset] {
+    PRESETS
+}
+
+/// Built-in scene of this name.
+pub fn find(name: &str) -> Option<&'static Preset> {
+    PRESETS.iter().find(|preset| preset.name == name)
+}
+
+/// A typed path: a leading `~` becomes the home folder, if there is one.
+pub fn typed_path(text: &str) -> PathBuf {
+    let text = text.trim();
+    let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
+    match (in_home, home_dir()) {
+        (Some(rest), Ok(home)) => home.join(rest.trim_start_matches(is_separator)),
+        _ => PathBuf::from(text),
+    }
+}
+
+/// Origin of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// Built into the program.
+    BuiltIn,
+    /// The user's own folder of scenes.
+    Own,
+    /// The working folder.
+    Working,
+}
+
+/// A scene of the library, or a file that looked like one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Name: of a built-in scene, of an own scene without `.ron`, of a file in the working folder with `.ron`.
+    pub name: String,
+    /// Origin.
+    pub origin: Source,
+    /// File; `None` for a built-in scene.
+    pub path: Option<PathBuf>,
+    /// Text of the file; empty if it cannot be read.
+    pub text: String,
+    /// The scene, with files relative to its own file, or its errors.
+    pub document: Result<Document, SceneErrors>,
+}
+
+/// The folder of the user's own scenes: `asperity/presets` in the configuration folder, which is `$XDG_CONFIG_HOME`, by
+/// default `~/.config`, and on Windows the roaming application data. It may not exist yet. A scene saved here opens by
+/// its name.
+pub fn own_folder() -> Option<PathBuf> {
+    Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
+}
+
+/// The file of a scene of this name in the folder of the user's own scenes, if it exists.
+pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
+    let mut components = Path::new(name).components();
+    let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
+    Some(own.join(format!("{name}.ron"))).filter(|path| is_name && path.is_file())
+}
+
+/// Names of the scenes in the folder of the user's own scenes.
+pub(super) fn own_names(own: &Path) -> Vec<String> {
+    scene_files(own).unwrap_or_default().iter().map(|path| name_of(path, Source::Own)).collect()
+}
+
+/// All scenes: the built-in ones in their order, then the user's own, then those of a working folder, each by name.
+///
+/// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
+/// scene or cannot be read are listed with their error. Only regular files are opened.
+pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
+    let built_in = presets()
+        .iter()
+        .map(|preset| Entry::new(preset.name.into(), Source::BuiltIn, None, Ok(preset.text.into())));
+    let mut entries: Vec<Entry> = built_in.collect();
+    entries.extend(own.into_iter().flat_map(|own| list_folder(own, Source::Own)));
+    let place = |folder: &Path| folder.canonicalize().ok();
+    let own = own.and_then(place);
+    if own.is_none() || own != place(working) {
+        entries.extend(list_folder(working, Source::Working));
+    }
+    entries
+}
+
+impl Entry {
+    /// The entry of a text, or of the reason why there is none.
+    fn new(name: String, origin: Source, path: Option<PathBuf>, text: Result<String, String>) -> Entry {
+        let file = path.as_ref().map_or_else(|| name.clone(), |path| path.display().to_string());
+        let document = match &text {
+            Ok(text) => Document::parse(text, &file),
+            Err(error) => {
+                Err(SceneError::whole(Origin::File { name: file, place: None }, error.as_str()).into())
+            }
+        };
+        Entry { name, origin, path, text: text.unwrap_or_default(), document }
+    }
+
+    /// Title of the scene; empty if it has none.
+    pub fn title(&self) -> &str {
+        self.document.as_ref().map_or("", |document| &document.scene().title)
+    }
+
+    /// Notice of the scene; empty if it has none.
+    pub fn notice(&self) -> &str {
+        self.document.as_ref().map_or("", |document| &document.scene().notice)
+    }
+
+    /// The first error of the file with its place, and the number of further ones, on one line.
+    pub fn error(&self) -> Option<String> {
+        let errors = self.document.as_ref().err()?;
+        let (first, more) = (errors.first(), errors.iter().count() - 1);
+        let place = match &first.origin {
+            Origin::File { place: Some((line, column)), .. } => format!("line {line}, column {column}: "),
+            _ => String::new(),
+        };
+        let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
+        Some(format!("{place}{}{more}", first.what()))
+    }
+}
+
+/// The scene files of a folder by name; empty for a missing folder.
+fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
+    let mut paths = match scene_files(folder) {
+        Ok(paths) => paths,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Vec::new(),
+        Err(error) => {
+            let error = format!("cannot be read: {error}");
+            return vec![Entry::new(path_name(folder), origin, Some(folder.to_path_buf()), Err(error))];
+        }
+    };
+    paths.sort_by_cached_key(|path| name_of(path, origin));
+    let read = |path: PathBuf| {
+        let text = read_regular_text(&path, LONGEST_TEXT).map_err(describe);
+        Entry::new(printable(&name_of(&path, origin)).into_owned(), origin, Some(path), text)
+    };
+    let mut entries: Vec<Entry> = paths.into_iter().map(read).collect();
+    // A plan of a study contains a scene.
+    let is_plan = |text: &str| Text::new(text).is_ok_and(|text| text.span("scene").is_some());
+    entries.retain(|entry| entry.document.is_ok() || !is_plan(&entry.text));
+    entries
+}
+
+/// The files of a folder that end in `.ron`, unread.
+fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let paths = fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
+    // The target of a link decides; a link without a target is no folder.
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
+    Ok(paths.filter(is_scene).collect())
+}
+
+fn name_of(path: &Path, origin: Source) -> String {
+    let name = if origin == Source::Own { path.file_stem() } else { path.file_name() };
+    name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// Reason why the file of a scene was not read.
+pub(super) fn describe(error: ReadError) -> String {
+    match error {
+        ReadError::Folder => "this is a directory, not a scene file".into(),
+        ReadError::TooLong { limit } => format!("the scene is too long: at most {limit} bytes are read"),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = "(version: 1, title: \"A title\", notice: \"A notice\", \
+                         material: (effective_modulus: 1.0e6), length: 1.0e-4)";
+
+    /// Empty folders of own scenes and of work.
+    fn folders() -> (tempfile::TempDir, PathBuf, PathBuf) {
+        let root = tempfile::tempdir().unwrap();
+        let [own, working] = ["own", "working"].map(|name| root.path().join(name));
+        for folder in [&own, &working] {
+            fs::create_dir(folder).unwrap();
+        }
+        (root, own, working)
+    }
+
+    fn listed(own: Option<&Path>, working: &Path) -> Vec<(String, Source)> {
+        let entries = scenes(own, working);
+        assert!(entries[..presets().len()].iter().all(|entry| entry.origin == Source::BuiltIn));
+        entries[presets().len()..].iter().map(|entry| (entry.name.clone(), entry.origin)).collect()
+    }
+
+    fn error_of(working: &Path, name: &str) -> String {
+        let entry = scenes(None, working).into_iter().find(|entry| entry.name == name).unwrap();
+        let error = entry.error().unwrap();
+        assert!(!error.contains('\n'), "{error}");
+        let errors = entry.document.unwrap_err().to_string();
+        assert!(errors.contains(&entry.path.unwrap().display().to_string()));
+        error
+    }
+
+    #[test]
+    fn scenes_are_listed_where_they_are() {
+        let (_root, own, working) = folders();
+        assert_eq!(listed(Some(&own), &working), []);
+        for name in ["b-c.ron", "b.ron", "a.ron", ".hidden.ron", "notes.txt", "ron"] {
+            fs::write(own.join(name), SCENE).unwrap();
+            fs::write(working.join(name), SCENE).unwrap();
+        }
+        fs::create_dir(working.join("folder.ron")).unwrap();
+        fs::write(working.join("folder.ron/inside.ron"), SCENE).unwrap();
+        let own_names = [".hidden", "a", "b", "b-c"].map(|name| (name.to_string(), Source::Own));
+        let names =
+            [".hidden.ron", "a.ron", "b-c.ron", "b.ron"].map(|name| (name.to_string(), Source::Working));
+        assert_eq!(listed(Some(&own), &working), [own_names, names].concat());
+        let entry = &scenes(Some(&own), &working)[presets().len() + 1];
+        assert_eq!((entry.title(), entry.notice(), entry.text.as_str()), ("A title", "A notice", SCENE));
+        assert_eq!(entry.path, Some(own.join("a.ron")));
+        assert_eq!(entry.document.as_ref().unwrap().resolve("line.csv"), own.join("line.csv"));
+        // A folder in both roles is listed once; missing folders are empty.
+        assert_eq!(listed(Some(&own), &own.join("../own")).len(), 4);
+        assert_eq!(listed(None, &own.join("missing")), []);
+    }
+
+    #[test]
+    fn what_is_no_scene_is_listed_with_its_error() {
+        let (_root, _, working) = folders();
+        fs::write(working.join("other.ron"), "Config(colour: 1)").unwrap();
+        let plan = format!("(version: 1, title: \"A study\", scene: {SCENE}, lines: 3, record: [regime])");
+        fs::write(working.join("plan.ron"), plan).unwrap();
+        assert!(scenes(None, &working).iter().all(|entry| entry.name != "plan.ron"), "it is no broken scene");
+        fs::write(working.join("two.ron"), SCENE.replace("1.0e6", "0.0").replace("1.0e-4", "0.0")).unwrap();
+        fs::write(working.join("empty.ron"), "").unwrap();
+        fs::write(working.join("binary.ron"), [b'(', 0xff]).unwrap();
+        fs::write(working.join("long.ron"), " ".repeat(LONGEST_TEXT + 1)).unwrap();
+        assert!(error_of(&working, "other.ron").starts_with("line 1, column "));
+        let two = error_of(&working, "two.ron");
+        assert!(
+            two.contains("material.effective_modulus = 0.0: allowed") && two.ends_with("(and 1 more)"),
+            "{two}"
+        );
+        assert_eq!(error_of(&working, "binary.ron"), "this is not UTF-8 text: byte 1 is not");
+        assert!(error_of(&working, "long.ron").contains("too long"));
+        let file = working.join("other.ron");
+        assert!(error_of(&file, &file.display().to_string()).contains("cannot be read"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_is_opened_but_regular_files() {
+        use std::os::unix::fs::symlink;
+
+        let (_root, own, working) = folders();
+        let made = std::process::Command::new("mkfifo").arg(working.join("pipe.ron")).status().unwrap();
+        assert!(made.success());
+        symlink("loop.ron", working.join("loop.ron")).unwrap();
+        symlink("missing", working.join("nowhere.ron")).unwrap();
+        symlink(".", working.join("self.ron")).unwrap();
+        symlink("/dev/zero", working.join("zero.ron")).unwrap();
+        symlink(own.join("scene.ron"), working.join("linked.ron")).unwrap();
+        fs::write(own.join("scene.ron"), SCENE).unwrap();
+        fs::write(working.join("\u{1b}[2J.ron"), SCENE).unwrap();
+        let names =
+            ["scene", "\\u{1b}[2J.ron", "linked.ron", "loop.ron", "nowhere.ron", "pipe.ron", "zero.ron"];
+        assert_eq!(listed(Some(&own), &working).into_iter().map(|(name, _)| name).collect::<Vec<_>>(), names);
+        for (name, said) in [
+            ("pipe.ron", "not a regular file"),
+            ("zero.ron", "not a regular file"),
+            ("loop.ron", "cannot be read"),
+            ("nowhere.ron", "cannot be read"),
+        ] {
+            assert!(error_of(&working, name).contains(said), "{name}");
+        }
+        assert_eq!(own_scene(&own, "scene"), Some(own.join("scene.ron")));
+        symlink(working.join("pipe.ron"), own.join("pipe.ron")).unwrap();
+        for name in ["pipe", "missing", "", ".", "..", "../presets/scene", "/scene"] {
+            assert_eq!(own_scene(&own, name), None, "{name}");
+        }
+    }
+}

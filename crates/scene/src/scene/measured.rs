@@ -1,0 +1,148 @@
+//! A measured surface as the roughness of a scene: its files, and the options of their reading and analysis.
+
+use super::fields::default_of;
+use asperity_surface::MeasuredOptions;
+use asperity_surface::{Cut, ReadOptions, Unit};
+use asperity_surface::{Detrend, End, Options};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+use std::ops::Not;
+
+/// A measured surface, profile or map. The fields without `skip` are options of `asperity surface` too.
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// The file, relative to the scene file.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub file: String,
+    /// Further files of the same face: samples of one roughness, whose spectrum is estimated from all of them.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further_files: Vec<String>,
+    /// True if the measured profile itself is the line, false if its equivalent line is.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub as_line: bool,
+    /// File of the opposite face, relative to the scene file; the spectra of both faces add.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub opposite: Option<String>,
+    /// Unit of lengths where a file states none: m, cm, mm, um, nm, Å, pm
+    #[cfg_attr(feature = "clap", arg(long, default_value = "", hide_default_value = true, value_parser = unit_name))]
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub unit: String,
+    /// Unit of heights where a file states none; default: as --unit
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "UNIT", default_value = "", hide_default_value = true, value_parser = unit_name)
+    )]
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub height_unit: String,
+    /// Distance between points, m, where a file states none.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
+    /// Fill missing points from their neighbours
+    #[cfg_attr(feature = "clap", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub interpolate: bool,
+    /// Resample uneven profiles linearly at their mean distance
+    #[cfg_attr(feature = "clap", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub resample: bool,
+    /// Subtract the median of each row of maps with offset rows
+    #[cfg_attr(feature = "clap", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub align_rows: bool,
+    /// Replace outliers, such as spikes, from their neighbours
+    #[cfg_attr(feature = "clap", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub robust: bool,
+    /// Name of a surface or measurement in a container of several
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NAME"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_name: Option<String>,
+    /// Channel of files with several, by its number
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(..1 << 32)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub channel: Option<u64>,
+    /// Row of maps to use as the profile, from 1
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "NUMBER", conflicts_with = "column", value_parser = clap::value_parser!(u64).range(1..))
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub row: Option<u64>,
+    /// Column of maps to use as the profile, from 1
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(1..)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<u64>,
+    /// Part of the heights to remove: none, mean, tilt or curvature
+    ///
+    /// Default: tilt, or mean with --periodic.
+    #[cfg_attr(feature = "clap", arg(long, value_enum, hide_possible_values = true))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub detrend: Option<Detrend>,
+    /// Treat the surface as periodic, without a window
+    #[cfg_attr(feature = "clap", arg(long))]
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub periodic: bool,
+    /// Shortest wavelength, m, down to which the spectrum of the equivalent line continues as a power law;
+    /// `None`: the last resolved wavelength.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub continue_to: Option<f64>,
+    /// Seed of the random phases of the equivalent line.
+    #[cfg_attr(feature = "clap", arg(skip = default_seed()))]
+    #[serde(default = "default_seed", skip_serializing_if = "is_default_seed")]
+    pub seed: u64,
+}
+
+fn default_seed() -> u64 {
+    default_of("roughness.seed")
+}
+
+fn is_default_seed(seed: &u64) -> bool {
+    *seed == default_seed()
+}
+
+/// Name of a typed unit; empty for none.
+#[cfg(feature = "clap")]
+fn unit_name(text: &str) -> Result<String, asperity_surface::UnitError> {
+    if text.is_empty() { Ok(String::new()) } else { text.parse().map(|unit: Unit| unit.name().to_owned()) }
+}
+
+impl Measured {
+    /// Files of each face.
+    pub(super) fn faces(&self) -> Vec<Vec<&str>> {
+        let face = std::iter::once(&self.file).chain(&self.further_files).map(String::as_str).collect();
+        std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
+    }
+
+    /// Options of the readers and of the spectrum for a checked surface.
+    pub fn options(&self) -> MeasuredOptions {
+        MeasuredOptions {
+            as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),
+            reading: ReadOptions {
+                unit: self.unit.parse().ok(),
+                height_unit: self.height_unit.parse().ok(),
+                convention: self.as_line.then_some(Unit::METRE),
+                spacing: self.spacing,
+                interpolate: self.interpolate,
+                channel: self.channel.and_then(|channel| channel.try_into().ok()),
+                cut: self.row.map(Cut::Row).or(self.column.map(Cut::Column)),
+                resample: self.resample,
+                align_rows: self.align_rows,
+                robust: self.robust,
+                surface_name: self.surface_name.clone(),
+            },
+            spectrum: Options {
+                detrend: self.detrend,
+                periodic: self.periodic,
+                end: self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength)),
+                tip_radius: None,
+            },
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Opening a scene by file, by name or from a stream; a table of results opens as its scene.
+
+use std::fs::File;
+use std::io;
+use std::io::{BufRead, BufReader, Cursor, Read};
+use std::path::Path;
+
+use super::document::{Document, LONGEST_TEXT};
+use super::errors::did_you_mean;
+use super::errors::{Origin, SceneError, SceneErrors};
+use super::library::{describe, find, own_folder, own_names, own_scene, presets};
+use asperity_data::printable;
+use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
+
+/// Opens a scene: a file if one of that name exists or the name looks like a path (ends in `.ron` or has a path
+/// separator), else a built-in scene, else one of the user's own scenes, see [`own_folder`]. Only regular
+/// files are read, since a pipe, a terminal or a device would block. A table of results in CSV opens as its
+/// scene.
+///
+/// # Errors
+/// No such scene, an unreadable file, or the errors of its scene.
+pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
+    let own = own_folder();
+    let path = Path::new(name_or_path);
+    if is_file_name(name_or_path) {
+        return document_of(text_of_file(path), name_or_path);
+    }
+    if let Some(preset) = find(name_or_path) {
+        return Document::parse(preset.text, preset.name);
+    }
+    if let Some(path) = own.as_ref().and_then(|own| own_scene(own, name_or_path)) {
+        return document_of(text_of_file(&path), &path.display().to_string());
+    }
+    let names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
+    let own_names = own.as_deref().map_or_else(Vec::new, own_names);
+    if let Some(own) = own.as_ref().filter(|_| own_names.iter().any(|name| name == name_or_path)) {
+        // No regular file: the reason says so.
+        let path = own.join(format!("{name_or_path}.ron"));
+        return document_of(text_of_file(&path), &path.display().to_string());
+    }
+    let near = did_you_mean(name_or_path, names.iter().copied().chain(own_names.iter().map(String::as_str)));
+    let no_file = if path.is_dir() { "it is a directory" } else { "there is no such file" };
+    let nowhere = match own {
+        Some(folder) => {
+            let folder = folder.display().to_string();
+            format!(", no such built-in scene and none of this name in {}", printable(&folder))
+        }
+        None => " and no such built-in scene".into(),
+    };
+    let message = format!("{no_file}{nowhere}{} (built-in scenes: {})", printable(&near), names.join(", "));
+    Err(whole(name_or_path, message))
+}
+
+/// Returns true for the name of a file: that of an existing one, or one that looks like a path.
+pub fn is_file_name(name: &str) -> bool {
+    is_path(name) || Path::new(name).is_file()
+}
+
+/// Returns true for a name that looks like a path.
+pub fn is_path(name: &str) -> bool {
+    name.ends_with(".ron") || name.chars().any(std::path::is_separator)
+}
+
+/// Opens the scene of a command argument: as [`open`], but also from a stream. `-` is standard input, and a pipe or
+/// a device, such as `<(…)` of a shell, is read up to its end.
+///
+/// Reading a stream waits for its writer, so this function is for commands that an interrupt ends, not for an
+/// explorer that has taken over the terminal.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_argument(argument: &str) -> Result<Document, SceneErrors> {
+    if argument == "-" {
+        return document_of(text_of_stream(io::stdin().lock()), "standard input");
+    }
+    let path = Path::new(argument);
+    match path.metadata() {
+        Ok(found) if !found.is_file() && !found.is_dir() => {
+            let file =
+                File::open(path).map_err(|error| whole(argument, format!("cannot be read: {error}")))?;
+            document_of(text_of_stream(file), argument)
+        }
+        _ => open(argument),
+    }
+}
+
+fn whole(name: &str, message: String) -> SceneErrors {
+    SceneError::whole(Origin::File { name: name.into(), place: None }, message).into()
+}
+
+/// Start of the lines above the scene in a table of results, and the line between both.
+const TABLE: (&str, &str) = ("asperity ", "\nscene:\n");
+
+/// The document of a scene, or of a table of results, of which only the lines with its scene are read.
+fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, SceneErrors> {
+    let text = text.map_err(|error| whole(name, describe(error)))?;
+    if !text.starts_with(TABLE.0) {
+        return Document::parse(&text, name);
+    }
+    match text.split_once(TABLE.1) {
+        Some((head, scene)) => Ok(Document::parse(scene, name)?.of_table(head)),
+        None => {
+            let reason =
+                "a table without a scene; allowed: a scene, or a table that asperity has computed from one";
+            Err(whole(name, reason.into()))
+        }
+    }
+}
+
+fn text_of_file(path: &Path) -> Result<String, ReadError> {
+    let mut file = open_regular(path)?;
+    let mut start = Vec::new();
+    file.by_ref().take(npy::SIGNATURE.len() as u64).read_to_end(&mut start)?;
+    if start == npy::SIGNATURE {
+        Err(ReadError::Array)
+    } else {
+        text_of_stream(Cursor::new(start).chain(file))
+    }
+}
+
+fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
+    let mut start = Vec::new();
+    stream.by_ref().take(PROVENANCE.len() as u64).read_to_end(&mut start)?;
+    let is_table = start == PROVENANCE.as_bytes();
+    let whole = Cursor::new(start).chain(stream);
+    if !is_table {
+        return into_text(read_limited(whole, LONGEST_TEXT)?);
+    }
+    // Comments of a scene of the greatest length, with a line for each byte.
+    let mut lines = BufReader::new(whole.take(3 * LONGEST_TEXT as u64));
+    let (mut text, mut line) = (Vec::new(), Vec::new());
+    while lines.read_until(b'\n', &mut line)? > 0 {
+        let Some(content) = line.strip_prefix(b"#") else { break };
+        text.extend_from_slice(content.strip_prefix(b" ").unwrap_or(content));
+        line.clear();
+    }
+    Ok(into_text(text)?.replace("\r\n", "\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn files_are_read_and_their_errors_describe() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = |name: &str| directory.path().join(name).to_str().unwrap().to_string();
+        let message = |name: &str| open(&path(name)).unwrap_err().to_string();
+        fs::write(path("good"), presets()[0].text).unwrap();
+        assert_eq!(open(&path("good")).unwrap().text(), presets()[0].text);
+        fs::write(path("bad.ron"), "(\n  version: 1,\n  lenght: 1,\n)").unwrap();
+        assert!(message("bad.ron").contains("bad.ron:3:3: lenght: no such field; did you mean length?"));
+        fs::write(path("binary.ron"), [b'(', 0xff]).unwrap();
+        assert!(message("binary.ron").ends_with("this is not UTF-8 text: byte 1 is not"));
+        fs::write(path("long.ron"), " ".repeat(LONGEST_TEXT + 1)).unwrap();
+        assert!(message("long.ron").contains("too long"));
+        fs::create_dir(path("folder.ron")).unwrap();
+        assert!(message("folder.ron").ends_with("this is a directory, not a scene file"));
+        assert!(message("missing.ron").contains("cannot be read"));
+    }
+
+    #[test]
+    fn a_table_opens_as_its_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table");
+        let read = |bytes: &[u8]| {
+            fs::write(&path, bytes).unwrap();
+            open(path.to_str().unwrap())
+        };
+        let scene = presets()[0].text;
+        let text = format!("asperity 0.1.0\nsha256: 00 \"a.txt\"\ncommand: asperity run x\nscene:\n{scene}");
+        let csv: String = text.lines().map(|line| format!("# {line}\n")).collect::<String>() + "x,z\n1,2\n";
+        for file in [csv.clone(), csv.replace('\n', "\r\n")] {
+            assert_eq!(read(file.as_bytes()).unwrap().scene(), open(presets()[0].name).unwrap().scene());
+        }
+        assert!(read(npy::SIGNATURE).unwrap_err().to_string().contains("an array of NumPy holds no scene"));
+        let refused = read(b"# asperity 0.1.0\nx,z\n").unwrap_err().to_string();
+        assert!(refused.contains("a table without a scene; allowed: "), "{refused}");
+    }
+}

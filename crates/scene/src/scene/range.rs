@@ -1,0 +1,192 @@
+//! Allowed values of fields: checks of numbers, and readable text.
+
+use std::fmt;
+use std::ops::Bound;
+use std::ops::Bound::{Excluded, Included};
+use std::ops::RangeBounds;
+
+/// Allowed values of a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// A finite real number between two ends.
+    Real(Bound<f64>, Bound<f64>),
+    /// A whole number, both ends included.
+    Whole(u64, u64),
+    /// A pair `(first, last)` of whole numbers, first ≤ last, both ends included.
+    Band(u64, u64),
+    /// A pair `(longest, shortest)` of wavelengths, longest ≥ shortest, both ends included.
+    Wavelengths(f64, f64),
+    /// Text without control characters.
+    Text {
+        /// Fewest characters.
+        least: usize,
+        /// Most characters.
+        most: usize,
+        /// True if line breaks are allowed.
+        lines: bool,
+    },
+    /// One of these, each a valid value as text.
+    Choice(&'static [&'static str]),
+    /// A list of these, each a valid value as text.
+    List {
+        /// Allowed elements.
+        of: &'static [&'static str],
+        /// Fewest elements.
+        least: usize,
+        /// Most elements.
+        most: usize,
+    },
+    /// A group of fields.
+    Group,
+}
+
+impl Range {
+    /// From `min` to `max`, both included.
+    pub(super) const fn closed(min: f64, max: f64) -> Range {
+        Range::Real(Included(min), Included(max))
+    }
+
+    /// Above `min`, up to and including `max`.
+    pub(super) const fn above(min: f64, max: f64) -> Range {
+        Range::Real(Excluded(min), Included(max))
+    }
+
+    /// Above `min` and below `max`.
+    pub(super) const fn between(min: f64, max: f64) -> Range {
+        Range::Real(Excluded(min), Excluded(max))
+    }
+
+    /// Returns true for an allowed real number; NaN and the infinities never are.
+    pub fn contains(&self, value: f64) -> bool {
+        match *self {
+            Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
+            Range::Wavelengths(min, max) => (min..=max).contains(&value),
+            _ => false,
+        }
+    }
+
+    /// Returns true for an allowed integer.
+    pub fn contains_whole(&self, value: u64) -> bool {
+        matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
+    }
+
+    /// The smallest and the largest number, for a numeric field.
+    pub fn ends(&self) -> Option<(f64, f64)> {
+        match *self {
+            Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => Some((min, max)),
+            Range::Whole(min, max) | Range::Band(min, max) => Some((min as f64, max as f64)),
+            Range::Wavelengths(min, max) => Some((min, max)),
+            _ => None,
+        }
+    }
+}
+
+/// The name at the beginning of a choice: `Cone` of `Cone(angle: 0.1)`, the whole text without one.
+pub(super) fn choice_name(choice: &str) -> &str {
+    choice.split_once('(').map_or(choice, |(name, _)| if name.is_empty() { choice } else { name })
+}
+
+/// The distinguishing part of a choice: its name, or the first field of a group without a name.
+pub(super) fn choice_key(choice: &str) -> &str {
+    let key = choice_name(choice.trim());
+    key.split_once(':').filter(|_| key.starts_with('(')).map_or(key, |(key, _)| key)
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Range::Real(min, max) => match (min.map(Number), max.map(Number)) {
+                (Included(min), Included(max)) if min.0 == max.0 => write!(f, "{min}"),
+                (Included(min), Included(max)) => write!(f, "from {min} to {max}"),
+                (Excluded(min), Excluded(max)) => write!(f, "above {min} and below {max}"),
+                (Excluded(min), Included(max)) => write!(f, "above {min}, at most {max}"),
+                (Included(min), Excluded(max)) => write!(f, "at least {min} and below {max}"),
+                _ => f.write_str("a number"),
+            },
+            Range::Whole(min, max) if min == max => write!(f, "{min}"),
+            Range::Whole(min, max) => write!(f, "a whole number from {min} to {max}"),
+            Range::Band(min, max) => {
+                write!(f, "a pair (first, last) of whole numbers from {min} to {max}, first ≤ last")
+            }
+            Range::Wavelengths(min, max) => {
+                write!(
+                    f,
+                    "a pair (longest, shortest), longest ≥ shortest, both from {:e} to {}",
+                    min,
+                    Number(max)
+                )
+            }
+            Range::Text { least, most, lines } => {
+                let kind = if lines { "text of" } else { "one line of" };
+                write!(f, "{kind} {} characters", counts(least, most))
+            }
+            Range::Choice(choices) => f.write_str(&listed(choices, "or")),
+            Range::List { of, least, most } => {
+                write!(f, "a list of {}, of {}", counts(least, most), listed(of, "and"))
+            }
+            Range::Group => f.write_str("a group of fields"),
+        }
+    }
+}
+
+fn counts(least: usize, most: usize) -> String {
+    if least == 0 { format!("at most {most}") } else { format!("{least} to {most}") }
+}
+
+/// Names of choices: `Cone, Punch or None`.
+fn listed(choices: &[&str], last: &str) -> String {
+    let names: Vec<&str> = choices.iter().map(|choice| choice_name(choice)).collect();
+    match names.split_last() {
+        Some((end, others)) if !others.is_empty() => format!("{} {last} {end}", others.join(", ")),
+        _ => names.concat(),
+    }
+}
+
+/// A bound in common notation: `0.5`, `1e13`, `π/2`.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.abs() {
+            std::f64::consts::FRAC_PI_2 => f.write_str("π/2"),
+            size if size != 0.0 && !(1e-3..1e5).contains(&size) => write!(f, "{:e}", self.0),
+            _ => write!(f, "{}", self.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_decide_at_the_ends() {
+        for (range, at_zero, at_one) in [
+            (Range::closed(0.0, 1.0), true, true),
+            (Range::between(0.0, 1.0), false, false),
+            (Range::above(0.0, 1.0), false, true),
+        ] {
+            assert_eq!((range.contains(0.0), range.contains(1.0)), (at_zero, at_one), "{range}");
+        }
+        let everything = Range::closed(f64::NEG_INFINITY, f64::INFINITY);
+        assert!(everything.contains(1.0));
+        assert!(
+            ![f64::NAN, f64::INFINITY, f64::NEG_INFINITY].iter().any(|value| everything.contains(*value))
+        );
+    }
+
+    #[test]
+    fn ranges_read_as_sentences() {
+        for (range, text) in [
+            (Range::between(0.0, 1.0), "above 0 and below 1"),
+            (Range::closed(1.0, 1e13), "from 1 to 1e13"),
+            (Range::above(-1.0, 0.5), "above -1, at most 0.5"),
+            (Range::between(0.0, std::f64::consts::FRAC_PI_2), "above 0 and below π/2"),
+            (Range::Whole(1, 1), "1"),
+            (Range::closed(1.0, 1.0), "1"),
+            (Range::Choice(&["Cone(angle: 0.1)", "Punch(radius: 1.0)", "None"]), "Cone, Punch or None"),
+        ] {
+            assert_eq!(range.to_string(), text);
+        }
+    }
+}

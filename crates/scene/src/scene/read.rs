@@ -1,0 +1,201 @@
+//! Reader of the text of a scene, with errors in the terms of the scene.
+
+use ron::Error;
+use ron::error::SpannedError;
+
+use super::edit::field_at;
+use super::errors::{Origin, SceneError, SceneErrors, did_you_mean, nearest};
+use super::fields::field;
+use super::model::Scene;
+use super::range::Range;
+use super::text::index::{Text, offset_of};
+use super::text::read_ron;
+
+/// Longest value that is repeated in messages.
+const MOST_REPEATED: usize = 60;
+
+/// Message for text that does not begin as a scene, such as the table of an instrument.
+const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
+                        is the roughness of a scene by --set roughness=FILE";
+
+/// Reads a scene; its values are not checked. An error has the origin of the byte at which reading failed.
+pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
+    read_ron(text).map_err(|error| {
+        let (offset, error) = no_scene(text, &error).unwrap_or_else(|| explain(text, &error));
+        error.at(origin(offset)).into()
+    })
+}
+
+/// Error of a text that does not begin as a scene, or has an unsupported version, which may be why the rest of it cannot
+/// be read.
+fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
+    if !source.trim().is_empty() && !source[..place_of(source, error).1].contains('(') {
+        let start = source.len() - source.trim_start().len();
+        return Some((start, SceneError::whole(Origin::Scene, NO_SCENE)));
+    }
+    let text = Text::new(source).ok()?;
+    let (field, value) = (field("version", None)?, text.written("version")?);
+    if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
+        return None;
+    }
+    let error = SceneError::of(field.path, value, field.allowed(), field.name);
+    Some((text.nearest_value("version"), error))
+}
+
+/// First byte of the error, and the position of the reader.
+fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
+    let start = offset_of(text, error.span.start.line, error.span.start.col);
+    let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
+    // A reason of the scene's own refers to the group that ends here.
+    if let Error::Message(_) = error.code {
+        return (text[..end].trim_end().len().saturating_sub(1), end);
+    }
+    // The span starts before the last token read; if that was only blank or punctuation, the error comes after it.
+    let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
+    (if text[start..end].contains(something) { start } else { end }, end)
+}
+
+/// First byte of an error in text of any form, and the error.
+pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
+    let (offset, end) = place_of(source, error);
+    let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
+    let (offset, message) = match Text::new(source) {
+        Ok(text) => return explain_at(&text, offset, &error.code),
+        // If the reader reached the end of the text, the open bracket is the better place.
+        Err(unreadable) if end >= source.trim_end().len() || is_lost => {
+            (unreadable.offset, unreadable.reason.to_owned())
+        }
+        Err(_) => (offset, plain(&error.code)),
+    };
+    (offset, SceneError::whole(Origin::Scene, message))
+}
+
+fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) {
+    let path = text.path_at(offset);
+    let error = match error {
+        Error::MissingStructField { field: name, .. } => {
+            let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
+            let allowed = field_at(text, &path).map(|field| format!("; allowed: {}", field.allowed()));
+            SceneError::of(&path, "", "", &format!("missing{}", allowed.unwrap_or_default()))
+        }
+        Error::NoSuchEnumVariant { expected, found, .. } => {
+            let near = nearest(found, expected.iter().copied());
+            let message = near.map_or_else(String::new, |near| format!("did you mean {near}?"));
+            SceneError::of(path, found, expected.join(", "), &message)
+        }
+        Error::Message(reason) => return (text.nearest_value(path), SceneError::of(path, "", "", reason)),
+        Error::NoSuchStructField { .. } | Error::DuplicateStructField { .. } => {
+            SceneError::of(path, "", "", &plain(error))
+        }
+        _ => return explain_value(text, path, offset, error),
+    };
+    (offset, error)
+}
+
+/// A single value is marked as a whole and repeated, with its allowed values.
+fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
+    let value = text
+        .written(path)
+        .filter(|value| !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{']));
+    let (offset, value) = value.map_or((offset, ""), |value| (text.nearest_value(path), value));
+    let error = match field_at(text, path).filter(|_| !value.is_empty()) {
+        // Without quotes the content of a text is not the error.
+        Some(field) if !matches!(field.range, Range::Text { .. }) => {
+            SceneError::of(path, value, field.allowed(), field.name)
+        }
+        _ => SceneError::of(path, value, "", &plain(error)),
+    };
+    (offset, error)
+}
+
+/// Message of the reader in plain words.
+fn plain(error: &Error) -> String {
+    let text = match error {
+        Error::Eof => "the text ends too early",
+        Error::ExpectedFloat => "a number is expected here",
+        Error::ExpectedInteger | Error::InvalidIntegerDigit { .. } => "a whole number is expected here",
+        Error::IntegerOutOfBounds => "this whole number is too large or negative",
+        Error::ExpectedString => "text in quotes is expected here",
+        Error::ExpectedComma => "a comma is expected here",
+        Error::ExpectedArray => "a list in [ ] is expected here",
+        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => "an opening ( is expected here",
+        Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => "a closing ) is expected here",
+        Error::ExpectedDifferentStructName { .. } => "a group of fields in ( ) is expected here",
+        Error::DuplicateStructField { .. } => "given twice",
+        Error::NoSuchStructField { expected, found, .. } => {
+            let near = did_you_mean(found, expected.iter().copied());
+            return format!("no such field{near} (fields here: {})", expected.join(", "));
+        }
+        Error::ExpectedMapColon => "a colon is expected here",
+        Error::ExceededRecursionLimit => "nested too deeply",
+        Error::TrailingCharacters => "nothing may follow here",
+        other => {
+            let text = other.to_string();
+            let first = text.chars().next().map(|first| first.to_lowercase().to_string());
+            return first.map_or_else(String::new, |first| first + text.get(1..).unwrap_or_default());
+        }
+    };
+    text.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::errors::origin_at;
+    use super::*;
+
+    fn unread(text: &str) -> ((usize, usize), String, String, String, String) {
+        let errors = read(text, |offset| origin_at(text, "", offset)).unwrap_err();
+        let SceneError { origin, field, value, allowed, message } = errors.first().clone();
+        let Origin::File { place: Some(place), .. } = origin else { panic!("{origin:?}") };
+        (place, field, value, allowed, message)
+    }
+
+    fn scene(line: &str) -> String {
+        format!(
+            "(\n    version: 1,\n    material: (effective_modulus: 1.0e6),\n    length: 1.0e-4,\n{line}\n)\n"
+        )
+    }
+
+    #[test]
+    fn errors_are_stated_in_the_terms_of_the_scene() {
+        // Fifth line of a scene; column, field, value and words of its error.
+        for row in [
+            "lenght: 1,|5|lenght||did you mean length?",
+            "length: 1.0,|5|length||given twice",
+            "form: Cube(radius: 1.0),|11|form|Cube|Cone, Power, WavySphere, Punch",
+            "form: Cone(angel: 1.0),|16|form.angel||did you mean angle?",
+            "loading: [ToTouch, ToFroce(1.0)],|24|loading.1|ToFroce|mean ToForce?",
+            "loading: [ToForce(\"a\")],|23|loading.0.0|\"a\"|from -1e30 to 1e30 N",
+            "numerics: (points: 1.5),|24|numerics.points|1.5|from 1 to 268435456",
+            "numerics: (points: -5),|24|numerics.points|-5|from 1 to 268435456",
+            "title: Hello,|12|title|Hello|text in quotes",
+            "adhesion: 0.5,|15|adhesion|0.5|(work: 0.05), (kappa: 2.0) or (elastic_energy_ratio: 0.5)",
+            "adhesion: (work: 0.05, kappa: 2.0),|15|adhesion||type adhesion=(work: 0.05) or adhesion=(kappa: 2.0)",
+            "adhesion: (), // none|15|adhesion||give work, kappa or elastic_energy_ratio",
+            "roughness: SelfAffine(hurst: 0.7, modes: (1, 2)),|52|roughness.seed||missing; allowed: a whole number",
+            "roughness: SelfAffine(hurst: \"x\"),|34|roughness.hurst|\"x\"|above 0 and below 1",
+            "roughness: SelfAffine(hurst: 0.7 seed: 1),|38|roughness||a comma is expected",
+        ] {
+            let [line, column, field, value, said] = row.split('|').collect::<Vec<_>>()[..] else {
+                panic!("{row}")
+            };
+            let (at, path, found, allowed, message) = unread(&scene(&format!("    {line}")));
+            let place = (5, column.parse().unwrap());
+            assert_eq!(
+                (at, path.as_str(), found.as_str()),
+                (place, field, value),
+                "{row}: {allowed} {message}"
+            );
+            assert!(format!("{allowed} {message}").contains(said), "{row}: {allowed} {message}");
+        }
+        for (text, place, field, said) in [
+            ("(version: 1)", (1, 12), "material", "missing"),
+            ("(version: 1", (1, 1), "", "not closed"),
+            ("(version: 1, title: \"a)", (1, 21), "", "not closed"),
+            ("", (1, 1), "", ""),
+        ] {
+            let (at, path, _, _, message) = unread(text);
+            assert!((at, path.as_str()) == (place, field) && message.contains(said), "{text}: {message}");
+        }
+    }
+}

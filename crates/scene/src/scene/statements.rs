@@ -1,0 +1,80 @@
+//! The numbers that define a scene, in the order of the table of fields.
+
+use super::field::Field;
+use super::fields::fields_inside;
+use super::model::Scene;
+use super::range::Range;
+use super::stages::loading_text;
+use super::tree::Tree;
+use asperity_data::exact_quantity;
+use asperity_data::grouped;
+
+/// Fields without an effect on the solution.
+const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numerics.samples"];
+
+/// The value of a field of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statement {
+    /// The field.
+    pub field: &'static Field,
+    /// Its value with its unit and all digits.
+    pub value: String,
+}
+
+/// The given values of a scene: all numbers, and the choices and names that differ from their defaults. Where a choice has
+/// numbers, these alone.
+pub fn statements(scene: &Scene) -> Vec<Statement> {
+    let (tree, mut found) = (Tree::of(scene), Vec::new());
+    fields_inside("", None).for_each(|field| add(scene, &tree, field, &mut found));
+    found
+}
+
+fn add(scene: &Scene, tree: &Tree, field: &'static Field, found: &mut Vec<Statement>) {
+    let (inside, written) = (tree.inside(field), tree.written(field).unwrap_or_default());
+    let is_number =
+        matches!(field.range, Range::Real(..) | Range::Whole(..) | Range::Band(..) | Range::Wavelengths(..));
+    if !inside.is_empty() {
+        return inside.into_iter().for_each(|field| add(scene, tree, field, found));
+    }
+    let is_omitted = tree.value(field).is_none() || written == "None";
+    if is_omitted || DESCRIPTIONS.contains(&field.path) || !is_number && written == tree.default(field) {
+        return;
+    }
+    let value = match field.range {
+        Range::Band(..) => written.trim_matches(['(', ')']).replace(", ", " to "),
+        Range::Whole(..) if !field.symbol.is_empty() => written.parse().map_or(written, grouped),
+        Range::List { .. } if field.path == "loading" => loading_text(&scene.loading, exact_quantity),
+        _ => field.quantities(&written, exact_quantity).unwrap_or(written),
+    };
+    found.push(Statement { field, value });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open::open;
+
+    #[test]
+    fn a_scene_is_stated_by_its_numbers() {
+        let stated = |scene: &str| -> Vec<String> {
+            let of = |one: Statement| format!("{} {}", one.field.name, one.value);
+            statements(open(scene).unwrap().scene()).into_iter().map(of).collect()
+        };
+        assert_eq!(
+            stated("ideal-adhesion"),
+            [
+                "Young's modulus 2 MPa",
+                "Poisson's ratio 0.5",
+                "apparent diameter 100 µm",
+                "Hurst exponent 0.7",
+                "rms height 200 nm",
+                "modes 4 to 512",
+                "seed 5",
+                "roughness-adhesion parameter 0.8",
+                "loading 20 µN, separation",
+                "points 16 384"
+            ]
+        );
+        assert!(stated("jkr-sphere").contains(&"radius of curvature 100 µm".to_owned()));
+    }
+}

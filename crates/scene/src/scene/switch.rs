@@ -1,0 +1,281 @@
+//! Effects of a document switched off, on and to the next choice.
+
+use super::adhesion::Adhesion;
+use super::document::{Document, pair};
+use super::effects::{Effect, pressing};
+use super::errors::SceneErrors;
+use super::field::Field;
+use super::model::Scene;
+use super::range::{Range, choice_key};
+use super::text::read_ron;
+use super::tree::{Tree, differing};
+
+/// The usual adhesion of a smooth body.
+const BY_WORK: &str = "(work: 0.05)";
+
+impl Document {
+    /// This document without an effect; unchanged if the effect is off.
+    ///
+    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work: the work that a key has left, else the usual
+    /// one. Without unloading, the stage that presses most remains.
+    ///
+    /// # Errors
+    /// The scene does not allow to leave the effect out.
+    pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
+        let mut scene = Scene::clone(self.scene());
+        if !effect.is_on(&scene) {
+            return Ok(self.clone());
+        }
+        match effect {
+            Effect::Form => scene.form = None,
+            Effect::Roughness => {
+                scene.roughness = None;
+                if scene.adhesion.is_some_and(|adhesion| adhesion.parameter().is_some()) {
+                    scene.adhesion = self.with_choice("adhesion", BY_WORK)?.scene().adhesion;
+                }
+            }
+            Effect::Adhesion => scene.adhesion = None,
+            Effect::Unloading => scene.loading = vec![pressing(&scene.loading)],
+        }
+        let overrides = overrides_to(self.scene(), &scene);
+        let mut new = self.set_all(&overrides)?;
+        let value = |document: &Document, path| document.value(path).unwrap_or_default().to_owned();
+        let values = overrides.iter().map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
+        let removed = (effect, values.collect());
+        new.removed.retain(|(other, _)| *other != effect);
+        new.removed.push(removed);
+        Ok(new)
+    }
+
+    /// This document with an effect; unchanged if the effect is on.
+    ///
+    /// Restores the values that were removed when the effect was switched off; values changed since stay. If there are
+    /// none, or if they are no longer valid, the effect takes values that suit the scene.
+    ///
+    /// # Errors
+    /// The effect is impossible in the scene, such as roughness on a single spring.
+    pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
+        if effect.is_on(self.scene()) {
+            return Ok(self.clone());
+        }
+        let restored = self.removed.iter().find(|(off, _)| *off == effect).and_then(|(_, values)| {
+            let unchanged = values.iter().filter(|[path, _, present]| self.value(path) == Some(present));
+            let back: Vec<_> = unchanged.map(|[path, removed, _]| pair(path, removed.as_str())).collect();
+            self.set_all(&back).ok().filter(|new| effect.is_on(new.scene()))
+        });
+        restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
+    }
+
+    /// This document with the values of another scene. Of a group whose choices stay, the numbers change one by one.
+    ///
+    /// # Errors
+    /// Invalid values.
+    pub fn with_scene(&self, scene: &Scene) -> Result<Document, SceneErrors> {
+        self.set_all(&overrides_to(self.scene(), scene))
+    }
+
+    /// This document with another adhesion; see [`Document::with_scene`].
+    ///
+    /// # Errors
+    /// An invalid value.
+    pub fn with_adhesion(&self, adhesion: Adhesion) -> Result<Document, SceneErrors> {
+        self.with_scene(&Scene { adhesion: Some(adhesion), ..Scene::clone(self.scene()) })
+    }
+
+    /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
+    /// other.
+    ///
+    /// Omitting an effect switches it off, and the next choice switches it on again. Any choice comes back as it was when
+    /// this document or one that led to it left the choice, and has its usual numbers before.
+    ///
+    /// # Errors
+    /// No other choice is allowed.
+    pub fn with_next_choice(&self, field: &Field, forwards: bool) -> Result<Option<Document>, SceneErrors> {
+        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == field.path);
+        let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
+        let Some(here) = Tree::of(self.scene()).written(field) else { return Ok(None) };
+        let mut refused = None;
+        let mut left = self.left.clone();
+        if here != "None" {
+            left.retain(|(path, other)| *path != field.path || choice_key(other) != choice_key(&here));
+            left.push((field.path, here.clone()));
+        }
+        // The circle holds the choices and `None`; the present one need not be among them.
+        let Range::Choice(choices) = field.range else { return Ok(None) };
+        for distance in 1..=choices.len() as i32 + 1 {
+            let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
+            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else { break };
+            let chosen = match effect {
+                // The removed text where it is this choice: other choices lie on the way around the circle.
+                Some(effect) if !is_on => match self.with(effect) {
+                    Ok(back) if back.value(field.path).map(choice_key) != Some(choice_key(&next)) => {
+                        self.with_choice(field.path, &next)
+                    }
+                    back => back,
+                },
+                Some(effect) if next == "None" => self.without(effect),
+                _ => self.with_choice(field.path, &next),
+            };
+            match chosen {
+                Ok(mut document) => {
+                    document.left = left;
+                    return Ok(Some(document));
+                }
+                Err(errors) => refused = refused.or(Some(errors)),
+            }
+        }
+        refused.map_or(Ok(None), Err)
+    }
+
+    /// A choice as it was left, if that is still allowed, else at values that suit the scene or are usual.
+    fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
+        let is_same = |text: &str| choice_key(text) == choice_key(choice);
+        let left = self.left.iter().find(|(of, text)| *of == path && is_same(text));
+        if let Some(back) = left.and_then(|(_, text)| self.set(path, text).ok()) {
+            return Ok(back);
+        }
+        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == path);
+        let suited = effect.and_then(|effect| self.with_scene(&effect.suited(self.scene())).ok());
+        let suited = suited.filter(|suited| suited.value(path).is_some_and(is_same));
+        match (suited, self.scene().adhesion, read_ron::<Adhesion>(choice)) {
+            (Some(suited), ..) => Ok(suited),
+            // The range of the attraction stays.
+            (None, Some(Adhesion { range, .. }), Ok(usual)) if path == "adhesion" => {
+                self.with_adhesion(Adhesion { range, ..usual })
+            }
+            _ => self.set(path, choice),
+        }
+    }
+}
+
+/// Overrides that make one scene another: a field that is no longer given is replaced with its group.
+fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
+    let [from, to] = [from, to].map(Tree::of);
+    let changed = differing([&from, &to], |before, after| after || !before).into_iter();
+    changed.map(|field| pair(field.path, to.written(field).unwrap_or_default())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::field;
+    use super::*;
+    use asperity_contact::Move::{ToForce, ToSeparation};
+
+    const SCENE: &str = "(
+    version: 1,
+    material: (effective_modulus: 1.0e6),
+    length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.70, rms_height: 2.0e-7, modes: (1, 512), seed: 1), // rough
+    adhesion: (kappa: 6.0), // as measured
+    loading: [ToForce(1.0e-5), /* slowly */ ToSeparation],
+)
+";
+
+    fn document() -> Document {
+        Document::parse(SCENE, "scene").unwrap()
+    }
+
+    fn off(document: &Document, effect: Effect) -> Document {
+        document.without(effect).unwrap()
+    }
+
+    fn adhesion(document: &Document) -> &str {
+        document.value("adhesion").unwrap_or_default()
+    }
+
+    fn next(document: &Document, path: &str, forwards: bool) -> Document {
+        let field = field(path, None).unwrap();
+        document.with_next_choice(field, forwards).unwrap().unwrap()
+    }
+
+    #[test]
+    fn an_effect_that_was_never_on_suits_the_scene() {
+        let bare =
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, loading: [ToForce(1.0e-5)])";
+        let bare = Document::parse(bare, "scene").unwrap();
+        let rough = "SelfAffine(hurst: 0.7, rms_height: 2.0e-7, modes: (1, 512), seed: 1)";
+        for (effect, value) in [
+            (Effect::Form, "Paraboloid(radius: 1.0e-4)"),
+            (Effect::Roughness, rough),
+            (Effect::Adhesion, "(work: 0.05)"),
+            (Effect::Unloading, "[ToForce(1.0e-5), ToSeparation]"),
+        ] {
+            assert_eq!(bare.with(effect).unwrap().value(effect.path()), Some(value));
+        }
+        let sticky = bare.set("roughness", rough).unwrap().with(Effect::Adhesion).unwrap();
+        assert_eq!(adhesion(&sticky), "(kappa: 2.0)");
+        // One spring carries no wave at all.
+        let one = bare.set("numerics.points", "1").unwrap().with(Effect::Roughness).unwrap_err();
+        assert!(one.to_string().contains("points/2 = 0"), "{one}");
+    }
+
+    #[test]
+    fn what_was_changed_meanwhile_stays_changed() {
+        let back = |smooth: &Document| smooth.with(Effect::Roughness).unwrap();
+        let smooth = off(&document(), Effect::Roughness);
+        let stickier = back(&smooth.with_adhesion(Adhesion::by_work(0.2)).unwrap());
+        assert_eq!((adhesion(&stickier), stickier.value("roughness.hurst")), ("(work: 0.2)", Some("0.70")));
+        let longer = back(&smooth.set("length", "2.0e-4").unwrap());
+        assert_eq!((adhesion(&longer), longer.scene().length), ("(kappa: 6.0)", 2e-4));
+        let held = off(&document(), Effect::Unloading).set("loading.0", "ToForce(3.0e-5)").unwrap();
+        let pulled = held.with(Effect::Unloading).unwrap();
+        assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
+        // A removed text that is no longer valid is replaced by values that suit the scene.
+        let coarse = back(&smooth.set("numerics.points", "64").unwrap());
+        assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
+    }
+
+    #[test]
+    fn a_choice_comes_back_with_its_numbers_once_round() {
+        let round = |from: &Document, path: &str| -> Vec<String> {
+            let around =
+                std::iter::successors(Some(from.clone()), |document| Some(next(document, path, true)));
+            around.map(|document| document.value(path).unwrap_or("None").to_owned()).take(20).collect()
+        };
+        let flat = document().set("numerics.points", "4096").unwrap();
+        let forms = round(&flat, "form");
+        let circle = forms.iter().skip(1).position(|form| *form == forms[0]).unwrap() + 1;
+        assert!(circle > 5 && forms[1] == "Paraboloid(radius: 1.0e-4)", "{forms:?}");
+        assert!((0..20 - circle).all(|place| forms[place] == forms[place + circle]), "{forms:?}");
+        // Typed values come back, forwards and backwards.
+        let typed = next(&flat, "form", true).set("form.radius", "3.0e-4").unwrap();
+        let away = next(&next(&typed, "form", true), "form", true);
+        let back = next(&next(&away, "form", false), "form", false);
+        assert_eq!(back.value("form"), Some("Paraboloid(radius: 3.0e-4)"));
+        let first = round(&typed, "form");
+        assert_eq!((first[0] == first[circle], &first[1..circle]), (true, &forms[2..=circle]));
+        let solver = flat.set("numerics.solver", "Stepwise(step: 2.0e-9)").unwrap();
+        let circle = round(&solver, "numerics.solver");
+        assert_eq!((circle[1].as_str(), &circle[2]), ("Exact", &circle[0]));
+        let rough = round(&flat, "roughness");
+        assert_eq!((rough[1].as_str(), &rough[2]), ("None", &rough[0]));
+    }
+
+    #[test]
+    fn each_way_of_giving_the_adhesion_keeps_its_own_numbers() {
+        let mut typed = document().set("adhesion.range", "1.0e-9").unwrap();
+        let mut around = Vec::new();
+        for _ in 0..8 {
+            typed = next(&typed, "adhesion", true);
+            around.push(adhesion(&typed).to_owned());
+        }
+        let circle = [
+            "(elastic_energy_ratio: 0.5, range: 1.0e-9)",
+            "None",
+            "(work: 0.05)",
+            "(kappa: 6.0, range: 1.0e-9)",
+        ];
+        assert_eq!(around, [circle, circle].concat());
+        let back = next(&next(&document(), "adhesion", true), "adhesion", false);
+        assert_eq!(back.text(), SCENE);
+        // A smooth body has no κ: its work is the usual one, or that which a key has left.
+        let smooth = |of: &Document| adhesion(&off(of, Effect::Roughness)).to_owned();
+        let sticky = next(&document(), "adhesion", false).set("adhesion.work", "0.3").unwrap();
+        assert_eq!(
+            [smooth(&document()), smooth(&next(&sticky, "adhesion", true))],
+            ["(work: 0.05)", "(work: 0.3)"]
+        );
+        let flat = sticky.set("roughness", "None").unwrap();
+        assert_eq!(next(&flat, "adhesion", true).scene().adhesion, None);
+    }
+}

@@ -1,0 +1,80 @@
+//! Text of RON values: places by path, and edits that keep the comments. Independent of the fields of a scene.
+//!
+//! [`Text::span`] finds a value; [`Text::replace`] and [`Text::insert`] return a new text.
+
+use asperity_data::is_control;
+use ron::error::SpannedError;
+use ron::extensions::Extensions;
+use serde::de::DeserializeOwned;
+
+pub(crate) mod edit;
+pub(crate) mod index;
+pub(crate) mod scan;
+
+/// Reads RON text with optional values that need no `Some`, and a variant of one group without brackets around it.
+pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
+    let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
+    ron::Options::default().with_default_extension(extensions).from_str(text)
+}
+
+/// A number in RON: the shortest text that reads back as the same number, always with a decimal point,
+/// with an exponent if the number is much smaller or larger than one.
+pub fn ron_float(value: f64) -> String {
+    let size = value.abs();
+    if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
+        return format!("{value:?}");
+    }
+    let text = format!("{value:e}");
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if !mantissa.contains('.') => format!("{mantissa}.0e{exponent}"),
+        _ => text,
+    }
+}
+
+/// Text as a RON string; only characters that RON cannot contain literally are escaped.
+pub fn ron_string(text: &str) -> String {
+    let mut string = String::with_capacity(text.len() + 2);
+    string.push('"');
+    for c in text.chars() {
+        match c {
+            '"' => string.push_str("\\\""),
+            '\\' => string.push_str("\\\\"),
+            '\n' => string.push_str("\\n"),
+            '\r' => string.push_str("\\r"),
+            '\t' => string.push_str("\\t"),
+            c if is_control(c) => string.push_str(&format!("\\u{{{:x}}}", u32::from(c))),
+            c => string.push(c),
+        }
+    }
+    string.push('"');
+    string
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_strings_escaped_only_where_they_must_be() {
+        let texts =
+            "2.0e6 1.0e-4 2.5e-7 0.5 -40.0 1.0e-3 0.0011 0.005 99999.0 -99999.5 1.0e5 0.0 -0.0 NaN -inf";
+        assert!(texts.split(' ').all(|text| ron_float(text.parse().unwrap()) == text));
+        assert_eq!(ron_string("κ \"a\" \\ \n\u{1b}"), r#""κ \"a\" \\ \n\u{1b}""#);
+    }
+
+    proptest! {
+        #[test]
+        fn all_numbers_survive(bits in any::<u64>()) {
+            let value = f64::from_bits(bits);
+            let read: f64 = ron::from_str(&ron_float(value)).unwrap();
+            prop_assert!(read.to_bits() == bits || value.is_nan() && read.is_nan());
+        }
+
+        #[test]
+        fn all_strings_survive(text in any::<String>()) {
+            prop_assert_eq!(ron::from_str::<String>(&ron_string(&text)), Ok(text));
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Outcome of a computed scene, or the reason why there is none.
+
+use super::reach::{BeyondFullContact, out_of_reach, rounded_up};
+use crate::analysis::figures::{Figures, Regime};
+use crate::analysis::governing::{Governing, SteepWaves};
+use crate::analysis::instrument::InstrumentFigures;
+use crate::scene::errors::SceneErrors;
+use asperity_contact::Move;
+use asperity_contact::{ContactError, History, Patch};
+use asperity_data::format_quantity;
+use asperity_surface::{Histogram, SurfaceError};
+use serde::Serialize;
+use thiserror::Error;
+
+/// All results of one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Facts about the profile.
+    pub line: LineFacts,
+    /// Governing parameters.
+    pub governing: Governing,
+    /// Ideal adhesion force F_a,max, eq. (14), N; `None` without adhesion.
+    pub ideal_adhesion_force: Option<f64>,
+    /// Adhesion force F_smooth of the same body without roughness after the same preload, N; `None` without adhesion.
+    pub smooth_adhesion_force: Option<f64>,
+    /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or an unloading stage.
+    pub zero_load_adhesion_force: Option<f64>,
+    /// The same by the zero-force protocol, N.
+    pub zero_force_adhesion_force: Option<f64>,
+    /// Tabor number μ; `None` without adhesion or radius of curvature.
+    pub tabor_number: Option<f64>,
+    /// Waves too steep for the theory of Johnson, Kendall and Roberts.
+    pub steep_waves: Option<SteepWaves>,
+    /// Regime of Fig. 4 by the touch protocol; `None` without a tensile force.
+    pub regime: Option<Regime>,
+    /// The same by the zero-force protocol.
+    pub regime_after_zero_force: Option<Regime>,
+    /// Headline figures of the loading history.
+    pub figures: Figures,
+    /// Figures over the displacement of the instrument; `None` for a rigid one.
+    pub instrument: Option<InstrumentFigures>,
+    /// The loading history itself.
+    pub history: History,
+    /// Patches in contact after each loading stage, if observed.
+    pub fragments: Vec<Vec<Patch>>,
+    /// Histogram of the heights of the profile, if observed.
+    pub histogram: Option<Histogram>,
+    /// Times of the stages.
+    pub timings: Timings,
+}
+
+/// Facts about a profile besides its heights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineFacts {
+    /// Springs N of the foundation.
+    pub points: usize,
+    /// Apparent diameter L, m.
+    pub length: f64,
+    /// Distance Δx between springs, m.
+    pub spacing: f64,
+    /// Index of the first spring under the body; above zero only under a punch.
+    pub first: usize,
+    /// Height of the highest point, m.
+    pub summit: f64,
+    /// Largest gap, m.
+    pub deepest: f64,
+    /// First and last mode of the roughness.
+    pub modes: Option<(u64, u64)>,
+    /// Seed of the roughness.
+    pub seed: Option<u64>,
+    /// The rms gradient by the integrals of eq. (12) for the same rms height.
+    pub continuum_rms_gradient: Option<f64>,
+}
+
+/// Times of the stages, s; zero for a stage that did not run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Timings {
+    /// Making the profile.
+    pub line: f64,
+    /// Building the tree and counting heights into the histogram.
+    pub tree: f64,
+    /// Thresholds of all loading stages, or the steps of the stepwise solver.
+    #[serde(rename = "loop")]
+    pub passes: f64,
+    /// Curves and exact extremes of all loading stages.
+    pub curve: f64,
+    /// F_a(0) by both protocols, for the regimes.
+    pub zero_load: f64,
+}
+
+impl Timings {
+    /// Time of all stages, s.
+    pub fn total(&self) -> f64 {
+        self.line + self.tree + self.passes + self.curve + self.zero_load
+    }
+}
+
+/// Reason why a checked scene could not be computed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum RunError {
+    /// A variant of the scene that the computation needs has values out of their ranges.
+    #[error(transparent)]
+    Values(#[from] SceneErrors),
+    /// The scene does not fit into memory.
+    #[error(
+        "not enough memory: this scene takes about {} MiB; fewer numerics.points and numerics.samples take less",
+        bytes.div_ceil(1 << 20)
+    )]
+    OutOfMemory {
+        /// Required bytes.
+        bytes: u64,
+    },
+    /// The profile could not be made.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// Reversals with the stepwise solver.
+    #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
+    NeedsExactSolver,
+    /// Turning points of a loading that does not press.
+    #[error(
+        "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
+    )]
+    NeverPressed,
+    /// A preload that no loading reaches, since the first touch already pulls less.
+    #[error(
+        "preload {}: allowed: at least the force at first touch, {}",
+        format_quantity(*preload, "N"),
+        format_quantity(rounded_up(*touch), "N")
+    )]
+    BelowTouch {
+        /// The preload, N.
+        preload: f64,
+        /// Force at first touch, N.
+        touch: f64,
+    },
+    /// A stage that presses the body deeper than its length beyond full contact.
+    #[error(transparent)]
+    BeyondFullContact(#[from] BeyondFullContact),
+    /// The contact could not be computed.
+    #[error("{}", out_of_reach(.0, Move::ToTouch))]
+    Contact(#[from] ContactError),
+}
+
+impl RunError {
+    /// Returns true if the computation was stopped rather than failed.
+    pub fn is_interruption(&self) -> bool {
+        *self == RunError::Contact(ContactError::Interrupted)
+    }
+}

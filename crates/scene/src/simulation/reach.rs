@@ -1,0 +1,161 @@
+//! Forces that a contact does not reach or is not to reach, in words, with the nearest force within reach.
+
+use crate::scene::field::target_field;
+use asperity_contact::Move;
+use asperity_contact::{Contact, ContactError};
+use asperity_data::format_quantity;
+use asperity_data::round_to;
+use thiserror::Error;
+
+/// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. From full
+/// contact on the force curve is a straight line, and so deep a body is no longer on a half-space that deforms little.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Force and indentation at which the last spring touches, N and m.
+    pub full_contact: (f64, f64),
+    /// Force in the deepest state, N.
+    pub force: f64,
+    /// Indentation in the deepest state, m.
+    pub indentation: f64,
+    /// Displacement of the instrument in the deepest state, m.
+    pub displacement: f64,
+}
+
+impl Reach {
+    /// Finds the deepest state of a contact within reach of the model.
+    pub fn of(contact: &Contact) -> Reach {
+        let length = contact.foundation().length;
+        let full_contact = (contact.full_contact_force(), contact.springs().deepest());
+        let force = full_contact.0 + force_of_a_length(contact);
+        let indentation = full_contact.1 + length;
+        let displacement = contact.displacement(indentation, force);
+        Reach { full_contact, force, indentation, displacement }
+    }
+
+    /// Reason against a stage beyond the deepest state, in words.
+    pub fn refusal(&self, stage: Move) -> Option<String> {
+        self.beyond(stage).map(|beyond| beyond.to_string())
+    }
+
+    fn beyond(&self, stage: Move) -> Option<BeyondFullContact> {
+        let (field, found) = target_field(stage)?;
+        let (full_contact, most) = match stage {
+            Move::ToForce(_) => (self.full_contact.0, self.force),
+            Move::ToDisplacement(_) => (self.full_contact.1, self.displacement),
+            _ => (self.full_contact.1, self.indentation),
+        };
+        let allowed = -rounded_up(-most);
+        (found > most).then_some(BeyondFullContact { found, full_contact, allowed, unit: field.unit })
+    }
+}
+
+/// A stage that presses the body deeper than its length beyond full contact.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[error(
+    "{} is far beyond full contact at {}, deeper by more than the length of the profile; allowed: at most {}",
+    format_quantity(*found, unit),
+    format_quantity(*full_contact, unit),
+    format_quantity(*allowed, unit)
+)]
+pub struct BeyondFullContact {
+    /// Target of the stage, in `unit`.
+    pub found: f64,
+    /// The same quantity at full contact.
+    pub full_contact: f64,
+    /// Largest allowed target, rounded to four digits.
+    pub allowed: f64,
+    /// Unit of the three numbers: N or m.
+    pub unit: &'static str,
+}
+
+/// Refuses a loading with a stage out of reach.
+pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFullContact> {
+    let length = contact.foundation().length;
+    // Even without the way to full contact most loadings are within reach.
+    let is_near = |stage: &Move| match *stage {
+        Move::ToForce(force) => force <= force_of_a_length(contact),
+        Move::ToIndentation(to) | Move::ToDisplacement(to) => to <= length,
+        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => true,
+    };
+    if loading.iter().all(is_near) {
+        return Ok(());
+    }
+    let reach = Reach::of(contact);
+    loading.iter().find_map(|stage| reach.beyond(*stage)).map_or(Ok(()), Err)
+}
+
+/// Force by which full contact resists one length of the profile more, N.
+fn force_of_a_length(contact: &Contact) -> f64 {
+    let foundation = contact.foundation();
+    foundation.spring_stiffness() * contact.gaps().len() as f64 * foundation.length
+}
+
+/// Reason for which a body does not move to a target, with forces rounded into the allowed range.
+pub fn out_of_reach(error: &ContactError, target: Move) -> String {
+    match (error, target) {
+        (ContactError::Stage { index, target, reason }, _) => {
+            format!("stage {}: {}", index + 1, out_of_reach(reason, *target))
+        }
+        (ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {
+            let [force, least] = [force, rounded_up(*smallest)].map(|force| format_quantity(force, "N"));
+            format!("the contact detaches before {force}; smallest force within reach: {least}")
+        }
+        (error, _) => error.to_string(),
+    }
+}
+
+/// The nearest number of four digits not below a value.
+pub(super) fn rounded_up(value: f64) -> f64 {
+    let nearest = round_to(value, 4);
+    let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
+    if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::document::Document;
+    use crate::scene::open::open;
+    use crate::simulation::outcome::{Outcome, RunError};
+    use crate::simulation::stages::Simulation;
+
+    fn run(document: &Document, stage: Move) -> Result<Outcome, RunError> {
+        let document = document.with_stages(&[(None, stage)]).unwrap();
+        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+    }
+
+    #[test]
+    fn a_body_is_pressed_at_most_its_length_deeper_than_at_full_contact() {
+        for (name, field) in [
+            ("pressure-sensitive", ("adhesion", "(kappa: 6.0)")),
+            ("pressure-sensitive", ("adhesion", "None")),
+            ("pressure-sensitive", ("loading_stiffness", "40.0")),
+            // Full contact at a thousandth of the force that presses the body.
+            ("pressure-sensitive", ("roughness.rms_height", "1.0e-12")),
+            ("jkr-sphere", ("numerics.edges", "SubCell")),
+            ("kendall-punch", ("numerics.edges", "Grid")),
+        ] {
+            let document = open(name).unwrap().set("numerics.points", "2048").unwrap();
+            let document = document.set(field.0, field.1).unwrap();
+            let reach = Simulation::default().reach(document.scene()).unwrap();
+            let length = document.scene().length;
+            assert!((reach.indentation / (reach.full_contact.1 + length) - 1.0).abs() < 1e-12);
+            for (stage, most) in [
+                (Move::ToForce as fn(f64) -> Move, reach.force),
+                (Move::ToIndentation, reach.indentation),
+                (Move::ToDisplacement, reach.displacement),
+            ] {
+                // The deepest state itself is computed, by any kind of stage the same one.
+                let deepest = run(&document, stage(most)).unwrap().history.legs[0].largest;
+                assert!((deepest.force / reach.force - 1.0).abs() < 1e-6, "{name} {field:?} {deepest:?}");
+                assert!((deepest.indentation / reach.indentation - 1.0).abs() < 1e-6, "{name} {field:?}");
+                let refused = run(&document, stage(1.001 * most)).unwrap_err().to_string();
+                assert!(
+                    refused.contains(" is far beyond full contact at ")
+                        && refused.contains("; allowed: at most "),
+                    "{refused}"
+                );
+            }
+        }
+    }
+}

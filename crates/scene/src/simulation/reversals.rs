@@ -1,0 +1,111 @@
+//! Reversals of a scene: the unloadings from many turning points of one loading.
+
+use super::outcome::RunError;
+use super::reach;
+use super::reach::Reach;
+use super::stages::Prepared;
+use super::stages::Simulation;
+use super::workload::Workload;
+use crate::analysis::reversal_map::ReversalMap;
+use crate::scene::checked::CheckedScene;
+use crate::scene::model::{Scene, Solver as SolverChoice};
+use asperity_contact::Move;
+use asperity_contact::{Body, ContactError, Reversal};
+use std::ops::RangeInclusive;
+
+/// Turning points of a map.
+pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
+/// Most points of a map below its first turning point, over the number of turning points.
+const MOST_BELOW: usize = 4;
+/// Samples of a loading stage whose curve is not used.
+pub const FEW_SAMPLES: u64 = 2;
+
+/// Receiver of reversals and the numbers of their turning points.
+pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
+
+impl Simulation {
+    /// Unloads a checked scene to separation from the ends of these stages, each of which begins at separation.
+    /// `see` receives each reversal with the number of its stage, from the shallowest on, with the forces at
+    /// `points`, ascending indentations in m. `stop` is polled between two reversals.
+    ///
+    /// # Errors
+    /// A scene with the stepwise solver, an end out of reach, insufficient memory or a stop.
+    pub fn reverse(
+        &mut self,
+        scene: &CheckedScene,
+        (ends, points): (&[Move], &[f64]),
+        stop: &dyn Fn() -> bool,
+        see: &mut SeeReversal<'_>,
+    ) -> Result<(), RunError> {
+        needs_exact_solver(scene)?;
+        let deepest = ends.last().copied().unwrap_or(Move::ToTouch);
+        let plan =
+            Workload::of_any(&Scene { loading: vec![deepest, Move::ToSeparation], ..Scene::clone(scene) });
+        let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
+        reach::check(&contact, ends)?;
+        let mut see = |index, reversal| {
+            see(index, reversal)?;
+            if stop() { Err(ContactError::Interrupted) } else { Ok(()) }
+        };
+        Ok(Body::new(&contact, scene.numerics.samples as usize).reversals(ends, points, &mut see)?)
+    }
+
+    /// The deepest state of a checked scene within reach of the model.
+    ///
+    /// # Errors
+    /// Those of the profile of [`Simulation::run`].
+    pub fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
+        let plan = Workload::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
+        Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
+    }
+
+    /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations
+    /// with the same spacing down to separation. The turning points lie between the indentations of two preloads, N, or
+    /// between first touch and the preload of the scene's own loading.
+    ///
+    /// # Errors
+    /// Errors of [`Simulation::reverse`], and a loading that never presses.
+    pub fn reversal_map(
+        &mut self,
+        scene: &CheckedScene,
+        preloads: Option<(f64, f64)>,
+        count: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<ReversalMap, RunError> {
+        needs_exact_solver(scene)?;
+        let count = count.clamp(*TURNING_POINTS.start(), *TURNING_POINTS.end());
+        let scene = scene.with(|scene| scene.numerics.samples = FEW_SAMPLES)?;
+        let ends = if let Some((from, to)) = preloads {
+            [Move::ToForce(from), Move::ToForce(to)]
+        } else {
+            let outcome = self.run(&scene, stop, &mut |_, _, _| Ok(()))?;
+            let pressed = outcome.figures.preload_indentation.filter(|&indentation| indentation > 0.0);
+            [Move::ToIndentation(0.0), Move::ToIndentation(pressed.ok_or(RunError::NeverPressed)?)]
+        };
+        let mut found = [(0.0, 0.0); 2];
+        self.reverse(&scene, (&ends, &[]), stop, &mut |index, reversal| {
+            found[index] = (reversal.turn.indentation, reversal.separation);
+            Ok(())
+        })?;
+        let [(low, _), (high, separation)] = found;
+        let step = (high - low) / (count - 1) as f64;
+        if !(step > 0.0 && low + step > low) {
+            return Err(RunError::NeverPressed);
+        }
+        let below = (((low - separation) / step).ceil() as usize + 1).min(MOST_BELOW * count);
+        let at = |index: usize| low + step * (index as f64 - below as f64);
+        let points: Vec<f64> = (0..below + count).map(at).collect();
+        let ends: Vec<Move> = points[below..].iter().map(|&point| Move::ToIndentation(point)).collect();
+        let mut reversals = Vec::with_capacity(count);
+        self.reverse(&scene, (&ends, &points), stop, &mut |_, reversal| {
+            reversals.push(reversal);
+            Ok(())
+        })?;
+        Ok(ReversalMap { points, below, reversals })
+    }
+}
+
+/// Refuses a scene with the stepwise solver.
+fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
+    if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
+}

@@ -1,0 +1,133 @@
+//! Heights of the roughness of a scene, synthesised or measured.
+
+use super::outcome::RunError;
+use crate::scene::fields::MOST_POINTS;
+use crate::scene::model::{SPRINGS_PER_WAVE, Scene};
+use asperity_surface::{
+    Amplitude, EquivalentLine, MeasuredOptions, MeasuredRoughness, SelfAffine, SurfaceError, Synthesizer,
+    read_faces,
+};
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Parameters of the heights of a roughness at some points.
+#[derive(Clone, PartialEq)]
+pub(super) struct RoughnessKey {
+    source: Source,
+    /// Seed of the random phases, if there are any.
+    seed: u64,
+    points: usize,
+    shift: f64,
+}
+
+/// Origin of a roughness.
+#[derive(Clone, PartialEq)]
+enum Source {
+    SelfAffine(SelfAffine),
+    /// Files of each face, and the length of the line, m.
+    Measured {
+        faces: Vec<Vec<PathBuf>>,
+        options: MeasuredOptions,
+        length: f64,
+    },
+}
+
+/// Heights of the roughness before scaling.
+pub(super) struct Rough {
+    pub key: RoughnessKey,
+    /// Empty once they have become the gaps of the profile.
+    pub heights: Vec<f64>,
+    /// Amplitude of the self-affine profile of rms height 1 on a length of 1 m.
+    pub unit: Option<Amplitude>,
+    /// Amplitude of a measured surface.
+    pub measured: Option<Amplitude>,
+    /// First and last mode of a random profile.
+    pub modes: Option<(u64, u64)>,
+}
+
+/// Maker of heights, with what serves several of them.
+#[derive(Default)]
+pub(super) struct RoughnessMaker {
+    /// Folder of the files of the scenes.
+    pub folder: PathBuf,
+    /// A measured surface in place of the scenes' files.
+    pub measured: Option<Arc<MeasuredRoughness>>,
+    /// The equivalent line of the last files: it is small, and serves all seeds.
+    pub equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, Arc<MeasuredRoughness>)>,
+    pub synthesizer: Synthesizer,
+    /// Number of random phases drawn so far.
+    pub phases_drawn: u64,
+}
+
+impl RoughnessMaker {
+    /// Returns the parameters of the roughness of a scene; `None` without roughness.
+    pub fn key(&self, scene: &Scene) -> Option<RoughnessKey> {
+        let points = scene.numerics.points as usize;
+        let shift = scene.form.as_ref().map_or(0.0, |form| form.shift(points as u64));
+        let source = match (scene.spectrum(), &scene.roughness) {
+            (Some(spectrum), _) => Source::SelfAffine(spectrum),
+            (None, roughness) => {
+                roughness.as_ref()?;
+                let faces = scene.measured_paths(&self.folder);
+                Source::Measured { faces, options: scene.measured_options(), length: scene.length }
+            }
+        };
+        Some(RoughnessKey { source, seed: scene.seed().unwrap_or(0), points, shift })
+    }
+
+    /// Makes heights and their known values; synthesised ones in this memory.
+    pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
+        let RoughnessKey { ref source, seed, points, shift } = key;
+        let (faces, options, length) = match source {
+            Source::SelfAffine(spectrum) => {
+                let heights = self.synthesizer.synthesize(*spectrum, seed, points, shift, memory)?;
+                self.phases_drawn += spectrum.last + 1 - spectrum.first;
+                let (unit, modes) = (spectrum.unit_amplitude(1.0), (spectrum.first, spectrum.last));
+                return Ok(Rough { key, heights, unit: Some(unit), measured: None, modes: Some(modes) });
+            }
+            Source::Measured { faces, options, length } => (faces, options, *length),
+        };
+        let file = faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path);
+        let refused = |reason: String| SurfaceError::measured(file, &reason);
+        let surface = self.surface(faces, options)?;
+        let (heights, amplitude, modes) = match &*surface {
+            MeasuredRoughness::Profile(profile) => {
+                (profile.sample(length, points, shift).map_err(refused)?, profile.amplitude()?, None)
+            }
+            MeasuredRoughness::Equivalent(line) => {
+                let modes = line.modes(length, points).map_err(refused)?;
+                let of_mode = |mode: u64| line.amplitude(mode, length);
+                let heights =
+                    self.synthesizer.synthesize_waves(&of_mode, modes, seed, points, shift, memory)?;
+                self.phases_drawn += modes.1 + 1 - modes.0;
+                (heights, line.amplitude_of_modes(length, modes), Some(modes))
+            }
+        };
+        Ok(Rough { key, heights, unit: None, measured: Some(amplitude), modes })
+    }
+
+    /// Returns the surface of the faces: the given one, the last equivalent line, or a new one.
+    fn surface(
+        &mut self,
+        faces: &[Vec<PathBuf>],
+        options: &MeasuredOptions,
+    ) -> Result<Arc<MeasuredRoughness>, SurfaceError> {
+        let last = self.equivalent.as_ref().filter(|(of, with, _)| of == faces && with == options);
+        if let Some(known) = self.measured.as_ref().or(last.map(|(.., surface)| surface)) {
+            return Ok(Arc::clone(known));
+        }
+        let surface = Arc::new(MeasuredRoughness::new(&read_faces(faces)?, options)?);
+        if let MeasuredRoughness::Equivalent(_) = *surface {
+            self.equivalent = Some((faces.to_vec(), options.clone(), Arc::clone(&surface)));
+        }
+        Ok(surface)
+    }
+}
+
+/// Springs, a power of two, on which the shortest wave of an equivalent line over a length (m) has twice the fewest springs
+/// of a resolved wave, from where on both edge models agree.
+pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
+    let waves = length * line.range()[1] / TAU;
+    ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)
+}

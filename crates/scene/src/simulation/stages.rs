@@ -1,0 +1,391 @@
+//! Execution of the stages of a scene whose input has changed since the last run.
+
+use super::outcome::{LineFacts, Outcome, RunError, Timings};
+use super::reach;
+use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
+use super::workload::{Stage, Workload};
+use crate::analysis::figures::{Figures, Regime};
+use crate::analysis::governing::{Governing, SteepWaves, ideal_adhesion_force, scene_tabor_number};
+use crate::analysis::instrument::InstrumentFigures;
+use crate::scene::checked::CheckedScene;
+use crate::scene::model::{Scene, Solver as SolverChoice};
+use asperity_contact::{
+    Body, Contact, ContactError, ContactTree, Foundation, History, Leg, LegRecord, Patch, Solver, Springs,
+    Stepwise, Work, run,
+};
+use asperity_contact::{Edges, Move};
+use asperity_data::{check_room, emptied};
+use asperity_surface::Form;
+use asperity_surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
+use std::mem::take;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+const HISTOGRAM_BINS: usize = 64;
+/// Factor of the memory of the next run above which that of former ones is released.
+const MOST_SPARE: u64 = 4;
+/// Bytes that are always kept.
+const SMALL: u64 = 32 << 20;
+
+/// The profile, the tree and their inputs: kept from run to run, so that a changed parameter repeats only the
+/// stages that depend on it. Repeated stages reuse their memory.
+///
+/// Between runs at most four times the memory of the last scene is kept ([`Workload::peak_bytes`], and 20 bytes for each
+/// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; that of glibc keeps blocks of less
+/// than 32 MiB, up to 64 MiB for each thread.
+#[derive(Default)]
+pub struct Simulation {
+    /// True for a single scene: memory for another one is released at once.
+    single: bool,
+    maker: RoughnessMaker,
+    roughness: Option<Rough>,
+    line: Option<(LineKey, Line)>,
+    /// Histogram of the heights of the profile, once observed.
+    histogram: Option<Histogram>,
+    springs: Arc<Springs>,
+    /// Springs under the form alone, once F_smooth has needed them.
+    pub(super) smooth: Option<SmoothSprings>,
+    /// Memory of the tree of a former profile.
+    former_tree: ContactTree,
+    /// Memory of the largest run that is still kept, bytes.
+    kept: u64,
+}
+
+#[derive(Clone, PartialEq)]
+struct LineKey {
+    roughness: Option<RoughnessKey>,
+    scale: f64,
+    length: f64,
+    points: usize,
+    form: Option<Form>,
+}
+
+/// Springs under a form without roughness, and all that they depend on.
+pub(super) struct SmoothSprings {
+    pub form: Form,
+    pub length: f64,
+    pub points: u64,
+    pub springs: Arc<Springs>,
+}
+
+/// Contact of a scene before its loading, with the results of making its profile and tree.
+pub(super) struct Prepared {
+    pub contact: Contact,
+    facts: LineFacts,
+    governing: Governing,
+    random_phases: u64,
+    heights_binned: u64,
+    /// Times of profile and tree, s.
+    timings: Timings,
+}
+
+/// Called after each loading stage with its index, its record and its leg; an error stops the run.
+pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
+
+impl Simulation {
+    /// A simulation with measured profiles in `folder`.
+    pub fn new(folder: PathBuf) -> Self {
+        Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
+    }
+
+    /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the profile in
+    /// the memory of its heights: less memory for a single scene, more time for each further profile.
+    pub fn for_one_scene(self) -> Self {
+        Simulation { single: true, ..self }
+    }
+
+    /// Uses a measured surface in memory instead of the file of any scene.
+    pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
+        self.maker.measured = Some(measured);
+        self
+    }
+
+    /// The profile of the last scene.
+    pub fn line(&self) -> Option<&Line> {
+        self.line.as_ref().map(|(_, line)| line)
+    }
+
+    /// Makes the profile of a checked scene, unless unchanged since the last one, and returns its known values.
+    ///
+    /// # Errors
+    /// Insufficient memory or an unreadable measured profile.
+    pub fn make_line(&mut self, scene: &CheckedScene) -> Result<(&Line, LineFacts, Governing), RunError> {
+        self.line_of(scene)
+    }
+
+    fn line_of(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
+        let (points, length) = (scene.numerics.points as usize, scene.length);
+        let roughness = self.maker.key(scene);
+        if self.roughness.as_ref().map(|rough| &rough.key) != roughness.as_ref() {
+            let before = self.roughness.take().map(|rough| rough.heights);
+            if let Some(key) = &roughness {
+                self.roughen(scene, key, before.unwrap_or_default())?;
+            }
+        }
+        let rough = self.roughness.as_ref();
+        let unit = rough.and_then(|rough| rough.unit).map(|unit| unit.stretched(length));
+        let measured = rough.and_then(|rough| rough.measured);
+        let governing = Governing::of(scene, unit, measured);
+        let rms_height = governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
+        // Measured heights are already in metres.
+        let scale = if measured.is_some() { 1.0 } else { rms_height };
+        let modes = rough.and_then(|rough| rough.modes);
+        if let Some(form) = &scene.form {
+            form.load(&self.maker.folder, length)?;
+        }
+        let key = LineKey { roughness, scale, length, points, form: scene.form.clone() };
+        if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
+            let line = self.lay_line(scene, &key)?;
+            self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
+            self.line = Some((key, line));
+        }
+        let Some((_, line)) = &self.line else {
+            return Err(ContactError::Internal("the profile of the scene has not been made").into());
+        };
+        let facts = LineFacts {
+            points,
+            length,
+            spacing: line.spacing,
+            first: line.first,
+            summit: line.summit,
+            deepest: self.springs.deepest(),
+            modes,
+            seed: scene.seed(),
+            continuum_rms_gradient: scene
+                .spectrum()
+                .map(|spectrum| rms_height * spectrum.continuum_gradient_per_height(length)),
+        };
+        Ok((line, facts, governing))
+    }
+
+    /// Springs under the profile of a scene.
+    pub(super) fn springs_of(&mut self, scene: &CheckedScene) -> Result<Arc<Springs>, RunError> {
+        self.make_line(scene)?;
+        Ok(Arc::clone(&self.springs))
+    }
+
+    /// Makes a profile from the heights of its roughness.
+    fn lay_line(&mut self, scene: &Scene, key: &LineKey) -> Result<Line, RunError> {
+        let LineKey { scale, length, points, .. } = *key;
+        self.histogram = None;
+        // Nothing else uses the springs unless a caller has kept a leg.
+        if let Some(springs) = Arc::into_inner(take(&mut self.springs)) {
+            self.former_tree = springs.into_tree();
+        }
+        let mut memory =
+            self.line.take().and_then(|(_, line)| Arc::into_inner(line.gaps)).unwrap_or_default();
+        if let (Some(of), Some(rough)) = (&key.roughness, &self.roughness)
+            && rough.heights.is_empty()
+        {
+            self.roughen(scene, of, take(&mut memory))?;
+        }
+        if let Some(rough) = self.roughness.as_mut().filter(|_| self.single) {
+            memory = take(&mut rough.heights);
+        } else {
+            memory = emptied(memory, points).map_err(SurfaceError::from)?;
+            let heights = self.roughness.as_ref().map_or(&[][..], |rough| &rough.heights);
+            memory.extend_from_slice(heights);
+            memory.resize(points, 0.0);
+        }
+        Ok(Line::from_roughness(memory, length, scene.form.as_ref(), scale)?)
+    }
+
+    /// Makes the heights of a roughness; synthesised ones in this memory.
+    fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
+        // The transform allocates its own memory, and would end the process on failure.
+        check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::from)?;
+        self.roughness = Some(self.maker.make(key.clone(), memory)?);
+        if self.single {
+            self.maker.synthesizer = Synthesizer::default();
+        }
+        Ok(())
+    }
+
+    /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
+    /// of heights sorted into bins.
+    fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
+        let memory = take(&mut self.former_tree);
+        if plan.runs(Stage::Tree) {
+            self.springs.tree_in(memory, edges)?;
+        }
+        let line = self.line().filter(|_| plan.runs(Stage::HeightHistogram) && self.histogram.is_none());
+        let Some(line) = line else { return Ok(0) };
+        let binned = line.gaps.len() as u64;
+        self.histogram = Some(Histogram::new(line.heights(), line.lowest(), line.summit, HISTOGRAM_BINS));
+        Ok(binned)
+    }
+
+    /// Checks the memory of a run before any allocation: kept memory counts, and is released if it is far too large
+    /// or in the way.
+    fn make_room(&mut self, bytes: u64) -> Result<(), RunError> {
+        if self.kept / MOST_SPARE > bytes && self.kept > SMALL {
+            self.give_back();
+        }
+        if check_room(bytes.saturating_sub(self.kept)).is_err() {
+            self.give_back();
+            check_room(bytes).map_err(|_| RunError::OutOfMemory { bytes })?;
+        }
+        self.kept = self.kept.max(bytes);
+        Ok(())
+    }
+
+    fn give_back(&mut self) {
+        let RoughnessMaker { folder, measured, .. } = take(&mut self.maker);
+        let maker = RoughnessMaker { folder, measured, ..RoughnessMaker::default() };
+        *self = Simulation { single: self.single, maker, ..Simulation::default() };
+    }
+
+    /// Makes profile and tree of a checked scene for a contact by this plan.
+    pub(super) fn prepare(
+        &mut self,
+        plan: &Workload,
+        scene: &Scene,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Prepared, RunError> {
+        let interrupted = || if stop() { Err(ContactError::Interrupted) } else { Ok(()) };
+        let mut timings = Timings::default();
+        self.make_room(plan.peak_bytes)?;
+
+        let drawn_before = self.maker.phases_drawn;
+        let clock = Instant::now();
+        let (line, facts, governing) = self.line_of(scene)?;
+        let Governing { effective_modulus, .. } = governing;
+        let foundation = Foundation { spacing: line.spacing, effective_modulus, length: line.length };
+        timings.line = clock.elapsed().as_secs_f64();
+        interrupted()?;
+        let random_phases = self.maker.phases_drawn - drawn_before;
+
+        let (clock, edges) = (Instant::now(), scene.numerics.edges);
+        let heights_binned = self.look_at_line(plan, edges)?;
+        timings.tree = clock.elapsed().as_secs_f64();
+        interrupted()?;
+
+        let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
+        let contact = Contact::of(Arc::clone(&self.springs), edges, foundation, hess)
+            .with_loading_stiffness(scene.loading_stiffness.unwrap_or(f64::INFINITY));
+        Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
+    }
+
+    /// Contact of a scene before its loading, and its governing parameters. The scene is a checked one, whose form may
+    /// have a radius that a fit tries.
+    pub fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
+        let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
+        Ok((made.contact, made.governing))
+    }
+
+    /// Runs a checked scene by its plan. `stop` is polled now and then; `after` sees each stage of the scene's own
+    /// loading.
+    ///
+    /// # Errors
+    /// A failure of a stage or a stop; earlier results are kept for the next run.
+    pub fn run(
+        &mut self,
+        scene: &CheckedScene,
+        stop: &dyn Fn() -> bool,
+        after: &mut AfterLeg<'_>,
+    ) -> Result<Outcome, RunError> {
+        let plan = Workload::of(scene);
+        let made = self.prepare(&plan, scene, stop)?;
+        let Prepared { contact, facts, governing, random_phases, heights_binned, mut timings } = made;
+        reach::check(&contact, &scene.loading)?;
+        let on_foundation =
+            |patch: Patch| Patch { first: patch.first + facts.first, last: patch.last + facts.first };
+
+        let (clock, mut stage, mut fragments) = (Instant::now(), 0, Vec::new());
+        let mut see = |record: &LegRecord, leg: &Leg| {
+            if stop() {
+                return Err(ContactError::Interrupted);
+            }
+            if plan.runs(Stage::Fragments) {
+                let patches =
+                    record.end_in_contact().map_or_else(Vec::new, |end| leg.patches(end.indentation));
+                fragments.push(patches.into_iter().map(on_foundation).collect());
+            }
+            stage += 1;
+            after(stage - 1, record, leg)
+        };
+        let zero_load = plan.runs(Stage::ZeroLoadAdhesion);
+        let (mut history, zero_load) = load(scene, &contact, zero_load, &mut timings, stop, &mut see)?;
+        timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
+        history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
+        let transforms = u64::from(random_phases > 0);
+        history.work = Work { random_phases, transforms, heights_binned, ..history.work };
+
+        let figures = Figures::of(&history);
+        let [zero_load_adhesion_force, zero_force_adhesion_force] = zero_load;
+        let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
+        let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
+        let regime = |zero_load| Regime::of_loading(&figures, zero_load, smooth);
+        Ok(Outcome {
+            line: facts,
+            governing,
+            ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, length)),
+            smooth_adhesion_force: smooth,
+            zero_load_adhesion_force,
+            zero_force_adhesion_force,
+            tabor_number: scene_tabor_number(scene, &governing),
+            steep_waves: SteepWaves::of(scene, &governing),
+            regime: regime(zero_load_adhesion_force),
+            regime_after_zero_force: regime(zero_force_adhesion_force),
+            instrument: scene.loading_stiffness.map(|k| InstrumentFigures::of(&history, &figures, k)),
+            figures,
+            history,
+            fragments,
+            histogram: self.histogram.as_ref().filter(|_| plan.runs(Stage::HeightHistogram)).cloned(),
+            timings,
+        })
+    }
+}
+
+/// Loads a contact with the solver of the scene and, if F_a(0) is requested, turned at first touch and at zero force.
+/// Returns the history, and F_a(0) by both protocols, N, where the contact pulls.
+fn load(
+    scene: &Scene,
+    contact: &Contact,
+    zero_load: bool,
+    timings: &mut Timings,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<(History, [Option<f64>; 2]), ContactError> {
+    let samples = scene.numerics.samples as usize;
+    let mut forces = [None; 2];
+    match scene.numerics.solver {
+        SolverChoice::Stepwise { step } => {
+            let body = |samples| Stepwise::new(contact, step, samples, stop);
+            let mut solver = body(samples)?;
+            let mut history = run(&mut solver, &scene.loading, see)?;
+            timings.curve = solver.curve_seconds();
+            if zero_load {
+                let clock = Instant::now();
+                for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
+                    let turned = match run(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
+                        Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
+                        // A turn out of reach of the steps has no F_a(0).
+                        Err(_) => continue,
+                        Ok(turned) => turned,
+                    };
+                    *force = Figures::of(&turned).adhesion_force;
+                    let work = &mut history.work;
+                    work.steps += turned.work.steps;
+                    work.relaxation_sweeps += turned.work.relaxation_sweeps;
+                    work.spring_updates += turned.work.spring_updates;
+                }
+                timings.zero_load = clock.elapsed().as_secs_f64();
+            }
+            Ok((history, forces))
+        }
+        SolverChoice::Exact => {
+            let mut body = Body::new(contact, samples);
+            let mut history = run(&mut body, &scene.loading, see)?;
+            timings.curve = body.curve_seconds();
+            if zero_load && contact.has_adhesion() {
+                let clock = Instant::now();
+                forces = body.zero_load_adhesion()?;
+                history.work = body.work();
+                timings.zero_load = clock.elapsed().as_secs_f64();
+            }
+            Ok((history, forces))
+        }
+    }
+}

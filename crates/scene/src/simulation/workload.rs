@@ -1,0 +1,251 @@
+//! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
+
+use crate::scene::checked::CheckedScene;
+use crate::scene::effects::Effect;
+use crate::scene::model::{Observer, Roughness, Scene, Solver};
+use asperity_contact::CurvePoint;
+use asperity_contact::Edges;
+use serde::Serialize;
+
+/// Bytes per spring: a height of the roughness, or a gap of the profile.
+const HEIGHT: u64 = 8;
+/// Bytes per spring of a profile with modes up to Nyquist's: a quarter of the springs are local maxima of the gap, with a
+/// node and two turning points each, and each fourth spring has two sums.
+const NODE: u64 = 20;
+/// Bytes per spring of the passes: thresholds of a quarter of the springs, and runs of the present stage and of the one
+/// before. Runs are few except with almost no adhesion.
+const PASSED: u64 = 12;
+/// Bytes per spring of the stepwise solver: its threshold and its contact.
+const RELAXED: u64 = 9;
+/// Bytes per sample of the present loading stage in addition to its curve, as measured; and with edges between springs,
+/// which are also summed for each sample.
+const SAMPLED: u64 = 64;
+const SAMPLED_WITH_EDGES: u64 = 120;
+/// Largest prime factor of a number of springs that the Fourier transform handles directly.
+const LARGEST_FACTOR: u64 = 31;
+
+/// Reasons to skip several stages.
+const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
+const STEPWISE: &str = "solver: Stepwise";
+const NEVER_BACK: &str = "loading never goes back";
+
+/// A stage of the computation of a curve from a scene, in the order of execution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// Adding the macroscopic form.
+    Form,
+    /// Drawing random phases and transforming them into a profile.
+    Synthesis,
+    /// Reading a measured profile.
+    MeasuredProfile,
+    /// Building the tree of the gaps.
+    Tree,
+    /// Evaluating the rule of Hess.
+    RuleOfHess,
+    /// Runs of stages that load.
+    LoadingPass,
+    /// Runs of stages that unload.
+    UnloadingPass,
+    /// Steps and relaxation sweeps.
+    Relaxation,
+    /// The loops that turn at first touch and at zero force, for F_a(0) and the regimes.
+    ZeroLoadAdhesion,
+    /// The list of contact patches.
+    Fragments,
+    /// The histogram of heights.
+    HeightHistogram,
+}
+
+#[rustfmt::skip]
+impl Stage {
+    const NAMES: [&str; 11] = [
+        "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
+        "unloading passes", "stepwise relaxation", "zero-load adhesion and regime", "contact patches",
+        "height histogram",
+    ];
+
+    /// Name of the stage in words.
+    pub fn name(self) -> &'static str {
+        Stage::NAMES[self as usize]
+    }
+}
+
+/// A stage, its selection by a scene, and its cost, which is zero for a skipped stage.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PlannedStage {
+    /// The stage.
+    pub stage: Stage,
+    /// True if the stage runs.
+    pub runs: bool,
+    /// The field that requires the stage, or the reason why it is skipped.
+    pub because: &'static str,
+    /// Passes over the profile or its tree; `None` for one or more in each loading stage, by its direction.
+    pub passes: Option<u64>,
+    /// Most springs visited in all passes; `None` if their number is.
+    pub springs_touched: Option<u64>,
+    /// Bytes of the arrays added during the stage.
+    pub bytes: u64,
+}
+
+/// The stages of a scene, in the order of execution.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Workload {
+    /// Springs under the body.
+    pub springs: u64,
+    /// Approximate peak memory of a run beside the program itself, bytes: all its arrays, and the resulting curves.
+    /// Additional memory, unknown here: the content of a measured file, 16 bytes for each of its points, and lists
+    /// of fragments.
+    pub peak_bytes: u64,
+    /// Approximate largest resident memory of `asperity run`, bytes: with the program itself, and without the
+    /// heights of roughness, whose memory a single scene reuses for its gaps.
+    pub resident_bytes: u64,
+    /// All stages, including skipped ones.
+    pub stages: Vec<PlannedStage>,
+}
+
+impl Workload {
+    /// Resident bytes of the program after a small scene: code, tables and stacks.
+    pub const PROGRAM: u64 = 14 << 20;
+
+    /// Plans the stages of a scene.
+    pub fn of(scene: &CheckedScene) -> Self {
+        Workload::of_any(scene)
+    }
+
+    /// Plans the stages of a checked scene, which may have any other loading.
+    pub(super) fn of_any(scene: &Scene) -> Self {
+        let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
+        let stages = stages(scene, points, springs);
+        let mut plan = Workload { springs, peak_bytes: 0, resident_bytes: 0, stages };
+        // At most, if the whole contact under load also exists at first touch.
+        let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::ZeroLoadAdhesion];
+        let between = scene.numerics.edges == Edges::SubCell && scene.numerics.solver == Solver::Exact;
+        let sampled = if between { SAMPLED_WITH_EDGES } else { SAMPLED };
+        let curves = scene.numerics.samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64
+            + scene.numerics.samples.saturating_mul(sampled);
+        let contact = HEIGHT * springs + solved.map(|stage| plan.bytes(stage)).iter().sum::<u64>() + curves;
+        // The profile is made before the contact is solved: the larger of both amounts of memory.
+        let heights = if Effect::Roughness.is_on(scene) { HEIGHT * points } else { 0 };
+        plan.peak_bytes = (heights + contact).max(plan.bytes(Stage::Synthesis));
+        plan.resident_bytes = Workload::PROGRAM + contact.max(plan.bytes(Stage::Synthesis));
+        plan
+    }
+
+    /// Returns true if a stage runs.
+    pub fn runs(&self, stage: Stage) -> bool {
+        self.stages.iter().any(|planned| planned.stage == stage && planned.runs)
+    }
+
+    fn bytes(&self, stage: Stage) -> u64 {
+        self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.bytes)
+    }
+
+    /// Returns the bytes of all stages that make the profile.
+    pub(super) fn line_bytes(&self) -> u64 {
+        HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
+    }
+}
+
+/// Plans all stages.
+fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
+    let (adhesive, pulls) = (Effect::Adhesion.is_on(scene), Effect::Unloading.is_on(scene));
+    let exact = scene.numerics.solver == Solver::Exact;
+    let (measured, random) =
+        (matches!(scene.roughness, Some(Roughness::Measured { .. })), scene.seed().is_some());
+    // Field that requires the stage or reason for skipping it, number of passes, springs of each pass, bytes.
+    let row = |stage, because: Result<_, _>, (passes, springs): (Option<u64>, u64), bytes| {
+        let runs = because.is_ok();
+        let (passes, bytes) = if runs { (passes, bytes) } else { (Some(0), 0) };
+        let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
+        let because = because.unwrap_or_else(|reason| reason);
+        PlannedStage { stage, runs, because, passes, springs_touched, bytes }
+    };
+    let when = |does: bool, field, reason| if does { Ok(field) } else { Err(reason) };
+    let (once, each_stage, line) = ((Some(1), springs), (None, springs), (Some(1), points));
+    let solver = if adhesive { STEPWISE } else { NO_ADHESION };
+    let solved = when(exact && adhesive, "adhesion with the exact solver", solver);
+    let form = match &scene.form {
+        None => Err("no form: nominally flat"),
+        Some(form) if form.flat_end().is_some() => Ok("form: the springs under the punch"),
+        Some(_) => Ok("form"),
+    };
+    let synthesis = match (random, measured) {
+        (true, true) => Ok("roughness: Measured, its equivalent line"),
+        (true, false) => Ok("roughness: SelfAffine"),
+        (false, true) => Err("roughness: Measured, as the line"),
+        (false, false) => Err("no roughness: smooth"),
+    };
+    // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs transform at twice the length.
+    let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
+    // The convolution that transforms a large prime factor, as measured.
+    let factor = largest_prime_factor(points);
+    let convolution = if factor > LARGEST_FACTOR { 152 * factor } else { 0 };
+    let file = if random { "roughness: SelfAffine" } else { "no roughness: smooth" };
+    let unloading = match (pulls, adhesive, exact) {
+        (false, ..) => Err(NEVER_BACK),
+        (true, false, _) => Err(NO_ADHESION),
+        (true, true, false) => Err(STEPWISE),
+        (true, true, true) => Ok("loading goes back"),
+    };
+    let zero_load = match (adhesive, pulls) {
+        (false, _) => Err("no adhesion: non-adhesive"),
+        (true, false) => Err(NEVER_BACK),
+        (true, true) => Ok("adhesion with a loading that goes back"),
+    };
+    let hess = when(adhesive, "adhesion", "no adhesion: nothing is stretched");
+    let observed = |observer, field| when(scene.observe.contains(&observer), field, "not in observe");
+    let fragments = observed(Observer::Fragments, "observe: Fragments");
+    let histogram = observed(Observer::HeightHistogram, "observe: HeightHistogram");
+    let (touch, touch_bytes) = if exact { ((Some(2), springs), 0) } else { (each_stage, RELAXED * springs) };
+    // F_smooth of a form without a closed form takes springs of its own.
+    let has_smooth = scene.roughness.is_some()
+        && scene.form.as_ref().is_some_and(|form| form.flat_end().is_none() && form.power_law().is_none());
+    let smooth_bytes = if has_smooth { (HEIGHT + NODE) * springs } else { 0 };
+    vec![
+        row(Stage::Form, form, once, 0),
+        row(Stage::Synthesis, synthesis, line, transform + convolution),
+        row(Stage::MeasuredProfile, when(measured, "roughness: Measured", file), line, HEIGHT * points),
+        row(Stage::Tree, solved, once, NODE * springs),
+        row(Stage::RuleOfHess, hess, (Some(0), springs), 0),
+        row(Stage::LoadingPass, solved, each_stage, PASSED * springs),
+        row(Stage::UnloadingPass, unloading, each_stage, 0),
+        row(Stage::Relaxation, when(!exact, STEPWISE, "solver: Exact"), each_stage, RELAXED * springs),
+        row(Stage::ZeroLoadAdhesion, zero_load, touch, touch_bytes + smooth_bytes),
+        row(Stage::Fragments, fragments, (Some(scene.loading.len() as u64), springs), 0),
+        row(Stage::HeightHistogram, histogram, once, 0),
+    ]
+}
+
+fn largest_prime_factor(mut number: u64) -> u64 {
+    let (mut factor, mut largest) = (2, 1);
+    while factor * factor <= number {
+        if number.is_multiple_of(factor) {
+            number /= factor;
+            largest = factor;
+        } else {
+            factor += 1;
+        }
+    }
+    largest.max(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_stage_is_planned_and_has_its_name() {
+        let planned = Workload::of(crate::scene::open::open("jkr-sphere").unwrap().scene()).stages;
+        let names: Vec<_> = planned.iter().map(|planned| planned.stage.name()).collect();
+        assert_eq!(names, Stage::NAMES);
+    }
+
+    #[test]
+    fn the_largest_prime_factor_is_found() {
+        let large = [(1 << 28, 2), (1_048_583, 1_048_583), (2 * 524_287, 524_287)];
+        for (number, factor) in large.into_iter().chain([(1, 1), (2, 2), (3, 3), (121, 11), (90, 5)]) {
+            assert_eq!(largest_prime_factor(number), factor, "{number}");
+        }
+    }
+}

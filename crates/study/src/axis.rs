@@ -1,0 +1,408 @@
+//! Axes of a parameter study: the varied quantity, a number of a scene by its path or one that follows from several, and
+//! its values.
+
+use asperity_contact::Move;
+use asperity_data::AxisScale;
+use asperity_data::format_quantity;
+use asperity_data::{printable, round_to};
+use asperity_scene::{FIELDS, Field, Range, RoughnessParameter, Scene, did_you_mean, field};
+use serde::{Deserialize, Serialize};
+
+/// Most values on one axis.
+pub const MOST_VALUES: u64 = 1_000_000;
+
+/// Significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
+const DIGITS: usize = 12;
+
+/// Smallest relative difference of two values of an axis; a smaller one is rounding.
+const APART: f64 = 1e-6;
+
+/// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
+const LOGARITHMIC_RATIO: f64 = 50.0;
+
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Axis")]
+pub(super) enum AxisText {
+    Linear { path: String, from: f64, to: f64, count: u64 },
+    Logarithmic { path: String, from: f64, to: f64, count: u64 },
+    List { path: String, values: Vec<f64> },
+}
+
+/// Distances between the values of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Spacing {
+    /// Equal differences.
+    Linear,
+    /// Equal ratios.
+    Logarithmic,
+    /// Any.
+    List,
+}
+
+/// An axis: a varied quantity and its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Path of the varied field, or name of a derived quantity.
+    pub path: String,
+    /// Technical name: `Hurst exponent`.
+    pub name: String,
+    /// Symbol, with `_` before an index: `F_n`. May be empty.
+    pub symbol: &'static str,
+    /// SI unit; `1` for numbers without one.
+    pub unit: &'static str,
+    /// Distances between the values.
+    pub spacing: Spacing,
+    /// Values in SI units, in the order of the plan; ascending on an axis of a grid.
+    pub values: Vec<f64>,
+    pub(super) target: Target,
+}
+
+impl Axis {
+    /// An axis over a quantity of a scene.
+    ///
+    /// # Errors
+    /// The path of no number.
+    pub fn new(path: &str, spacing: Spacing, values: Vec<f64>, scene: &Scene) -> Result<Axis, String> {
+        let target = Target::of(path)?;
+        let (name, symbol, unit) = target.label(path, scene);
+        Ok(Axis { path: path.to_owned(), name, symbol, unit, spacing, values, target })
+    }
+
+    /// Reads and checks the axis of a plan.
+    ///
+    /// # Errors
+    /// What is wrong with the axis, and what is allowed.
+    pub(super) fn of(text: &AxisText, scene: &Scene) -> Result<Axis, String> {
+        let (AxisText::Linear { path, .. }
+        | AxisText::Logarithmic { path, .. }
+        | AxisText::List { path, .. }) = text;
+        let path = printable(path);
+        let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).and_then(|axis| axis.with_values(text));
+        axis.map_err(|what| format!("axis {path}: {what}"))
+    }
+
+    fn with_values(self, text: &AxisText) -> Result<Axis, String> {
+        let (spacing, values) = match *text {
+            AxisText::List { ref values, .. } => (Spacing::List, values.clone()),
+            AxisText::Linear { from, to, count, .. } => {
+                check_ends(from, to, count, MOST_VALUES)?;
+                if !(to - from).is_finite() {
+                    return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
+                }
+                let at = |share: f64| from * (1.0 - share) + to * share;
+                (Spacing::Linear, self.between(from, to, count, at))
+            }
+            AxisText::Logarithmic { from, to, count, .. } => {
+                check_ends(from, to, count, MOST_VALUES)?;
+                check_logarithm(from)?;
+                let (first, last) = (from.ln(), to.ln());
+                let at = |share: f64| (first * (1.0 - share) + last * share).exp();
+                (Spacing::Logarithmic, self.between(from, to, count, at))
+            }
+        };
+        if values.is_empty() {
+            return Err("no values; allowed: at least one".into());
+        }
+        if values.len() as u64 > MOST_VALUES {
+            return Err(format!("{} values; allowed: at most {MOST_VALUES}", values.len()));
+        }
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(format!("{value:?}: values must be finite"));
+        }
+        let is_whole = |value: &f64| *value >= 0.0 && value.fract() == 0.0;
+        if let Some(value) = values.iter().find(|value| self.is_whole() && !is_whole(value)) {
+            return Err(format!("{value:?}: allowed: whole numbers"));
+        }
+        let axis = Axis { spacing, values, ..self };
+        let ascending = axis.ascending();
+        let twice = ascending.values.windows(2).find(|pair| pair[0] == pair[1]);
+        twice.map_or(Ok(axis), |pair| Err(format!("the value {:?} appears twice", pair[0])))
+    }
+
+    /// `count` values from one end to the other. Those between the ends are rounded to 12 significant digits, and where the
+    /// field holds whole numbers, to the nearest of these.
+    fn between(&self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Vec<f64> {
+        let rounded = |value: f64| match self.is_whole() {
+            true => value.round(),
+            false => round_to(value, DIGITS),
+        };
+        let last = count - 1;
+        let inner = (1..last).map(|index| rounded(at(index as f64 / last as f64)));
+        std::iter::once(from).chain(inner).chain([to]).collect()
+    }
+
+    /// Returns true for an axis over whole numbers.
+    pub fn is_whole(&self) -> bool {
+        self.target.is_whole()
+    }
+
+    /// Number of values.
+    pub fn count(&self) -> u64 {
+        self.values.len() as u64
+    }
+
+    /// Scale of the values in figures.
+    pub fn scale(&self) -> AxisScale {
+        let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        match self.spacing {
+            Spacing::Logarithmic => AxisScale::Logarithmic,
+            Spacing::List if low > 0.0 && high >= LOGARITHMIC_RATIO * low => AxisScale::Logarithmic,
+            _ => AxisScale::Linear,
+        }
+    }
+
+    /// Symbol, or the name of a quantity without one.
+    pub fn symbol_or_name(&self) -> &str {
+        if self.symbol.is_empty() { &self.name } else { self.symbol }
+    }
+
+    /// Symbol, or the path of a quantity without one.
+    pub fn symbol_or_path(&self) -> String {
+        if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
+    }
+
+    /// The axis at one of its values, in words: `H = 0.3`.
+    pub(super) fn at(&self, place: usize) -> String {
+        let equals = if self.symbol.is_empty() { "" } else { "= " };
+        format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
+    }
+
+    /// The value a number of steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,
+    /// and `None` where `value` is already there.
+    pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
+        let (values, apart) = (&self.values, APART * value.abs());
+        let further = steps.unsigned_abs().checked_sub(1)? as usize;
+        let index = if steps > 0 {
+            let first = values.iter().position(|one| *one > value + apart)?;
+            first.saturating_add(further).min(values.len() - 1)
+        } else {
+            values.iter().rposition(|one| *one < value - apart)?.saturating_sub(further)
+        };
+        Some(values[index])
+    }
+
+    /// Places of the values in ascending order.
+    pub(super) fn order(&self) -> Vec<usize> {
+        let mut places: Vec<usize> = (0..self.values.len()).collect();
+        places.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
+        places
+    }
+
+    pub(super) fn ascending(&self) -> Axis {
+        let mut axis = self.clone();
+        axis.values.sort_by(f64::total_cmp);
+        axis
+    }
+}
+
+/// Quantities that are not fields of a scene.
+pub const DERIVED: &[&str] = &["preload", "springs_per_wave"];
+
+/// Numbers that cannot be varied: the version is no parameter, and seeds are counted from the plan's.
+const FIXED: &[&str] = &["version", "roughness.seed"];
+
+/// Ends of the paths of numbers: a number itself, and the first and the last number of a pair.
+const ENDS: [&str; 3] = ["", ".0", ".1"];
+
+/// A quantity that an axis varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Target {
+    /// A number of a scene, or an end of a pair.
+    Number(&'static Field),
+    /// The force, N, or indentation, m, of a loading stage.
+    Stage(usize),
+    /// Preload F_n in units of E* h L.
+    Preload,
+    /// Springs per period of the shortest wave: the last mode is points over this number.
+    SpringsPerWave,
+}
+
+/// Part of a computation that a changed number repeats; later variants repeat least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Shapes {
+    /// The heights of the roughness, by a transform.
+    Roughness,
+    /// The profile, from known heights.
+    Profile,
+    /// The passes over the tree alone.
+    Passes,
+}
+
+/// The field of the number at a path.
+fn number(path: &str) -> Option<&'static Field> {
+    ENDS.into_iter().find_map(|end| {
+        let field = field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
+        let is_number = match field.range {
+            Range::Real(..) | Range::Whole(..) => end.is_empty(),
+            Range::Band(..) | Range::Wavelengths(..) => !end.is_empty(),
+            _ => false,
+        };
+        is_number.then_some(field)
+    })
+}
+
+impl Target {
+    /// Quantity of a path.
+    ///
+    /// # Errors
+    /// No number has this path; names the nearest one.
+    pub fn of(path: &str) -> Result<Target, String> {
+        match path {
+            "preload" => return Ok(Target::Preload),
+            "springs_per_wave" => return Ok(Target::SpringsPerWave),
+            _ => {}
+        }
+        let stage = || path.strip_prefix("loading.")?.strip_suffix(".0")?.parse().ok().map(Target::Stage);
+        number(path).map(Target::Number).or_else(stage).ok_or_else(|| {
+            let all = FIELDS.iter().flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
+            let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
+            let near =
+                || did_you_mean(path, numbers.iter().map(String::as_str).chain(DERIVED.iter().copied()));
+            let parameter = RoughnessParameter::named(path);
+            let near = parameter.map_or_else(near, |one| format!("; did you mean {}?", one.path()));
+            let derived = DERIVED.join(", ");
+            format!("no such number{near} (allowed: numbers of a scene by their paths, and {derived})")
+        })
+    }
+
+    /// Returns true for an integer quantity.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
+    }
+
+    /// κ or e_el/γ, which replaces a work of adhesion.
+    pub fn parameter(self) -> Option<RoughnessParameter> {
+        match self {
+            Target::Number(field) => RoughnessParameter::named(field.path),
+            _ => None,
+        }
+    }
+
+    /// Part of the computation that a change of the quantity repeats.
+    pub fn shapes(self) -> Shapes {
+        let field = match self {
+            Target::SpringsPerWave => return Shapes::Roughness,
+            Target::Stage(_) | Target::Preload => return Shapes::Passes,
+            Target::Number(field) => field,
+        };
+        match (field.parent(), field.path) {
+            // Heights are scaled to their amplitude.
+            ("form", _) | (_, "length" | "roughness.rms_height" | "roughness.rms_gradient") => {
+                Shapes::Profile
+            }
+            ("roughness", _) | (_, "numerics.points") => Shapes::Roughness,
+            _ => Shapes::Passes,
+        }
+    }
+
+    /// Name, symbol, which may be empty, and SI unit of the quantity at this path of a scene.
+    pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
+        match self {
+            Target::Preload => ("preload".into(), "F_n/(E* h L)", "1"),
+            Target::SpringsPerWave => ("springs per wave".into(), "", "1"),
+            Target::Stage(stage) => match scene.loading.get(stage) {
+                Some(Move::ToIndentation(_)) => (format!("indentation of stage {}", stage + 1), "", "m"),
+                _ => (format!("force of stage {}", stage + 1), "", "N"),
+            },
+            Target::Number(Field { range: Range::Band(..), .. }) if path.ends_with(".0") => {
+                ("first mode".into(), "k_min", "1")
+            }
+            Target::Number(Field { range: Range::Band(..), .. }) => ("last mode".into(), "k_max", "1"),
+            Target::Number(Field { range: Range::Wavelengths(..), symbol, unit, .. }) => {
+                let which = if path.ends_with(".0") { "longest" } else { "shortest" };
+                (format!("{which} wavelength"), symbol, unit)
+            }
+            Target::Number(field) => (field.name.into(), field.symbol, field.unit),
+        }
+    }
+}
+
+pub(super) fn check_logarithm(from: f64) -> Result<(), String> {
+    if from > 0.0 { Ok(()) } else { Err(format!("from {from:?}: a logarithmic axis begins above 0")) }
+}
+
+pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), String> {
+    if !(2..=most).contains(&count) {
+        return Err(format!("count = {count}: allowed: from 2 to {most}"));
+    }
+    if !(from.is_finite() && to.is_finite()) {
+        return Err(format!("from {from:?} to {to:?}: both ends must be finite"));
+    }
+    if from >= to {
+        return Err(format!("from {from:?} to {to:?}: `from` must be less than `to`"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::open;
+
+    fn axis(text: &str) -> Result<Axis, String> {
+        Axis::of(&ron::from_str(text).unwrap(), open("rough-sphere").unwrap().scene())
+    }
+
+    #[test]
+    fn values_between_the_ends_are_round() {
+        for (text, values) in [
+            ("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 17)", [0.1, 0.15, 0.2, 0.25]),
+            ("Logarithmic(path: \"adhesion.work\", from: 1e-3, to: 10.0, count: 5)", [1e-3, 0.01, 0.1, 1.0]),
+            (
+                "Logarithmic(path: \"numerics.points\", from: 256, to: 4096, count: 9)",
+                [256.0, 362.0, 512.0, 724.0],
+            ),
+        ] {
+            assert_eq!(axis(text).unwrap().values[..4], values, "{text}");
+        }
+    }
+
+    #[test]
+    fn errors_state_what_is_allowed() {
+        for (text, said) in [
+            (
+                "Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)",
+                "did you mean roughness.hurst?",
+            ),
+            ("Linear(path: \"kappa\", from: 0.1, to: 0.9, count: 3)", "did you mean adhesion.kappa?"),
+            (
+                "Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)",
+                "`from` must be less than `to`",
+            ),
+            ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "both ends must be finite"),
+            ("Linear(path: \"adhesion.kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
+            (
+                "Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 18446744073709551615)",
+                "from 2 to 1000000",
+            ),
+            ("Logarithmic(path: \"adhesion.kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),
+            ("List(path: \"adhesion.kappa\", values: [])", "no values"),
+            ("List(path: \"adhesion.kappa\", values: [1.0, inf])", "values must be finite"),
+            ("List(path: \"adhesion.kappa\", values: [1.0, 2.0, 1.0])", "the value 1.0 appears twice"),
+            ("Linear(path: \"numerics.points\", from: 2.0, to: 4.0, count: 9)", "appears twice"),
+            (
+                "Linear(path: \"numerics.points\", from: 2.5, to: 4.0, count: 2)",
+                "2.5: allowed: whole numbers",
+            ),
+        ] {
+            let wrong = axis(text).unwrap_err();
+            assert!(wrong.contains(said), "{text}: {wrong}");
+        }
+    }
+
+    #[test]
+    fn steps_go_to_the_next_value_of_the_axis_and_end_with_it() {
+        let scene = open("pressure-sensitive").unwrap().scene().clone();
+        let axes =
+            crate::live_plan::live_plan(&scene, asperity_scene::RoughnessParameter::Kappa).unwrap().axes;
+        let to = |value, steps| axes[0].next_beyond(value, steps);
+        assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
+        // A value of the axis but for rounding.
+        assert_eq!((to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)), (Some(1.19), Some(0.841)));
+        assert_eq!((to(31.0, 100), to(32.0, 1), to(0.125, -1)), (Some(32.0), None, None));
+        assert_eq!((to(100.0, -1), to(100.0, 1), to(1e-3, 1)), (Some(32.0), None, Some(0.125)));
+        assert_eq!((to(6.0, 0), to(6.0, i32::MIN), to(6.0, i32::MAX)), (None, Some(0.125), Some(32.0)));
+    }
+}

@@ -1,0 +1,242 @@
+//! Boundary of vanishing zero-load adhesion: the boundary between pressure-insensitive and pressure-sensitive
+//! adhesion, eq. (15), with its statistical error.
+//!
+//! F_a(0) falls with κ about exponentially and never quite to zero, since a single spring still adheres. So the
+//! boundary κ* is where the mean of F_a(0) over the profiles falls below a share of the ideal adhesion force
+//! F_a,max; κ* depends on that share, and several shares are evaluated at a time. A boundary in κ is also one in
+//! e_el/γ: on profiles of one spectrum either determines the other.
+
+use super::axis::Axis;
+use super::error::StudyError;
+use super::place::governing;
+use super::plan::Plan;
+use super::quantity::Quantity;
+use super::results::Results;
+use asperity_scene::RoughnessParameter;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::cmp::Ordering;
+use std::path::Path;
+
+/// Usual shares of F_a,max.
+pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
+/// Random choices of profiles for the confidence interval.
+const RESAMPLES: usize = 1000;
+/// Seed of these choices: the same table in each run.
+const RESAMPLING_SEED: u64 = 2012;
+
+/// The boundary at one place on the other axes, by one protocol, for one share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    /// Values on the axes other than κ or e_el/γ, in their order.
+    pub others: Vec<f64>,
+    /// The recorded share, which identifies the protocol.
+    pub protocol: Quantity,
+    /// The share of F_a,max below which adhesion counts as vanished.
+    pub level: f64,
+    /// The boundary and its 95 % confidence interval by resampling of profiles.
+    pub crossing: Crossing,
+}
+
+/// κ or e_el/γ at which a mean falls below a share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Value of the boundary, or the end of the study beyond which it lies.
+    pub value: f64,
+    /// `Less` for a boundary below the smallest value of the study, `Greater` for one above the largest.
+    pub side: Ordering,
+    /// 95 % confidence interval, where profiles could be resampled and all samples cross.
+    pub interval: Option<(f64, f64)>,
+}
+
+impl Crossing {
+    /// The value of a boundary within the study, with its interval.
+    pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
+        self.side.is_eq().then_some((self.value, self.interval))
+    }
+}
+
+/// The boundaries of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundaries {
+    /// Parameter of the boundaries.
+    pub over: RoughnessParameter,
+    /// The axes other than κ or e_el/γ.
+    pub others: Vec<Axis>,
+    /// Random profiles of each cell.
+    pub lines: u64,
+    /// Boundaries in the order of the cells, then of protocols, then of levels.
+    pub found: Vec<Boundary>,
+}
+
+/// F_a(0)/F_a,max over κ or e_el/γ in ascending order: each value with the shares of the same profiles.
+type Curve = Vec<(f64, Vec<f64>)>;
+
+/// Finds the boundaries of a merged study along its axis of κ or e_el/γ, in terms of either.
+///
+/// # Errors
+/// A study without such an axis or without a recorded share of F_a(0), or as [`Results::open`]; for a study of a measured
+/// surface along the other axis.
+pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
+    let study = Results::open(path)?;
+    let plan = study.plan();
+    let refuse = |reason: &str| StudyError::folder(path, reason);
+    let mut axes = plan.axes.iter().map(|axis| axis.target).enumerate();
+    let along = axes.find_map(|(place, target)| Some((place, target.parameter()?)));
+    let (along, given) = along.ok_or_else(|| {
+        refuse("this study has no axis adhesion.kappa or adhesion.elastic_energy_ratio, along which a boundary lies")
+    })?;
+    let shares = Quantity::ADHESION_SHARES;
+    let protocols: Vec<Quantity> = shares.into_iter().filter(|share| plan.record.contains(share)).collect();
+    if protocols.is_empty() {
+        return Err(refuse(
+            "this study records neither zero_load_adhesion_share nor zero_force_adhesion_share",
+        ));
+    }
+    let others: Vec<usize> = (0..plan.axes.len()).filter(|axis| *axis != along).collect();
+    let mut found = Vec::new();
+    for number in 0..plan.cells() / plan.axes[along].count() {
+        let cell = plan.cell_at(&plan.places_on(others.iter().copied(), number));
+        for &protocol in &protocols {
+            let curve = curve(&study, cell, along, protocol);
+            if curve.is_empty() {
+                continue;
+            }
+            let to = conversion(plan, cell, given, over).ok_or_else(|| {
+                let path = over.path();
+                refuse(&format!(
+                    "this study has no axis {path}, which does not follow from its measured surface"
+                ))
+            })?;
+            for &level in levels {
+                let Crossing { value, side, interval } = crossing(&curve, level);
+                let interval = interval.map(|(low, high)| (to(low), to(high)));
+                let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
+                let crossing = Crossing { value: to(value), side, interval };
+                found.push(Boundary { others, protocol, level, crossing });
+            }
+        }
+    }
+    let others = others.into_iter().map(|axis| plan.axes[axis].clone()).collect();
+    Ok(Boundaries { over, others, lines: plan.lines, found })
+}
+
+/// Shares on the profiles that all cells along an axis have, from a cell at the first value of the axis; cells without
+/// any share are left out.
+fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
+    let plan = study.plan();
+    let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
+    let cells = (0..).map(|place| first + place * step).zip(&plan.axes[along].values);
+    let share = |cell, line| study.value(cell, line, protocol);
+    let cells: Vec<_> =
+        cells.filter(|(cell, _)| (0..plan.lines).any(|line| share(*cell, line).is_some())).collect();
+    let is_common = |line: &u64| cells.iter().all(|(cell, _)| share(*cell, *line).is_some());
+    let lines: Vec<u64> = (0..plan.lines).filter(is_common).collect();
+    let shares = |cell: u64| lines.iter().filter_map(|line| share(cell, *line)).collect();
+    let mut curve: Curve = cells.iter().map(|(cell, value)| (**value, shares(*cell))).collect();
+    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+    curve
+}
+
+fn conversion(
+    plan: &Plan,
+    cell: u64,
+    from: RoughnessParameter,
+    to: RoughnessParameter,
+) -> Option<Box<dyn Fn(f64) -> f64>> {
+    if from == to {
+        return Some(Box::new(|value| value));
+    }
+    // The plan has been checked with these values.
+    let known = governing(&*plan.scene_of(cell).ok()?)?;
+    let energies = known.energy(to)? / known.energy(from)?;
+    Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
+}
+
+/// Name of the protocol of a recorded share of F_a(0).
+pub fn protocol_name(share: Quantity) -> &'static str {
+    if share == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
+}
+
+impl Boundaries {
+    /// Symbol of the boundary.
+    pub fn symbol(&self) -> &'static str {
+        match self.over {
+            RoughnessParameter::Kappa => "κ*",
+            RoughnessParameter::ElasticEnergyRatio => "(e_el/γ)*",
+        }
+    }
+}
+
+fn crossing(curve: &Curve, level: f64) -> Crossing {
+    let count = curve.first().map_or(0, |(_, shares)| shares.len());
+    let every: Vec<usize> = (0..count).collect();
+    let (value, side) = crossing_of(curve, &every, level);
+    let mut random = ChaCha8Rng::seed_from_u64(RESAMPLING_SEED);
+    let mut resample = || {
+        let chosen: Vec<usize> = every.iter().map(|_| random.random_range(0..count)).collect();
+        Some(crossing_of(curve, &chosen, level)).filter(|(_, side)| side.is_eq()).map(|(value, _)| value)
+    };
+    // An interval that reaches beyond the study is unknown.
+    let resampled: Option<Vec<f64>> =
+        if side.is_eq() && count >= 2 { (0..RESAMPLES).map(|_| resample()).collect() } else { None };
+    let interval = resampled.map(|mut values| {
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| values[(share * (RESAMPLES - 1) as f64).round() as usize];
+        (at(0.025), at(0.975))
+    });
+    Crossing { value, side, interval }
+}
+
+/// κ beyond which the mean over the chosen profiles stays below a share, linearly interpolated in the logarithm of
+/// the share, or the end of the curve beyond which this κ lies.
+fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
+    let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
+    let means: Vec<(f64, f64)> = curve.iter().map(|(kappa, shares)| (*kappa, mean(shares))).collect();
+    let Some(last) = means.iter().rposition(|&(_, mean)| mean >= level) else {
+        return (means.first().map_or(f64::NAN, |&(kappa, _)| kappa), Ordering::Less);
+    };
+    let (kappa, above) = means[last];
+    let Some(&(next, below)) = means.get(last + 1) else { return (kappa, Ordering::Greater) };
+    // A mean of zero has no logarithm.
+    let share =
+        if below > 0.0 { (above / level).ln() / (above / below).ln() } else { (above - level) / above };
+    (kappa + share * (next - kappa), Ordering::Equal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Shares of profiles that fall as exp(−κ/c).
+    fn falling(rates: &[f64]) -> Vec<(f64, Vec<f64>)> {
+        let kappas = (0..40).map(|k| 0.25 * f64::from(k));
+        kappas.map(|kappa| (kappa, rates.iter().map(|rate| (-kappa * rate).exp()).collect())).collect()
+    }
+
+    #[test]
+    fn an_exponential_is_crossed_where_it_falls_so_far() {
+        for level in [0.5, 0.1, 0.01] {
+            let (kappa, side) = crossing_of(&falling(&[1.0]), &[0], level);
+            assert!((kappa + level.ln()).abs() < 1e-12 && side.is_eq(), "{level}: {kappa}");
+        }
+        assert_eq!(crossing_of(&falling(&[0.01]), &[0], 0.5), (9.75, Ordering::Greater));
+        assert_eq!(crossing_of(&falling(&[1.0]), &[0], 2.0), (0.0, Ordering::Less));
+        let to_zero = vec![(1.0, vec![0.4]), (2.0, vec![0.0])];
+        assert_eq!(crossing_of(&to_zero, &[0], 0.1), (1.75, Ordering::Equal));
+    }
+
+    #[test]
+    fn intervals_contain_the_mean_and_narrow_with_more_profiles() {
+        let width = |lines: usize| {
+            let rates: Vec<f64> = (0..lines).map(|line| 0.8 + 0.4 * (line % 4) as f64 / 3.0).collect();
+            let curve = falling(&rates);
+            let (kappa, interval) = crossing(&curve, 0.1).known().unwrap();
+            let (low, high) = interval.unwrap();
+            assert!(low < kappa && kappa < high, "{low} {kappa} {high}");
+            high - low
+        };
+        let (few, many) = (width(8), width(128));
+        assert!(many < 0.4 * few && many > 0.15 * few, "{few} {many}");
+    }
+}

@@ -1,0 +1,177 @@
+//! Outcome of one case, the source of all recorded quantities.
+
+use asperity_contact::Move;
+use asperity_contact::{CurvePoint, History, LegRecord, Reversal};
+use asperity_scene::Scene;
+use asperity_scene::{Figures, Governing, Regime, ideal_adhesion_force, preload_point, scene_tabor_number};
+
+/// Outcome of one loading on one profile; a figure that the case does not have is `None`.
+pub(super) struct CaseOutcome<'o> {
+    /// Governing parameters.
+    pub governing: Governing,
+    /// Recorded properties of the profile.
+    pub profile: ProfileRecord,
+    /// The scene; its loading is ignored.
+    pub scene: &'o Scene,
+    /// F_a(0) by the touch protocol, N.
+    pub zero_load: Option<f64>,
+    /// F_a(0) by the zero-force protocol, N.
+    pub zero_force: Option<f64>,
+    /// F_smooth after the preload of the loading, N, if a regime is recorded.
+    pub smooth: Option<f64>,
+    /// The loading.
+    pub loading: LoadingOutcome,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LoadingOutcome {
+    pub figures: Figures,
+    /// Largest length in contact, m.
+    pub contact_length: Option<f64>,
+    /// Point of the preload.
+    pub preload: Option<CurvePoint>,
+}
+
+impl LoadingOutcome {
+    /// Outcome of these loading stages.
+    pub fn of_legs(legs: Vec<LegRecord>) -> Self {
+        let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
+        let contact_length = lengths.reduce(f64::max);
+        let preload = preload_point(&legs).map(|(_, point)| point);
+        let figures = Figures::of(&History { legs, ..History::default() });
+        LoadingOutcome { figures, contact_length, preload }
+    }
+
+    /// Outcome of a loading from separation to the end of this stage and back.
+    pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
+        LoadingOutcome {
+            figures: Figures::of_reversal(leg, reversal),
+            contact_length: Some(reversal.turn.contact_length),
+            preload: Some(reversal.turn),
+        }
+    }
+}
+
+/// Recorded properties that depend on the profile and the elasticity alone.
+#[derive(Clone, Copy, Default)]
+pub(super) struct ProfileRecord {
+    /// Rms height about the mean, m, without the form.
+    pub rms_height: Option<f64>,
+    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in rms heights, both zero for the
+    /// ensemble's normal distribution; `None` for a flat profile.
+    pub shape: Option<(f64, f64)>,
+    /// Height of the summit above the mean over the rms height.
+    pub summit: Option<f64>,
+    /// Exponents α of k ∝ F^α and n of F ∝ dⁿ of the contact without adhesion.
+    pub exponents: Option<(f64, f64)>,
+}
+
+impl ProfileRecord {
+    /// Statistics of the heights of a profile with these gaps, m, of which this is the deepest.
+    pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
+        let average =
+            |of: &dyn Fn(f64) -> f64| gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64;
+        let mean = average(&|gap| gap);
+        // In units of the deepest gap, or of the rms height: powers of heights could leave the range of numbers.
+        let square = average(&|gap| ((gap - mean) / deepest).powi(2));
+        let rms = if deepest > 0.0 { square.sqrt() * deepest } else { 0.0 };
+        let unit = average(&|gap| (gap - mean).powi(2)).sqrt();
+        let z = |gap| (mean - gap) / unit;
+        let third = average(&|gap| z(gap) * z(gap) * z(gap));
+        let fourth = average(&|gap| z(gap) * z(gap) * z(gap) * z(gap));
+        let is_known = unit > 0.0 && third.is_finite() && fourth.is_finite();
+        ProfileRecord {
+            rms_height: Some(rms),
+            shape: is_known.then_some((third, fourth - 3.0)),
+            summit: Some(mean / rms),
+            exponents: None,
+        }
+    }
+}
+
+impl CaseOutcome<'_> {
+    /// F_a,max of eq. (14), N.
+    pub fn ideal(&self) -> Option<f64> {
+        let Governing { work_of_adhesion, effective_modulus, .. } = self.governing;
+        work_of_adhesion.map(|work| ideal_adhesion_force(work, effective_modulus, self.scene.length))
+    }
+
+    /// A force over F_a,max.
+    pub fn share(&self, force: Option<f64>) -> Option<f64> {
+        Some(force? / self.ideal().filter(|&ideal| ideal > 0.0)?)
+    }
+
+    /// Largest length in contact over L.
+    pub fn contact_fraction(&self) -> Option<f64> {
+        self.loading.contact_length.map(|longest| longest / self.scene.length)
+    }
+
+    /// Tabor number.
+    pub fn tabor_number(&self) -> Option<f64> {
+        scene_tabor_number(self.scene, &self.governing)
+    }
+
+    /// Regime of this loading with this F_a(0), N, as its place in [`Regime::ALL`].
+    pub fn regime(&self, zero_load: Option<f64>) -> Option<f64> {
+        Some(Regime::of_loading(&self.loading.figures, zero_load, self.smooth)? as u8 as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_contact::Edges;
+    use asperity_scene::Simulation;
+    use asperity_scene::open;
+
+    #[test]
+    fn shapes_of_known_heights() {
+        // A sine: ⟨sin⁴⟩ = 3/8, ⟨sin²⟩ = 1/2.
+        let sine = (0..1000).map(|k| 3e-9 * (std::f64::consts::TAU * f64::from(k) / 1000.0).sin() + 4e-9);
+        let of = |gaps: &[f64]| ProfileRecord::of_gaps(gaps, gaps.iter().copied().fold(0.0, f64::max));
+        let (skewness, kurtosis) = of(&sine.collect::<Vec<_>>()).shape.unwrap();
+        assert!(skewness.abs() < 1e-12 && (kurtosis + 1.5).abs() < 1e-12, "{skewness} {kurtosis}");
+        // One height of four is far off: deviations −1, −1, −1, 3 from the mean.
+        let one_high = of(&[4.0, 4.0, 4.0, 0.0]);
+        let (skewness, kurtosis) = one_high.shape.unwrap();
+        assert!((skewness - 6.0 / 3.0_f64.powf(1.5)).abs() < 1e-12);
+        assert!((kurtosis - (21.0 / 9.0 - 3.0)).abs() < 1e-12);
+        assert!((one_high.rms_height.unwrap() - 3.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!((of(&[2.0; 5]).shape, of(&[]).shape), (None, None));
+    }
+
+    /// Rough, smooth and without adhesion, with one work of adhesion and with two, by both edge models.
+    #[test]
+    fn the_outcome_of_a_reversal_is_that_of_a_run() {
+        for name in ["pressure-sensitive", "rough-sphere", "kendall-punch", "non-adhesive", "two-works"] {
+            for edges in [Edges::Grid, Edges::SubCell] {
+                let document = open(name).unwrap();
+                let scene = document.scene().with(|scene| {
+                    (scene.numerics.edges, scene.numerics.samples) = (edges, 2);
+                });
+                let scene = scene.unwrap();
+                let presses = [
+                    Move::ToTouch,
+                    Move::ToZeroForce,
+                    Move::ToForce(0.0),
+                    Move::ToForce(1e-6),
+                    Move::ToForce(3e-5),
+                ];
+                let mut reversed = vec![None; presses.len()];
+                let mut simulation = Simulation::new(document.resolve(""));
+                let see: &mut dyn FnMut(usize, Reversal) -> _ = &mut |index, reversal| {
+                    reversed[index] = Some(LoadingOutcome::of_reversal(presses[index], &reversal));
+                    Ok(())
+                };
+                simulation.reverse(&scene, (&presses, &[]), &|| false, see).unwrap();
+                for (press, reversed) in presses.into_iter().zip(reversed) {
+                    let loading = vec![press, Move::ToSeparation];
+                    let scene = scene.with(|scene| scene.loading = loading).unwrap();
+                    let run = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+                    let legs = LoadingOutcome::of_legs(run.history.legs);
+                    assert_eq!(reversed, Some(legs), "{name}, {edges:?}, {press:?}");
+                }
+            }
+        }
+    }
+}

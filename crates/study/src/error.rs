@@ -1,0 +1,119 @@
+//! Errors of studies.
+
+use super::plan::{ONE_PROFILE, Plan};
+use super::plan_text::PlanErrors;
+use asperity_data::WriteError;
+use asperity_data::{memory_size, path_name};
+use asperity_scene::RunError;
+use asperity_surface::SurfaceError;
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Error that ends work on a study; earlier records are kept.
+#[derive(Debug, Error)]
+pub enum StudyError {
+    /// The plan is wrong.
+    #[error(transparent)]
+    Plan(#[from] PlanErrors),
+    /// A folder or file of the study cannot be used.
+    #[error("{}: {reason}", path_name(path))]
+    Folder {
+        /// The folder or file.
+        path: PathBuf,
+        /// Reason.
+        reason: String,
+    },
+    /// The measured file of the study cannot be read.
+    #[error(transparent)]
+    Measured(#[from] SurfaceError),
+    /// A file could not be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A cell or a profile could not be computed.
+    #[error("{place}{error}")]
+    Run {
+        /// Cell with its coordinates and seed of the profile, before a colon; empty for a single profile.
+        place: String,
+        /// Error of the run.
+        error: RunError,
+    },
+    /// A study that is asked for in a way that is not allowed.
+    #[error("{found}; allowed: {allowed}")]
+    NotAllowed {
+        /// What is asked for.
+        found: &'static str,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// Records are missing.
+    #[error(
+        "{missing} of {total} records are missing, in {cells} cells: {first}; run the study to its end, or merge with --partial"
+    )]
+    Missing {
+        /// Number of missing records.
+        missing: u64,
+        /// Number of all records.
+        total: u64,
+        /// Number of cells with missing records.
+        cells: u64,
+        /// The first of these cells with their coordinates.
+        first: String,
+    },
+    /// Two records of one cell and profile differ.
+    #[error(
+        "{place}: two records differ, in {} and {}; remove the one that is wrong",
+        path_name(&files[0]),
+        path_name(&files[1])
+    )]
+    Conflict {
+        /// Cell with its coordinates, and seed of the profile.
+        place: String,
+        /// Both files.
+        files: [PathBuf; 2],
+    },
+    /// The table of so many records does not fit into the memory.
+    #[error("there is not enough memory for {0} records")]
+    TooManyRecords(u64),
+    /// The system has too little memory for so many threads.
+    #[error(
+        "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
+        memory_size(*bytes)
+    )]
+    Memory {
+        /// Number of threads.
+        jobs: u64,
+        /// Memory of the study, bytes.
+        bytes: u64,
+    },
+    /// The system starts no thread.
+    #[error("could not start a worker thread: {0}")]
+    NoThread(io::Error),
+}
+
+/// Error for a study on no profile.
+pub(super) const NO_PROFILES: StudyError =
+    StudyError::NotAllowed { found: "no profiles", allowed: "at least one" };
+/// Error for several profiles of a scene that has a single one.
+pub(super) const FIXED_PROFILE: StudyError =
+    StudyError::NotAllowed { found: ONE_PROFILE.0, allowed: ONE_PROFILE.1 };
+
+impl StudyError {
+    /// Error of a profile of a study of one cell, or one at each preload.
+    pub(super) fn of_profile(plan: &Plan, line: u64, error: RunError) -> StudyError {
+        let place = if plan.lines > 1 { format!("seed {}: ", plan.seed_of(line)) } else { String::new() };
+        StudyError::Run { place, error }
+    }
+
+    pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {
+        StudyError::Folder { path: path.to_path_buf(), reason: reason.to_string() }
+    }
+
+    pub(super) fn unreadable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
+        move |error| StudyError::folder(path, format!("cannot be read: {error}"))
+    }
+
+    pub(super) fn unwritable(path: &Path) -> impl Fn(io::Error) -> StudyError + '_ {
+        move |reason| WriteError::Failed { path: path.to_path_buf(), reason }.into()
+    }
+}

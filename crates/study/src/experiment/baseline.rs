@@ -1,0 +1,109 @@
+//! Straight lines, polynomials and columns through values, by least squares.
+
+use asperity_data::mean;
+
+/// Straight line through evenly spaced values, by least squares.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Baseline {
+    count: f64,
+    pub mean: f64,
+    pub slope: f64,
+    /// Standard deviation of a value around the line.
+    pub noise: f64,
+}
+
+impl Baseline {
+    pub fn through(values: &[f64]) -> Baseline {
+        let count = values.len() as f64;
+        let place = |index: usize| index as f64 - 0.5 * (count - 1.0);
+        let mean = mean(values);
+        let product: f64 = values.iter().enumerate().map(|(index, value)| place(index) * value).sum();
+        let slope = product / (count * (count * count - 1.0) / 12.0);
+        let rest = |(index, value): (usize, &f64)| (value - mean - slope * place(index)).powi(2);
+        let noise = (values.iter().enumerate().map(rest).sum::<f64>() / (count - 2.0)).sqrt();
+        Baseline { count, mean, slope, noise }
+    }
+
+    /// Deviations of the values from the line; the first one is the first of the line.
+    pub fn rests(self, values: &[f64]) -> impl Iterator<Item = f64> {
+        let middle = 0.5 * (self.count - 1.0);
+        values
+            .iter()
+            .enumerate()
+            .map(move |(index, value)| value - self.mean - self.slope * (index as f64 - middle))
+    }
+}
+
+/// Sums of the squared residuals of polynomials with this number of terms through the first value, the first two, and so on,
+/// by rotations of each row into the triangle of the rows before.
+pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
+    let count = values.len() as f64;
+    let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
+    let add = |(index, value): (usize, f64)| {
+        let at = index as f64 / count;
+        let mut row = [1.0, at, at * at, value];
+        for term in 0..terms {
+            let (old, new): (f64, f64) = (triangle[term][term], row[term]);
+            let length = old.hypot(new);
+            if length > 0.0 {
+                let (cosine, sine) = (old / length, new / length);
+                for column in term..4 {
+                    let (above, below) = (triangle[term][column], row[column]);
+                    triangle[term][column] = cosine * above + sine * below;
+                    row[column] = cosine * below - sine * above;
+                }
+            }
+        }
+        sum += row[3] * row[3];
+        sum
+    };
+    values.enumerate().map(add).collect()
+}
+
+/// Columns of length 1 at right angles to each other that span these columns, 0 for a column that depends on the columns before it.
+pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for column in columns {
+        let mut column = column.clone();
+        let whole = dot(&column, &column).sqrt();
+        basis.iter().for_each(|other| {
+            take_off(&mut column, other);
+        });
+        let length = dot(&column, &column).sqrt();
+        // What remains of a column that depends on the others is rounding.
+        let is_other = length > 1e-9 * whole;
+        column.iter_mut().for_each(|one| *one = if is_other { *one / length } else { 0.0 });
+        basis.push(column);
+    }
+    basis
+}
+
+/// Takes the part along a column of length 1 off, and returns its length.
+pub(super) fn take_off(values: &mut [f64], column: &[f64]) -> f64 {
+    let along = dot(values, column);
+    values.iter_mut().zip(column).for_each(|(value, one)| *value -= along * one);
+    along
+}
+
+/// Sum of products over the shorter length.
+pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+/// Smallest and largest value.
+pub(super) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_has_the_deviation_of_its_values() {
+        // The line 0, 1, 2, 3 with deviations of 0.5 that neither lift nor turn it, over two degrees of freedom.
+        let line = Baseline::through(&[0.5, 0.5, 1.5, 3.5]);
+        assert!((line.mean - 1.5).abs() < 1e-15 && (line.slope - 1.0).abs() < 1e-15, "{line:?}");
+        assert!((line.noise - 0.5_f64.sqrt()).abs() < 1e-15, "{line:?}");
+    }
+}

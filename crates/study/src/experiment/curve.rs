@@ -1,0 +1,302 @@
+//! A measured force curve: its segments, with pressing positive, the zero of the force, its drift and its noise.
+
+use super::baseline::{ends, right_angled};
+use super::free::FEWEST;
+use super::options::{CurveOptions, Drift, Negate, Tilt};
+use super::points::{Points, kept};
+use super::read::Columns;
+use super::segment::{Segments, are_shuffled};
+use super::zero::FreeParts;
+use super::{ExperimentError, refused};
+use asperity_data::format_quantity;
+use asperity_data::grouped;
+use asperity_data::mean;
+use std::path::Path;
+
+/// Most points that are fitted: more are averaged.
+const MOST_POINTS: usize = 4096;
+/// Fewest points of a curve.
+const FEWEST_POINTS: usize = 4 * FEWEST;
+/// Noise over the range of the force in a curve without noise.
+const NO_NOISE: f64 = 1e-6;
+/// Force in standard deviations of the noise that is a tension: at the end of the approach its sign is in doubt.
+const PULLS: f64 = -5.0;
+
+/// A measured curve in SI units: displacement of the instrument that grows on pressing, m, and force, N, without the force
+/// before contact; compression is positive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredCurve {
+    /// Displacements of the instrument, m.
+    pub displacement: Vec<f64>,
+    /// Forces, N.
+    pub force: Vec<f64>,
+    /// Number of the segment of each point; segments of even number press.
+    pub segment: Vec<usize>,
+    /// Number of the first points, before contact.
+    pub(super) free: usize,
+    /// Displacement at which the contact seems to begin, m.
+    pub touch: f64,
+    /// Standard deviation of the force, N.
+    pub noise: f64,
+    /// Points of the file that are used.
+    pub points: usize,
+    /// Points left out since a value is missing.
+    pub missing: usize,
+    /// Displacements at which the segments end, m.
+    pub(super) turns: Vec<f64>,
+    /// True at the points of a pause.
+    pub(super) is_still: Vec<bool>,
+    /// Changes of the force over time, over the displacement, and from before to after contact that remain in the curve, N: 0
+    /// where there is none.
+    pub(super) remaining: [f64; 3],
+    /// Time and displacement of each point, as shares of the whole curve.
+    pub(super) shares: [Vec<f64>; 2],
+    /// True if the zero of the force, a drift and a tilt are estimated from the points without contact and taken off.
+    is_estimated: [bool; 3],
+    /// Statements on the changes of the curve.
+    pub statements: Vec<String>,
+}
+
+impl MeasuredCurve {
+    /// Reads a curve: text, CSV or an array of NumPy, also compressed by gzip, of at most 1 GiB.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and a curve without a part before contact, a contact or a turning point.
+    pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
+        MeasuredCurve::prepare(Columns::read(path, options)?, options)
+    }
+
+    fn prepare(columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
+        let Columns { displacement, force, segment: labels, missing, mut statements, .. } = columns;
+        let count = displacement.len();
+        if count < FEWEST_POINTS {
+            let fault = format!("{count} points with displacement and force");
+            return refused(fault, format!("at least {FEWEST_POINTS}"));
+        }
+        if let Some(noise) = options.noise.filter(|noise| !(*noise > 0.0 && noise.is_finite())) {
+            return refused(format!("a noise of {noise} N"), "a standard deviation above 0");
+        }
+        if are_shuffled(&displacement) {
+            let fault = "the displacement goes to and fro from point to point";
+            return refused(
+                fault,
+                "points in the order of time, and the column of the displacement by --columns",
+            );
+        }
+        let averaged = count.div_ceil(MOST_POINTS);
+        let segments = Segments::of(&displacement, &labels);
+        let mut points = Points::averaged(&displacement, &force, &segments, averaged);
+        let (low, high) = ends(points.force.iter().copied());
+        let least = NO_NOISE * (high - low);
+        let is_single = points.segment.last() == Some(&0);
+        if is_single && points.is_retraction(least) {
+            points.segment.fill(1);
+            statements.push("A retraction alone: the model is loaded up to its first point.".to_owned());
+        } else if is_single && options.segments != [1] {
+            let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without \
+                           contact; --segments 1 for an approach alone";
+            return refused("the displacement does not turn: one segment", allowed);
+        }
+        let negate = points.reverse(options.negate)?;
+        let free = FreeParts::of(&points, options, averaged, least)?;
+        let noise = options.noise.unwrap_or(free.line(&points).noise).max(least);
+        let (remaining, text) = free.take_off_lines(&mut points, options, noise)?;
+        check_sign(&points, options, noise)?;
+        let kept = kept(&points, options)?;
+        let grouped_of = |count: usize| grouped(count as u64);
+        let sum = |kept: &dyn Fn(usize) -> bool| {
+            grouped_of(
+                (0..points.counts.len()).filter(|index| kept(*index)).map(|index| points.counts[index]).sum(),
+            )
+        };
+        let last = points.segment[points.segment.len() - 1];
+        let place = match (points.segment[0], free.before) {
+            (0, Some(free)) => format!("{} before contact", sum(&|index| index < free)),
+            _ => format!("{} after contact", sum(&|index| index >= points.counts.len() - free.after)),
+        };
+        statements.push(format!(
+            "{} points in {}, {} left out since a value is missing, {place}.",
+            grouped_of(count),
+            if last == points.segment[0] { "1 segment".to_owned() } else { format!("{} segments", last + 1) },
+            grouped_of(missing)
+        ));
+        if averaged > 1 {
+            statements.push(format!(
+                "Means of {averaged} points each are used: {} of them.",
+                grouped_of(points.force.len())
+            ));
+        }
+        let pauses = points.is_still.contains(&true).then(|| sum(&|index| points.is_still[index]));
+        if !options.segments.is_empty() {
+            let numbers: Vec<String> = options.segments.iter().map(ToString::to_string).collect();
+            let without =
+                pauses.map_or_else(String::new, |count| format!(", without {count} points of pauses"));
+            let used = sum(&|index| kept.binary_search(&index).is_ok());
+            statements.push(format!("Segments used: {}, {used} points{without}.", numbers.join(", ")));
+        } else if let Some(count) = pauses {
+            statements.push(format!("{count} points are of pauses; --segments 1,2 leaves them out."));
+        }
+        if negate != Negate::None {
+            statements.push(format!("Reversed, so that pressing is positive: {negate}."));
+        }
+        let found = match (options.noise, free.before) {
+            (Some(_), _) => "given",
+            (None, Some(_)) => "that before contact",
+            (None, None) => "that after contact",
+        };
+        statements.push(format!("{text} Noise {}, {found}.", format_quantity(noise, "N")));
+        let chosen = options.segments.iter().max().map_or(last, |most| (most - 1).min(last));
+        // After the last approach that is used the body is pulled off.
+        let turns =
+            points.turns(chosen + usize::from(chosen.is_multiple_of(2) && (chosen < last || last == 0)));
+        let of_kept = |values: &[f64]| kept.iter().map(|index| values[*index]).collect::<Vec<f64>>();
+        Ok(MeasuredCurve {
+            displacement: of_kept(&points.displacement),
+            force: of_kept(&points.force),
+            segment: kept.iter().map(|index| points.segment[*index]).collect(),
+            free: kept.partition_point(|index| free.before.is_some_and(|before| *index < before)),
+            touch: free.touch(&points),
+            noise,
+            points: kept.iter().map(|index| points.counts[*index]).sum(),
+            missing,
+            turns,
+            is_still: kept.iter().map(|index| points.is_still[*index]).collect(),
+            remaining,
+            shares: free.shares.each_ref().map(|shares| of_kept(shares)),
+            is_estimated: [
+                options.zero.is_none(),
+                options.drift == Drift::Remove,
+                options.tilt == Tilt::Remove,
+            ],
+            statements,
+        })
+    }
+
+    /// Displacement, m, and force, N, of each point.
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.displacement.iter().copied().zip(self.force.iter().copied())
+    }
+
+    /// Largest tension of the retractions, N, if it exceeds the noise.
+    pub fn pull_off_force(&self) -> Option<f64> {
+        let pulled = self.force.iter().zip(&self.segment).filter(|(_, segment)| *segment % 2 == 1);
+        let force = -ends(pulled.map(|(force, _)| *force)).0;
+        (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
+    }
+
+    /// Straight lines of the zero of the force, of a removed drift and of a removed tilt, of length 1 and at right angles,
+    /// if they are estimated from the curve: they are refined with each model.
+    pub(super) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
+        let [time, displacement] = self.shares.clone();
+        let columns = [vec![1.0; time.len()], time, displacement];
+        let [zero, drift, tilt] = self.is_estimated;
+        let used = columns.into_iter().zip([zero && !has_zero, drift, tilt]);
+        right_angled(&used.filter_map(|(column, is_used)| is_used.then_some(column)).collect::<Vec<_>>())
+    }
+}
+
+/// Refuses a force that is negative where the body presses most.
+fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
+    let first = points.of(points.segment[0]);
+    let count = (first.len() / 20).max(1);
+    let pressed = if points.segment[0] == 0 { first.end - count..first.end } else { 0..count };
+    let pressed = mean(&points.force[pressed]);
+    if options.negate.is_some() || pressed >= PULLS * noise {
+        return Ok(());
+    }
+    let place = if points.segment[0] == 0 { "end of the approach" } else { "beginning of the retraction" };
+    let found = format_quantity(pressed, "N");
+    refused(
+        format!("the force is negative where the body presses: {found} at the {place}"),
+        "--negate force where tension counts as positive, --negate none for a body that is pulled there",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made::{from_text, lines, of_spring, text_of_spring};
+    use super::*;
+
+    #[test]
+    fn many_points_are_averaged_and_missing_ones_counted() {
+        let text =
+            text_of_spring("displacement [nm],force [nN]\nNaN,1\n0,\n", 100_000, |d, f| format!("{d},{f}"));
+        let curve = from_text(&text, &CurveOptions::default()).unwrap();
+        assert_eq!((curve.missing, curve.points), (2, 100_000));
+        assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 3, "{:?}", curve.statements);
+        assert!(curve.statements[1].starts_with("Means of 25 points each"), "{:?}", curve.statements);
+        assert!((curve.force[2000] / 1e-7 - 1.0).abs() < 0.01, "{:e}", curve.force[2000]);
+        // Points of the file are counted, not means.
+        let options = CurveOptions { free_points: Some(2700), ..CurveOptions::default() };
+        let curve = from_text(&lines(of_spring(9000)), &options).unwrap();
+        assert_eq!((curve.force.len(), curve.free), (3000, 900));
+    }
+
+    /// The approach gives zero and contact of a retraction; a retraction alone has both at its end.
+    #[test]
+    fn chosen_segments_are_used_without_pauses() {
+        let read = |points: &[(f64, f64)], segments: &[usize]| {
+            let options = CurveOptions { segments: segments.to_vec(), ..CurveOptions::default() };
+            from_text(&lines(points.iter().copied()), &options).unwrap()
+        };
+        let mut all = of_spring(600);
+        let (whole, retraction) = (read(&all, &[]), read(&all, &[2]));
+        assert_eq!((retraction.points, retraction.free, retraction.segment[0]), (300, 0, 1));
+        assert_eq!((&retraction.force[..], retraction.touch), (&whole.force[300..], whole.touch));
+        assert_eq!(retraction.turns, whole.turns);
+        let alone = read(&all[300..], &[]);
+        assert_eq!((alone.points, alone.segment[0], alone.turns.len()), (300, 1, 2));
+        assert!(alone.force.iter().zip(&retraction.force).all(|(one, other)| (one - other).abs() < 5e-11));
+        assert!((alone.touch - whole.touch).abs() < 2e-9, "{} {}", alone.touch, whole.touch);
+        let approach = read(&all[..300], &[1]);
+        assert_eq!((&approach.force[..], approach.turns.len()), (&whole.force[..300], 2));
+        all.splice(300..300, (0..200).map(|index| (50.0, 101.0 - 0.02 * f64::from(index))));
+        let (paused, moving) = (read(&all, &[]), read(&all, &[1, 2]));
+        assert_eq!(paused.points, 800);
+        assert!(paused.statements.concat().contains("--segments 1,2 leaves them out"));
+        assert!((590..=600).contains(&moving.points), "{}", moving.points);
+    }
+
+    #[test]
+    fn what_is_no_curve_is_refused() {
+        let of = |force: &dyn Fn(f64, f64) -> f64| {
+            lines(of_spring(600).into_iter().map(|(d, f)| (d, force(d, f))))
+        };
+        let (all, plain) = (of_spring(600), of(&|_, f| f));
+        // 17 points of an approach.
+        let few = (0..42_i32).map(|index| if index < 17 { 10 * index } else { 170 - 7 * (index - 17) });
+        for (text, said) in [
+            (of(&|d, _| if (d as i64) % 2 == 0 { 1.0 } else { 1.1 }), "no contact: "),
+            // A curve that begins in contact: it has no line before a change.
+            (of(&|d, f| f + (d + 100.0).powi(2)), "no part before contact: the force"),
+            (of(&|d, f| f + 9.0 * d), "no part before contact: the force"),
+            (of(&|d, _| 9.0 * d + (d * 7.0).sin()), "no contact, or contact from the first"),
+            (of(&|_, f| -f), "the force is negative where the body presses: -9"),
+            (
+                lines(few.map(|d| (f64::from(d), f64::from((d - 90).max(0))))),
+                "18 points in the approach are too few",
+            ),
+            (lines((0..600).map(|index| all[index * 251 % 600])), "the displacement goes to and fro"),
+            (
+                lines(all[300..].iter().chain(&all[..300]).copied()),
+                "the first segment begins in contact and ends without it",
+            ),
+            (lines(all[..301].iter().copied()), "the displacement does not turn"),
+            (lines([(1.0, 2.0)]), "1 points with displacement and force; allowed: at least 40"),
+            (String::new(), "0 points"),
+        ] {
+            let error = from_text(&text, &CurveOptions::default()).expect_err(said);
+            assert!(error.starts_with(said) && error.contains("allowed: "), "{said}: {error}");
+        }
+        let with = CurveOptions::default;
+        for (options, said) in [
+            (CurveOptions { negate: Some(Negate::Displacement), ..with() }, "the body moves away"),
+            (CurveOptions { free_points: Some(400), ..with() }, "no part before contact: 400 of"),
+            (CurveOptions { noise: Some(-5e-9), ..with() }, "a noise of -0.000000005 N"),
+            (CurveOptions { segments: vec![3], ..with() }, "--segments 3: the curve has no such segment"),
+        ] {
+            let error = from_text(&plain, &options).expect_err(said);
+            assert!(error.starts_with(said) && error.contains("allowed: "), "{said}: {error}");
+        }
+    }
+}

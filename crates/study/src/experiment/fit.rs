@@ -1,0 +1,367 @@
+//! The parameters of a scene that describe a measured curve, their errors, and parameters that the curve does not separate.
+
+use super::ExperimentError;
+use super::baseline::dot;
+use super::curve::MeasuredCurve;
+use super::model::Model;
+use super::parameter::{Coordinate, FitOptions, Parameter, Values};
+use super::population::WRONG_SIDE;
+use super::reason::{Reason, reason};
+use super::scene::with_values;
+use super::search::{MISFIT, Search};
+use super::space::Space;
+use super::statistics::{block_error, correlated, correlation, spread, widen};
+use asperity_data::format_within;
+use asperity_data::on_threads;
+use asperity_scene::Document;
+use asperity_scene::Simulation;
+use asperity_scene::scene_tabor_number;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// Correlation of parameters that are not separated, and half width of the 95 % interval of a logarithm that is flat.
+const CORRELATED: f64 = 0.95;
+const FLAT: f64 = 1.0;
+/// Standard deviations of the 95 % interval of a normal distribution.
+const NORMAL: f64 = 1.96;
+
+/// A parameter with its errors.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct FittedParameter {
+    /// The parameter.
+    #[serde(skip)]
+    pub parameter: Parameter,
+    /// Value of the least residuals, in SI units as all values.
+    pub value: f64,
+    /// Ends of the 95 % interval.
+    #[serde(flatten, serialize_with = "low_and_high")]
+    pub interval: (f64, f64),
+    /// Standard error by the noise.
+    pub noise_error: f64,
+    /// Standard deviation over random profiles.
+    pub profile_error: Option<f64>,
+    /// Value before the fit.
+    pub start: f64,
+    /// Range in which the value was looked for.
+    pub range: (f64, f64),
+}
+
+fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(2))?;
+    map.serialize_entry("low", low)?;
+    map.serialize_entry("high", high)?;
+    map.end()
+}
+
+impl FittedParameter {
+    /// A value of the parameter with the digits that its interval determines.
+    pub fn text(&self, value: f64) -> String {
+        format_within(value, 0.5 * (self.interval.1 - self.interval.0), self.parameter.row().unit)
+    }
+}
+
+/// Result of a fit.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Fit {
+    /// The free parameters with their errors.
+    #[serde(serialize_with = "by_name")]
+    pub parameters: Vec<FittedParameter>,
+    /// Root mean square residual, N.
+    pub residual: f64,
+    /// Residual over the noise.
+    pub residual_over_noise: f64,
+    /// Share of the points where the residual exceeds 5 times the noise.
+    pub beyond_five_sigma: f64,
+    /// Root mean square residual in contact over the noise, where single points on the wrong side of a jump count as 5 times
+    /// that root mean square.
+    pub misfit: f64,
+    /// Upper end of the interval of the work of adhesion, J/m², if a curve without adhesion describes the measured one as well.
+    #[serde(skip)]
+    pub work_at_most: Option<f64>,
+    /// Tabor number of the scene with the values found.
+    pub tabor: Option<f64>,
+    /// Why the model does not describe the curve, if it does not.
+    pub reason: Option<Reason>,
+    /// Correlation of each pair of parameters.
+    pub correlations: Vec<(Parameter, Parameter, f64)>,
+    /// Pairs that the curve does not separate; one parameter twice that the curve does not determine.
+    pub not_distinguished: Vec<(Parameter, Parameter)>,
+    /// Number of computed curves.
+    pub evaluations: usize,
+    /// Force of the model at each point with the zero and the drift of the curve, which are refined with the model, N.
+    #[serde(skip)]
+    pub model: Vec<f64>,
+    /// The scene with the values found, loaded as the curve was.
+    #[serde(rename = "scene", serialize_with = "scene_of")]
+    pub document: Document,
+}
+
+fn by_name<S: Serializer>(parameters: &[FittedParameter], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(parameters.iter().map(|one| (one.parameter, one)))
+}
+
+fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, S::Error> {
+    document.scene().serialize(serializer)
+}
+
+impl Fit {
+    /// Returns false for a model that does not describe the curve.
+    pub fn describes(&self) -> bool {
+        self.misfit <= MISFIT
+    }
+}
+
+/// Fits parameters of a scene to a curve. `stop` is polled before each computed curve, and `report` receives their number.
+///
+/// # Errors
+/// Options and values of the curve beyond what is allowed, parameters that the scene does not have, a failure of the
+/// computation, or a stop.
+pub fn fit(
+    curve: &MeasuredCurve,
+    document: &Document,
+    options: &FitOptions,
+    stop: &(dyn Fn() -> bool + Sync),
+    report: &mut dyn FnMut(usize),
+) -> Result<Fit, ExperimentError> {
+    let mut simulation = Simulation::new(document.resolve(""));
+    let (document, space) = Space::of(curve, document, &mut simulation, options, stop)?;
+    let model = Model::new(curve, document.scene(), &mut simulation);
+    let mut search = Search { space: &space, model, report, lines: space.lines() };
+    let found = search.find()?;
+    let (rests, evaluations) =
+        (search.refined(&found.best.rests, WRONG_SIDE * found.noise), search.model.evaluations);
+    let others = other_profiles(&document, options, &space)?;
+    let values = space.values(&found.best.at);
+    let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
+        samples.iter().map(|at| space.values(at)[one.parameter as usize]).collect()
+    };
+    let by_blocks = |one: &Coordinate| block_error(&of_samples(&found.samples, one), &found.blocks);
+    let correlation_factor = correlated(&rests);
+    let mut samples = found.samples.clone();
+    widen(&mut samples, correlation_factor.sqrt());
+    let is_without_adhesion = found.without_adhesion < 0.5 * NORMAL * NORMAL * correlation_factor;
+    let fitted = |one: &Coordinate| {
+        let of = |values: &Values| values[one.parameter as usize];
+        let (noise_error, (low, high)) = spread(of_samples(&samples, one));
+        let noise_error = noise_error.max(by_blocks(one));
+        let over_profiles = || spread(others.iter().chain([&values]).map(of).collect()).0;
+        let profile_error = (!others.is_empty()).then(over_profiles);
+        // The profile of the specimen is one draw, and that of the scene another one.
+        let error = (2.0 * profile_error.unwrap_or(0.0).powi(2) + noise_error.powi(2)).sqrt();
+        let (value, half) = (of(&values), NORMAL * error);
+        let least = if one.parameter.is_signed() { f64::NEG_INFINITY } else { 0.0 };
+        let is_bound = one.parameter == Parameter::Work && is_without_adhesion;
+        let low = if is_bound { 0.0 } else { low.min(value - half).max(least) };
+        let Coordinate { parameter, start, range, .. } = *one;
+        let interval = (low, high.max(value + half));
+        FittedParameter { parameter, start, range, value, interval, noise_error, profile_error }
+    };
+    let parameters: Vec<FittedParameter> = space.coordinates.iter().map(fitted).collect();
+    let name = |index: usize| space.coordinates[index].parameter;
+    let count = parameters.len();
+    let pairs = (0..count).flat_map(|one| (one + 1..count).map(move |other| [one, other]));
+    let correlations: Vec<_> =
+        pairs.map(|pair| (name(pair[0]), name(pair[1]), correlation(&samples, pair))).collect();
+    let alike = correlations.iter().filter(|(.., value)| value.abs() > CORRELATED);
+    let mut not_distinguished: Vec<_> = alike.map(|&(one, other, _)| (one, other)).collect();
+    for (index, coordinate) in space.coordinates.iter().enumerate() {
+        let (low, high) = coordinate.ends();
+        let (_, (from, to)) = spread(samples.iter().map(|at| at[index]).collect());
+        let is_wide = !coordinate.parameter.is_signed() && 0.5 * (to - from) > FLAT;
+        let is_at_end = (from - low).min(high - to) < 0.01 * (to - from)
+            || is_without_adhesion && coordinate.parameter == Parameter::Work;
+        let is_named = not_distinguished.iter().any(|&(one, other)| [one, other].contains(&name(index)));
+        if !is_named && (is_wide || is_at_end) {
+            not_distinguished.push((name(index), name(index)));
+        }
+    }
+    let work = parameters.iter().find(|one| one.parameter == Parameter::Work);
+    let work_at_most = work.filter(|_| is_without_adhesion).map(|work| work.interval.1);
+    let model =
+        curve.force.iter().zip(&rests).map(|(measured, rest)| measured - rest * curve.noise).collect();
+    let free: Vec<Parameter> = space.coordinates.iter().map(|one| one.parameter).collect();
+    let found = with_values(&document, &values, |parameter| free.contains(&parameter), curve)?;
+    let (_, governing) = simulation.contact(found.scene())?;
+    let tabor = scene_tabor_number(found.scene(), &governing);
+    let misfit = space.misfit(&rests);
+    let reason =
+        (misfit > MISFIT).then(|| reason(curve, found.scene(), &mut simulation, (&values, &free), tabor));
+    let residual_over_noise = (dot(&rests, &rests) / rests.len() as f64).sqrt();
+    let beyond = rests.iter().filter(|rest| rest.abs() > WRONG_SIDE).count();
+    Ok(Fit {
+        parameters,
+        residual: curve.noise * residual_over_noise,
+        misfit,
+        residual_over_noise,
+        beyond_five_sigma: beyond as f64 / rests.len() as f64,
+        work_at_most,
+        tabor,
+        reason: reason.transpose()?,
+        correlations,
+        not_distinguished,
+        evaluations,
+        model,
+        document: found,
+    })
+}
+
+/// Values of fits of the same curve on the other random profiles of the scene.
+fn other_profiles(
+    document: &Document,
+    options: &FitOptions,
+    space: &Space<'_>,
+) -> Result<Vec<Values>, ExperimentError> {
+    let worker = || {
+        let mut simulation = Simulation::new(document.resolve(""));
+        move |number: u64| {
+            let seed = document.scene().seed().unwrap_or_default().wrapping_add(number + 1);
+            let model = Model::new(space.curve, &document.scene().with_seed(seed), &mut simulation);
+            let mut search = Search { space, model, report: &mut |_| (), lines: space.lines() };
+            Ok(space.values(&search.roughly()?))
+        }
+    };
+    on_threads(options.lines.saturating_sub(1), options.jobs, worker)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made::{
+        Made, fit_from, fitted, force_curve, measured, noise, on_rubber, random, read, rubber, stiffness,
+        truth,
+    };
+    use super::super::options::Drift;
+    use super::*;
+    use asperity_contact::Move;
+
+    /// Asserts that the values differ from the truth by a few standard errors at most, and that the residuals are those of the
+    /// noise.
+    fn assert_found(made: &Made, fit: &Fit) {
+        assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
+        for one in &fit.parameters {
+            let truth = truth(made, one.parameter);
+            assert!((one.value - truth).abs() < 4.0 * one.noise_error, "{one:?}: {truth:e}");
+            assert!(one.noise_error < 0.02 * truth, "{one:?}");
+        }
+    }
+
+    #[test]
+    fn values_have_the_digits_that_their_interval_determines() {
+        let modulus = FittedParameter {
+            parameter: Parameter::Modulus,
+            start: 2e6,
+            range: (1e6, 4e6),
+            value: 2.345678e6,
+            interval: (2.285e6, 2.405e6),
+            noise_error: 3e4,
+            profile_error: None,
+        };
+        assert_eq!(modulus.text(modulus.value), "2.346 MPa");
+    }
+
+    /// The force of a rough sphere jumps at many displacements.
+    #[test]
+    fn a_rough_sphere_is_found_within_its_errors() {
+        let made = random(13, 1024);
+        let curve = measured(&made, 13);
+        assert_found(&made, &fitted(&curve, &made, "work,offset"));
+    }
+
+    #[test]
+    fn a_sphere_is_found_within_its_errors_and_written_into_its_scene() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let fit = fitted(&curve, &made, "work,modulus,offset");
+        assert_found(&made, &fit);
+        // The forces of the model, with the zero and drift of the curve, leave the residual.
+        let squares = curve.force.iter().zip(&fit.model).map(|(force, model)| (force - model).powi(2));
+        let residual = (squares.sum::<f64>() / curve.force.len() as f64).sqrt();
+        assert!((residual / fit.residual - 1.0).abs() < 1e-9, "{residual} {}", fit.residual);
+        assert!((fit.residual / curve.noise / fit.residual_over_noise - 1.0).abs() < 1e-9);
+        let scene = fit.document.scene();
+        assert_eq!(scene.adhesion.unwrap().work(), Some(fit.parameters[0].value));
+        assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
+        // A wrong stiffness does not describe the curve, and says so.
+        let mut wrong = made;
+        wrong.scene.loading_stiffness = Some(0.2 * stiffness(&wrong.scene));
+        assert!(!fitted(&curve, &wrong, "work,offset").describes());
+    }
+
+    /// A fit that begins at its own result, or at the truth, has the intervals of one that begins far away.
+    #[test]
+    fn a_good_start_makes_no_interval_narrow() {
+        let mut made = random(4, 512);
+        made.scene.loading_stiffness = Some(20.0);
+        let noises = noise(&made, 8);
+        let points = force_curve(&made.scene).into_iter().zip(noises).step_by(4);
+        let curve =
+            read(points.map(|((displacement, force), noise)| (displacement, force + noise)), Drift::Keep);
+        let free = "work,modulus,offset,stiffness";
+        let first = fitted(&curve, &made, free);
+        let true_scene = Document::from_scene(&made.scene, "made").unwrap();
+        for start in [&first.document, &true_scene] {
+            let again = fit_from(&curve, start, free);
+            assert!((again.misfit / first.misfit - 1.0).abs() < 0.01, "{} {}", first.misfit, again.misfit);
+            for (one, before) in again.parameters.iter().zip(&first.parameters) {
+                let [width, of_first] = [one, before].map(|one| one.interval.1 - one.interval.0);
+                assert!((0.6..1.7).contains(&(width / of_first)), "{before:?}: {one:?}");
+            }
+        }
+    }
+
+    /// For any start the work of adhesion is at most a few times that which the noise hides, γ = noise/(1.5 π R) = 1.1 mJ/m².
+    #[test]
+    fn a_curve_without_adhesion_has_an_upper_bound_of_it() {
+        for (seed, work) in [(1, 0.05), (2, 1e-6)] {
+            let curve = read(rubber(4e-8, seed, |_, _| 1.0).into_iter(), Drift::Keep);
+            let fit = fit_from(&curve, &on_rubber(work, 2.7e6), "work,modulus,offset");
+            let [work, modulus, _] = fit.parameters[..] else { panic!("{:?}", fit.parameters) };
+            assert!(fit.describes() && work.interval.0 == 0.0, "{fit:?}");
+            assert!((2e-4..5e-3).contains(&work.interval.1), "{work:?}");
+            assert_eq!(fit.work_at_most, Some(work.interval.1));
+            assert_eq!(fit.not_distinguished.iter().filter(|pair| pair.0 == Parameter::Work).count(), 1);
+            assert!(modulus.interval.0 < 2e6 && 2e6 < modulus.interval.1, "{modulus:?}");
+        }
+    }
+
+    /// A contact that stiffens, with hysteresis: parts of one curve have intervals that overlap, and the residual is stated as it
+    /// is.
+    #[test]
+    fn parts_of_a_curve_that_is_not_described_have_intervals_that_overlap() {
+        let points = rubber(1e-9, 3, |indentation, direction| {
+            1.0 + 0.3 * indentation.max(0.0) / 1e-6 + 0.1 * direction
+        });
+        let fits = [0, 1].map(|part| {
+            let curve = read(points.iter().copied().skip(part).step_by(2), Drift::Keep);
+            fit_from(&curve, &on_rubber(1e-3, 2.7e6), "work,modulus,offset")
+        });
+        for fit in &fits {
+            assert!(!fit.describes() && fit.misfit > 10.0 && fit.beyond_five_sigma > 0.2, "{fit:?}");
+            assert!(fit.reason.is_some(), "{fit:?}");
+            assert!((fit.residual_over_noise / fit.misfit - 0.8).abs() < 0.2, "{fit:?}");
+        }
+        for (one, other) in fits[0].parameters.iter().zip(&fits[1].parameters) {
+            let overlap = one.interval.1.min(other.interval.1) - one.interval.0.max(other.interval.0);
+            assert!(overlap > 0.2 * (one.interval.1 - one.interval.0), "{one:?} {other:?}");
+        }
+        let modulus = fits[0].parameters[1];
+        assert!(modulus.interval.1 / modulus.interval.0 > 1.02, "{modulus:?}");
+    }
+
+    /// The scatter over profiles counts twice: for the profile of the specimen and for the profile of the scene.
+    #[test]
+    fn the_interval_holds_the_scatter_over_profiles() {
+        let made = random(11, 1024);
+        let points = force_curve(&made.scene).into_iter().zip(noise(&made, 11)).step_by(5);
+        let curve =
+            read(points.map(|((displacement, force), noise)| (displacement, force + noise)), Drift::Keep);
+        let document = Document::from_scene(&made.scene, "made").unwrap();
+        let options = |lines| FitOptions { free: vec!["work".parse().unwrap()], lines, jobs: 1 };
+        let fit =
+            |lines| fit(&curve, &document, &options(lines), &|| false, &mut |_| ()).unwrap().parameters[0];
+        let (one, two) = (fit(1), fit(2));
+        assert_eq!((one.profile_error, one.value, one.noise_error), (None, two.value, two.noise_error));
+        let profile_error = two.profile_error.unwrap();
+        assert!(profile_error > 1e-3 * two.value, "{two:?}");
+        let half = NORMAL * (2.0 * profile_error.powi(2) + two.noise_error.powi(2)).sqrt();
+        assert!((two.interval.1 - two.value - half).abs() < 0.01 * half, "{two:?}");
+    }
+}

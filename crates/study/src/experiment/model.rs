@@ -1,0 +1,296 @@
+//! The force that a scene has at the measured displacements, for any values of its parameters.
+
+use super::ExperimentError;
+use super::curve::MeasuredCurve;
+use super::parameter::{Parameter, Values};
+use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Foundation, HessRule, Leg};
+use asperity_scene::Scene;
+use asperity_scene::Simulation;
+use asperity_scene::{DisplacementCurve, DisplacementPoint};
+use asperity_surface::Form;
+
+/// Points of the force curve of each segment beside the points at jumps, and points of a coarse force curve.
+const SAMPLES: usize = 128;
+const FEW: usize = 64;
+/// Extensions of a loading that does not reach the displacement of its end, and halvings of the way to that end.
+const EXTENSIONS: usize = 8;
+const HALVINGS: usize = 5;
+/// Smallest jump of the force over the noise that is looked for.
+const NOTABLE: f64 = 2.0;
+/// Points on each side of a fold, each half as far as the one before; none at a jump, the ends of which are points already.
+const FAN: i32 = 8;
+
+/// A scene on the displacements of a measured curve.
+pub(super) struct Model<'a> {
+    curve: &'a MeasuredCurve,
+    scene: Scene,
+    simulation: &'a mut Simulation,
+    /// Contact with the radius of its form, m; its springs and their tree serve all other values.
+    contact: Option<(Contact, f64)>,
+    /// Noise to which the forces are exact, in units of the noise of the curve: 1 or more.
+    pub noise: f64,
+    pub evaluations: usize,
+}
+
+/// The instrument, and the points at which the curve of a leg is computed.
+#[derive(Clone, Copy)]
+struct Sampling {
+    /// Stiffness of the instrument, N/m.
+    stiffness: f64,
+    points: usize,
+    /// Smallest jump of the force with points at both of its ends, N.
+    least_jump: f64,
+}
+
+impl<'a> Model<'a> {
+    pub fn new(curve: &'a MeasuredCurve, scene: &Scene, simulation: &'a mut Simulation) -> Self {
+        Model { curve, scene: scene.clone(), simulation, contact: None, noise: 1.0, evaluations: 0 }
+    }
+
+    /// Springs under the form of this radius with these works of adhesion and modulus.
+    fn contact(&mut self, values: &Values) -> Result<Contact, ExperimentError> {
+        let radius = values[Parameter::Radius as usize];
+        if self.contact.as_ref().is_none_or(|(_, made)| *made != radius) {
+            self.contact = None;
+            if let Some(of) = self.scene.form.as_mut().and_then(Form::radius_mut) {
+                *of = radius;
+            }
+            self.contact = Some((self.simulation.contact(&self.scene)?.0, radius));
+        }
+        let Some((contact, _)) = &self.contact else {
+            return Err(ContactError::Internal("the contact of the scene has not been made").into());
+        };
+        let foundation =
+            Foundation { effective_modulus: values[Parameter::Modulus as usize], ..contact.foundation() };
+        let rule = HessRule::from_works(
+            foundation,
+            values[Parameter::ClosingWork as usize],
+            values[Parameter::Work as usize],
+        );
+        Ok(contact.with_rule(foundation, (values[Parameter::Work as usize] > 0.0).then_some(rule)))
+    }
+
+    /// Forces at the points of the curve, N.
+    pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
+        self.evaluations += 1;
+        let contact = self.contact(values)?;
+        let [offset, zero, stiffness] =
+            [Parameter::Offset, Parameter::Zero, Parameter::Stiffness].map(|one| values[one as usize]);
+        let sampling = Sampling {
+            stiffness,
+            points: if self.noise > 1.0 { FEW } else { SAMPLES },
+            least_jump: NOTABLE * self.noise * self.curve.noise,
+        };
+        let mut forces = Vec::with_capacity(self.curve.force.len());
+        // Leg and indentation of the body, m, while it touches.
+        let mut here: Option<(Leg, f64)> = None;
+        for (number, turn) in self.curve.turns.iter().enumerate() {
+            let (presses, from) = (number % 2 == 0, here.as_ref().map(|(_, at)| *at));
+            let leg = match &here {
+                Some((leg, at)) => Some(leg.turn(*at)?),
+                None if presses && *turn > offset => Some(Leg::approach(&contact)?),
+                None => None,
+            };
+            let curve = match &leg {
+                Some(leg) if presses => sampling.press(leg, from, turn - offset)?,
+                Some(leg) => sampling.pull(leg, from.unwrap_or_default())?,
+                None => DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness),
+            };
+            let ends = [curve.points().first(), curve.points().last()].into_iter().flatten().copied();
+            // Beyond the ends of a segment, by the noise of the displacement, the force is that of the end.
+            let at = |displacement: f64| {
+                let place = displacement - offset;
+                let away = |point: &DisplacementPoint| (point.displacement - place).abs();
+                let nearest = || ends.clone().min_by(|one, other| away(one).total_cmp(&away(other)));
+                curve.at(place).or_else(nearest)
+            };
+            let end = self.curve.segment.partition_point(|segment| *segment <= number);
+            let places = &self.curve.displacement[forces.len()..end];
+            forces.extend(places.iter().map(|&place| zero + at(place).map_or(0.0, |point| point.force)));
+            let at = at(*turn).map_or(0.0, |point| point.indentation);
+            let is_apart = |leg: &Leg| leg.direction() == Direction::Unloading && at < leg.end();
+            here = leg.filter(|leg| !is_apart(leg)).map(|leg| (leg, at));
+        }
+        Ok(forces)
+    }
+}
+
+impl Sampling {
+    /// Curve of a loading from an indentation, m, or from first touch, up to a displacement, m.
+    fn press(self, leg: &Leg, from: Option<f64>, to: f64) -> Result<DisplacementCurve, ContactError> {
+        let (free, from) = (from.is_none().then(CurvePoint::default), from.unwrap_or_default());
+        // An indentation close behind the one at which the instrument is at its end: it takes a part of the way, or is pulled on.
+        let displacement = |at: f64| leg.point(at).map(|point| point.displacement(self.stiffness));
+        let (mut low, mut high) = (from, to.max(from));
+        for _ in 0..EXTENSIONS {
+            let reached = displacement(high)?;
+            if reached >= to {
+                break;
+            }
+            (low, high) = (high, high + 2.0 * (to - reached));
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *if displacement(middle)? < to { &mut low } else { &mut high } = middle;
+        }
+        self.over(leg, [from, high], 1, free)
+    }
+
+    /// Curve of an unloading from an indentation, m, to separation.
+    fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
+        let end = leg.end().min(from);
+        // Close to separation the force may fall as the root of the indentation.
+        self.over(leg, [end, from], 2, Some(CurvePoint { indentation: end, ..CurvePoint::default() }))
+    }
+
+    /// Curve of a leg between two indentations over the displacement, through points that are close to the lower end by this
+    /// power, and a point without contact before or after them. All jumps that are looked for are where they are.
+    fn over(
+        self,
+        leg: &Leg,
+        [low, high]: [f64; 2],
+        power: i32,
+        free: Option<CurvePoint>,
+    ) -> Result<DisplacementCurve, ContactError> {
+        let share = |index: usize| (index as f64 / (self.points - 1) as f64).powi(power);
+        let even = (0..self.points).map(|index| (low + (high - low) * share(index)).min(high));
+        // Both ends of the jumps of the contact.
+        let jumps = leg.jumps(low, high, self.least_jump);
+        let mut at: Vec<f64> = even.chain(jumps.into_iter().flat_map(|at| [at.next_down(), at])).collect();
+        at.sort_by(f64::total_cmp);
+        let mut points = leg.curve(&at)?;
+        // Places where the instrument cannot hold the body any more, which may be close before a jump of the contact.
+        let sign = if leg.direction() == Direction::Loading { 1.0 } else { -1.0 };
+        let mut reached = f64::NEG_INFINITY;
+        let mut folds = Vec::new();
+        let ordered =
+            |index: usize| if sign > 0.0 { points[index] } else { points[points.len() - 1 - index] };
+        for [one, fold, next] in (2..points.len()).map(|index| [index - 2, index - 1, index].map(ordered)) {
+            let [before, at, after] =
+                [one, fold, next].map(|point| sign * point.displacement(self.stiffness));
+            reached = reached.max(before);
+            if at > reached && after < at {
+                let beside = |end: CurvePoint| {
+                    let [from, to] = [fold, end].map(|point| point.indentation);
+                    let halves = (1..=FAN).map(move |power| from + (to - from) * 0.5_f64.powi(power));
+                    halves.filter(move |at| ![from, to].contains(at))
+                };
+                folds.extend(beside(one).chain(beside(next)));
+            }
+        }
+        if !folds.is_empty() {
+            folds.sort_by(f64::total_cmp);
+            points.extend(leg.curve(&folds)?);
+            points.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));
+        }
+        let points: Vec<CurvePoint> = match leg.direction() {
+            Direction::Loading => free.into_iter().chain(points).collect(),
+            Direction::Unloading => points.into_iter().rev().chain(free).collect(),
+        };
+        Ok(DisplacementCurve::new(leg.direction(), &points, self.stiffness))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
+    use super::super::options::Drift;
+    use super::super::scene::radius_of;
+    use super::super::statistics::scale;
+    use super::*;
+
+    /// Residuals without noise, in units of 1 % of the pull-off force, of exact and of coarse forces.
+    fn rests(made: &Made) -> [Vec<f64>; 2] {
+        let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
+        curve.noise = made.noise;
+        let [work, modulus] = [Parameter::Work, Parameter::Modulus].map(|one| truth(made, one));
+        let radius = radius_of(&made.scene).unwrap();
+        let values = [work, work, modulus, 0.0, 0.0, stiffness(&made.scene), radius];
+        let mut simulation = Simulation::default();
+        let mut model = Model::new(&curve, &made.scene, &mut simulation);
+        let rests = [1.0, 10.0].map(|noise| {
+            model.noise = noise;
+            let forces = model.forces(&values).unwrap();
+            curve.force.iter().zip(&forces).map(|(force, model)| (force - model) / curve.noise).collect()
+        });
+        assert_eq!(model.evaluations, 2);
+        rests
+    }
+
+    #[test]
+    fn a_loading_ends_close_behind_its_displacement() {
+        let scene = random(4, 512).scene;
+        let (contact, _) = Simulation::default().contact(&scene).unwrap();
+        let sampling = Sampling { stiffness: 0.1 * stiffness(&scene), points: FEW, least_jump: 1.0 };
+        let approach = Leg::approach(&contact).unwrap();
+        for to in [2e-7, 1e-6] {
+            let pressed = sampling.press(&approach, None, to).unwrap();
+            let last = *pressed.points().last().unwrap();
+            let over = last.indentation - pressed.at(to).unwrap().indentation;
+            assert!(last.displacement >= to && (0.0..to / 30.0).contains(&over), "{to:e}: {last:?} {over:e}");
+        }
+    }
+
+    #[test]
+    fn forces_are_those_of_the_radius_that_is_asked_for() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let document = on_rubber(1e-3, 2e6);
+        let mut simulations = [(); 2].map(|()| Simulation::default());
+        let [mut one, mut fresh] =
+            simulations.each_mut().map(|simulation| Model::new(&curve, document.scene(), simulation));
+        let mut forces = |radius| one.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, radius]).unwrap();
+        let [wide, narrow, again] = [7.5e-6, 3e-6, 7.5e-6].map(&mut forces);
+        assert!(wide == again && wide != narrow);
+        assert_eq!(fresh.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6]).unwrap(), narrow);
+    }
+
+    /// At a fold, where the displacement turns back since the instrument is too soft to hold the body, the points are dense: on
+    /// either side the first point is half way to the next even point, and each further point halves the distance to the fold.
+    #[test]
+    fn points_are_dense_on_both_sides_of_a_fold() {
+        let scene = random(4, 512).scene;
+        let (contact, _) = Simulation::default().contact(&scene).unwrap();
+        let from = 1e-6;
+        let leg = Leg::approach(&contact).unwrap().turn(from).unwrap();
+        let share = |index: usize| (index as f64 / (FEW - 1) as f64).powi(2);
+        let even: Vec<f64> = (0..FEW).map(|index| leg.end() + (from - leg.end()) * share(index)).collect();
+        for times in [0.01, 0.1, 1.0] {
+            let stiffness = times * stiffness(&scene);
+            let curve = leg.curve(&even).unwrap();
+            let at: Vec<f64> = curve.iter().map(|point| point.displacement(stiffness)).collect();
+            let is_fold = |&index: &usize| {
+                at[index] < at[index - 1] && at[index + 1..].iter().all(|before| at[index] < *before)
+            };
+            let folds: Vec<usize> = (1..FEW - 1).filter(is_fold).collect();
+            assert!(!folds.is_empty(), "{times}");
+            let mut dense = even.clone();
+            for (fold, end) in folds.into_iter().flat_map(|fold| [(fold, fold - 1), (fold, fold + 1)]) {
+                let way = even[end] - even[fold];
+                dense.extend((1..=8).map(|halvings| even[fold] + way / 2_f64.powi(halvings)));
+            }
+            dense.sort_by(f64::total_cmp);
+            let mut points = vec![CurvePoint { indentation: leg.end(), ..CurvePoint::default() }];
+            points.extend(leg.curve(&dense).unwrap());
+            points.reverse();
+            let expected = DisplacementCurve::new(Direction::Unloading, &points, stiffness);
+            let sampling = Sampling { stiffness, points: FEW, least_jump: f64::INFINITY };
+            assert_eq!(sampling.pull(&leg, from).unwrap(), expected, "{times}");
+        }
+    }
+
+    #[test]
+    fn forces_are_those_of_a_fine_curve_with_all_its_jumps() {
+        for (seed, points, most) in [(4, 512, [0.1, 0.5]), (11, 1024, [0.1, 1.0]), (14, 512, [0.1, 0.5])] {
+            let found = rests(&random(seed, points)).map(|rests| {
+                let beyond = rests.iter().filter(|rest| rest.abs() > 5.0).count();
+                (scale(&rests, 5.0), beyond)
+            });
+            let [exact, coarse] = found;
+            assert!(exact.0 < most[0] && exact.1 <= 2, "{seed}: {exact:?}");
+            assert!(
+                coarse.0 < most[1] && coarse.0 > exact.0 && coarse.1 <= 20,
+                "{seed}: {exact:?} {coarse:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Options of reading and preparing a measured curve, as arguments of the command line.
+
+use asperity_data::parse_quantity;
+use asperity_scene::quoted;
+use std::fmt;
+use std::str::FromStr;
+
+/// Quantities that are reversed, so that pressing is positive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Negate {
+    /// Nothing.
+    None,
+    /// The displacement.
+    Displacement,
+    /// The force.
+    Force,
+    /// Both.
+    Both,
+}
+
+/// Treatment of the drift of the force: a straight line over time, which is the number of the point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Drift {
+    /// Keeps the drift in the curve.
+    #[default]
+    Keep,
+    /// Removes the straight line of the points without contact.
+    Remove,
+    /// Removes this drift from the first to the last point, N.
+    Known(f64),
+}
+
+/// Treatment of the tilt of the force: a straight line over the displacement, as by a laser beam that the moving
+/// cantilever reflects askew (virtual deflection).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Tilt {
+    /// Keeps the tilt in the curve.
+    #[default]
+    Keep,
+    /// Removes the straight line of the points without contact.
+    Remove,
+}
+
+impl FromStr for Drift {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let allowed = "allowed: keep, remove, or a force from the first to the last point";
+        match text {
+            "keep" => Ok(Drift::Keep),
+            "remove" => Ok(Drift::Remove),
+            _ => force(text).map(Drift::Known).map_err(|error| format!("{error}; {allowed}")),
+        }
+    }
+}
+
+fn force(text: &str) -> Result<f64, String> {
+    parse_quantity(text, "N").map_err(|error| error.to_string())
+}
+
+#[cfg(feature = "clap")]
+fn positive_force(text: &str) -> Result<f64, String> {
+    let found = force(text)?;
+    if found > 0.0 { Ok(found) } else { Err("allowed: a standard deviation above 0, such as 2nN".to_owned()) }
+}
+
+/// Options of reading and preparing a curve; what is not given is found in the curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct CurveOptions {
+    /// Columns of displacement, force and segment: names or numbers
+    ///
+    /// Default: by the names in the header; of two columns the first is the displacement. Four
+    /// are displacement and force of the approach, then those of a retraction beside it. Without
+    /// a column of segments these end where the displacement turns.
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "D,F[,SEGMENT]", value_delimiter = ',', verbatim_doc_comment)
+    )]
+    pub columns: Vec<String>,
+    /// Units of displacement and force: nm,nN; default: those of the file
+    ///
+    /// A number is the value of 1 in the column: nm,3.01nN for a deflection in nm with 3.01 N/m.
+    #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
+    pub units: Vec<String>,
+    /// Segments that are used, without pauses: 2 is the retraction alone
+    ///
+    /// 1 is the first approach, 2 its retraction, and so on. Default: all points. The model runs
+    /// through the other segments too, and the part before contact still gives zero and noise.
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "NUMBER,...", value_delimiter = ',', verbatim_doc_comment,
+            value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..))
+    )]
+    pub segments: Vec<usize>,
+    /// Reverse none, displacement, force or both; default: by the approach
+    #[cfg_attr(feature = "clap", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
+    pub negate: Option<Negate>,
+    /// Measured force that is zero: 2nN; default: the mean before contact
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
+    pub zero: Option<f64>,
+    /// Drift over time: keep (default), remove, or a force over the curve
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, default_value = "keep", hide_default_value = true, allow_hyphen_values = true)
+    )]
+    pub drift: Drift,
+    /// Slope of the force over the displacement: keep (default) or remove
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, default_value = "keep", hide_default_value = true, hide_possible_values = true)
+    )]
+    pub tilt: Tilt,
+    /// Standard deviation of the force; default: that before contact
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
+    )]
+    pub noise: Option<f64>,
+    /// Number of points before contact; default: up to the first change
+    #[cfg_attr(feature = "clap", arg(long, value_name = "COUNT"))]
+    pub free_points: Option<usize>,
+}
+
+impl fmt::Display for CurveOptions {
+    /// Writes the options as arguments of the command line, a blank before each.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let segments: Vec<String> = self.segments.iter().map(ToString::to_string).collect();
+        for (name, values) in [("columns", &self.columns), ("units", &self.units), ("segments", &segments)] {
+            if !values.is_empty() {
+                write!(out, " --{name}={}", quoted(values.join(",")))?;
+            }
+        }
+        let drift = match self.drift {
+            Drift::Keep => None,
+            Drift::Remove => Some("remove".to_owned()),
+            Drift::Known(force) => Some(format!("{force:?}N")),
+        };
+        let newtons = |force: Option<f64>| force.map(|force| format!("{force:?}N"));
+        let values = [
+            ("negate", self.negate.map(|one| one.to_string())),
+            ("zero", newtons(self.zero)),
+            ("drift", drift),
+            ("tilt", (self.tilt == Tilt::Remove).then(|| "remove".to_owned())),
+            ("noise", newtons(self.noise)),
+            ("free-points", self.free_points.map(|count| count.to_string())),
+        ];
+        let given = values.into_iter().filter_map(|(name, value)| Some((name, value?)));
+        given.into_iter().try_for_each(|(name, value)| write!(out, " --{name}={value}"))
+    }
+}

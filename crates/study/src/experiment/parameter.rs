@@ -1,0 +1,290 @@
+//! Parameters of a fit: names, units, ranges, and the coordinates in which a fit looks for them.
+
+use asperity_data::parse_quantity;
+use asperity_scene::did_you_mean;
+use serde::{Serialize, Serializer};
+use std::str::FromStr;
+
+/// Parameter of a fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Work of adhesion.
+    Work,
+    /// Work of adhesion on closing.
+    ClosingWork,
+    /// Effective modulus.
+    Modulus,
+    /// Measured displacement at first touch.
+    Offset,
+    /// Force before contact.
+    Zero,
+    /// Stiffness of the instrument.
+    Stiffness,
+    /// Radius of the form.
+    Radius,
+}
+
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+/// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
+pub(super) type Values = [f64; 7];
+
+/// Texts of a parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Name on the command line and in JSON.
+    pub name: &'static str,
+    /// Technical term.
+    pub term: &'static str,
+    /// Symbol.
+    pub symbol: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+}
+
+impl Parameter {
+    /// All parameters, in the order of tables.
+    pub const ALL: [Parameter; 7] = {
+        use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
+        [Work, ClosingWork, Modulus, Offset, Zero, Stiffness, Radius]
+    };
+
+    /// Texts of the parameter.
+    pub fn row(self) -> Row {
+        let row = |name, term, symbol, unit| Row { name, term, symbol, unit };
+        match self {
+            Parameter::Work => row("work", "work of adhesion", "γ", "J/m²"),
+            Parameter::ClosingWork => row("closing_work", "work of adhesion on closing", "γ₁", "J/m²"),
+            Parameter::Modulus => row("modulus", "effective modulus", "E*", "Pa"),
+            Parameter::Offset => row("offset", "displacement at first touch", "D₀", "m"),
+            Parameter::Zero => row("zero", "force before contact", "F₀", "N"),
+            Parameter::Stiffness => row("stiffness", "loading stiffness", "k", "N/m"),
+            Parameter::Radius => row("radius", "radius of the form", "R", "m"),
+        }
+    }
+
+    /// Name on the command line and in JSON.
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// Returns true for a parameter of either sign.
+    pub(super) fn is_signed(self) -> bool {
+        matches!(self, Parameter::Offset | Parameter::Zero)
+    }
+
+    /// Returns true for a work of adhesion, which may be 0.
+    fn is_work(self) -> bool {
+        matches!(self, Parameter::Work | Parameter::ClosingWork)
+    }
+
+    /// Returns true for a range in which the parameter can be looked for.
+    fn allows(self, (low, high): (f64, f64)) -> bool {
+        let is_above = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
+        is_above && low < high && low.is_finite() && high.is_finite()
+    }
+
+    /// Ranges in which the parameter can be looked for.
+    fn ranges(self) -> String {
+        let above = match (self.is_signed(), self.is_work()) {
+            (true, _) => "",
+            (_, true) => " of at least 0",
+            _ => " above 0",
+        };
+        format!("two values{above}, the first below the second")
+    }
+
+    /// Measurement that separates two parameters, or one from all others, where a curve does not.
+    pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
+        use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
+        let rows = [
+            (Modulus, Stiffness, "the stiffness of the instrument from a curve on a hard specimen"),
+            (Modulus, Radius, "the radius from an image of the form"),
+            (Work, Radius, "the radius from an image of the form, since the pull-off force has γR alone"),
+            (Work, ClosingWork, "turning points at several preloads, since γ₁ acts where the contact grows"),
+            (Offset, Zero, "a longer part before contact for the zero of the force"),
+            (Modulus, Offset, "a larger preload, or more points near first touch"),
+            (Offset, Stiffness, "a larger preload, or more points near first touch"),
+            (Work, Modulus, "a larger preload, where the elastic force exceeds the adhesion"),
+        ];
+        let is = |row: &&(Parameter, Parameter, &str)| [(one, other), (other, one)].contains(&(row.0, row.1));
+        let usual = if one == other {
+            "less noise, a larger preload, or its value from another measurement"
+        } else {
+            "a curve with another preload, or one of both from another measurement"
+        };
+        rows.iter().find(is).map_or(usual, |row| row.2)
+    }
+}
+
+/// A parameter to be found, with its range if the range is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Free {
+    /// The free parameter.
+    pub parameter: Parameter,
+    /// Ends of the range in SI units; `None`: around the start.
+    pub range: Option<(f64, f64)>,
+}
+
+impl FromStr for Free {
+    type Err = String;
+
+    /// Parses `work`, or with a range `work=10mJ/m^2..1J/m^2`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (name, range) = text.split_once('=').map_or((text, None), |(name, range)| (name, Some(range)));
+        let names = Parameter::ALL.map(Parameter::name);
+        let parameter = Parameter::ALL.into_iter().find(|one| one.name() == name).ok_or_else(|| {
+            let near = did_you_mean(name, names);
+            format!("{name:?} is not a parameter{near}; allowed: {}", names.join(", "))
+        })?;
+        let allowed = || format!("allowed: {}, such as {name}=1..2", parameter.ranges());
+        let end = |text: &str| {
+            parse_quantity(text, parameter.row().unit).map_err(|error| format!("{error}; {}", allowed()))
+        };
+        let ends = |range: &str| {
+            let (low, high) = range.split_once("..").ok_or_else(allowed)?;
+            let (low, high) = (end(low)?, end(high)?);
+            if parameter.allows((low, high)) { Ok((low, high)) } else { Err(allowed()) }
+        };
+        Ok(Free { parameter, range: range.map(ends).transpose()? })
+    }
+}
+
+/// Options of a fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Parameters to be found.
+    pub free: Vec<Free>,
+    /// Random profiles on which the fit is repeated; 1: the profile of the scene alone.
+    pub lines: u64,
+    /// Threads that share the profiles.
+    pub jobs: usize,
+}
+
+/// Coordinate of a free parameter: its value over a unit, its share of the work of adhesion, or its logarithm. That of the work
+/// of adhesion is linear up to its unit, so that it reaches 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Coordinate {
+    pub parameter: Parameter,
+    pub start: f64,
+    pub range: (f64, f64),
+    /// Unit of a parameter of either sign, and of the work of adhesion.
+    pub unit: f64,
+}
+
+impl Coordinate {
+    pub fn of(&self, value: f64, values: &Values) -> f64 {
+        match self.parameter {
+            Parameter::Work => (value / self.unit).asinh(),
+            Parameter::ClosingWork => {
+                let (low, high) = self.on_closing(values);
+                if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 1.0 }
+            }
+            parameter if parameter.is_signed() => value / self.unit,
+            _ => value.ln(),
+        }
+    }
+
+    /// Value at a coordinate, for these values of the other parameters.
+    pub fn value(&self, at: f64, values: &Values) -> f64 {
+        match self.parameter {
+            Parameter::Work => at.sinh() * self.unit,
+            Parameter::ClosingWork => {
+                let (low, high) = self.on_closing(values);
+                low + at.clamp(0.0, 1.0) * (high - low)
+            }
+            parameter if parameter.is_signed() => at * self.unit,
+            _ => at.exp(),
+        }
+    }
+
+    /// Ends of the work of adhesion on closing, which the work of adhesion limits.
+    fn on_closing(&self, values: &Values) -> (f64, f64) {
+        let work = values[Parameter::Work as usize];
+        (self.range.0.min(work), self.range.1.min(work))
+    }
+
+    /// Coordinates of the ends of the range.
+    pub fn ends(&self) -> (f64, f64) {
+        match self.parameter {
+            Parameter::ClosingWork => (0.0, 1.0),
+            _ => (self.of(self.range.0, &[1.0; 7]), self.of(self.range.1, &[1.0; 7])),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn coordinate(parameter: Parameter, range: (f64, f64)) -> Coordinate {
+        Coordinate { parameter, start: range.0, range, unit: 0.5 }
+    }
+
+    #[test]
+    fn values_come_back_from_their_coordinates() {
+        let mut values = [1.0; 7];
+        values[Parameter::Work as usize] = 4.0;
+        for (parameter, range, value, at) in [
+            (Parameter::Work, (0.0, 10.0), 0.0, 0.0),
+            (Parameter::Work, (0.0, 10.0), 3.0, 6.0_f64.asinh()),
+            (Parameter::ClosingWork, (0.0, 10.0), 3.0, 0.75),
+            (Parameter::ClosingWork, (2.0, 3.0), 2.5, 0.5),
+            (Parameter::ClosingWork, (2.0, 10.0), 3.0, 0.5),
+            (Parameter::Offset, (-3.0, 3.0), -2.0, -4.0),
+            (Parameter::Zero, (-3.0, 3.0), 2.0, 4.0),
+            (Parameter::Modulus, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::Stiffness, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::Radius, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+        ] {
+            let one = coordinate(parameter, range);
+            assert!((one.of(value, &values) - at).abs() < 1e-12, "{one:?}");
+            assert!((one.value(at, &values) - value).abs() < 1e-12, "{one:?}");
+        }
+        // A work on closing is at most that on opening, also where there is none.
+        let closing = coordinate(Parameter::ClosingWork, (0.0, 10.0));
+        assert_eq!((closing.of(9.0, &values), closing.value(1.5, &values)), (1.0, 4.0));
+        assert_eq!((closing.of(0.0, &[0.0; 7]), closing.value(0.5, &[0.0; 7])), (1.0, 0.0));
+        assert_eq!(closing.ends(), (0.0, 1.0));
+        assert_eq!(coordinate(Parameter::Offset, (-3.0, 3.0)).ends(), (-6.0, 6.0));
+        assert_eq!(coordinate(Parameter::Work, (0.0, 1.0)).ends(), (0.0, 2.0_f64.asinh()));
+    }
+
+    #[test]
+    fn free_parameters_are_parsed_with_their_ranges() {
+        let free = |text: &str| text.parse::<Free>();
+        let range = |text: &str| free(text).unwrap().range;
+        assert_eq!(free("offset"), Ok(Free { parameter: Parameter::Offset, range: None }));
+        assert_eq!(range("work=0..1"), Some((0.0, 1.0)));
+        assert_eq!(range("closing_work=0..20mJ/m^2"), Some((0.0, 0.02)));
+        assert_eq!(range("offset=-1um..0"), Some((-1e-6, 0.0)));
+        for (text, said) in [
+            (
+                "work=-1..1",
+                "allowed: two values of at least 0, the first below the second, such as work=1..2",
+            ),
+            ("modulus=0..1", "allowed: two values above 0, the first below the second, such as modulus=1..2"),
+            ("zero=2..1", "allowed: two values, the first below the second, such as zero=1..2"),
+            ("radius=1", "allowed: two values above 0"),
+            ("work=1..x", "\"x\""),
+            ("wrok", "\"wrok\" is not a parameter"),
+        ] {
+            let error = free(text).unwrap_err();
+            assert!(error.starts_with(said) || error.contains(said), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_remedy_belongs_to_a_pair_in_any_order() {
+        use Parameter::{Modulus, Offset, Stiffness, Work, Zero};
+        assert!(Parameter::remedy(Stiffness, Modulus).contains("hard specimen"));
+        assert_eq!(Parameter::remedy(Modulus, Stiffness), Parameter::remedy(Stiffness, Modulus));
+        assert!(Parameter::remedy(Work, Work).starts_with("less noise"));
+        assert!(Parameter::remedy(Work, Zero).starts_with("a curve with another preload"));
+        assert!(Parameter::remedy(Offset, Zero).contains("before contact"));
+    }
+}

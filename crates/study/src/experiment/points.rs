@@ -1,0 +1,132 @@
+//! The points of a curve in the order of time, with pressing positive.
+
+use super::baseline::{Baseline, ends};
+use super::free::{FEWEST, free_count};
+use super::options::{CurveOptions, Negate};
+use super::segment::Segments;
+use super::{ExperimentError, refused};
+use asperity_data::mean;
+use std::ops::Range;
+
+/// Points in the order of time, means of several if there are many.
+pub(super) struct Points {
+    pub displacement: Vec<f64>,
+    pub force: Vec<f64>,
+    pub segment: Vec<usize>,
+    pub is_still: Vec<bool>,
+    /// Points of the file in each.
+    pub counts: Vec<usize>,
+}
+
+impl Points {
+    pub fn averaged(displacement: &[f64], force: &[f64], segments: &Segments, count: usize) -> Points {
+        let (mut ranges, mut start): (Vec<Range<usize>>, _) = (Vec::new(), 0);
+        let kinds: Vec<_> = segments.numbers.iter().zip(&segments.is_still).collect();
+        for chunk in kinds.chunk_by(|one, next| one == next).flat_map(|part| part.chunks(count)) {
+            ranges.push(start..start + chunk.len());
+            start += chunk.len();
+        }
+        let means = |values: &[f64]| ranges.iter().map(|range| mean(&values[range.clone()])).collect();
+        Points {
+            displacement: means(displacement),
+            force: means(force),
+            segment: ranges.iter().map(|range| segments.numbers[range.start]).collect(),
+            is_still: ranges.iter().map(|range| segments.is_still[range.start]).collect(),
+            counts: ranges.iter().map(Range::len).collect(),
+        }
+    }
+
+    /// Place of a segment of the points.
+    pub fn of(&self, number: usize) -> Range<usize> {
+        self.segment.partition_point(|one| *one < number)..self.segment.partition_point(|one| *one <= number)
+    }
+
+    /// Place of a segment without the pause at its turn.
+    pub fn moving(&self, number: usize) -> Range<usize> {
+        let of = self.of(number);
+        let Range { mut start, mut end } = of.clone();
+        let pause = |index: &usize| self.is_still[*index];
+        if number % 2 == 1 {
+            start += of.clone().take_while(pause).count();
+        } else {
+            end -= of.rev().take_while(pause).count();
+        }
+        start..end
+    }
+
+    /// Reverses the quantities so that pressing is positive, as asked for or as the first segment has it.
+    pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
+        let first = self.of(self.segment[0]);
+        let is_wrong = |displacement: &[f64]| {
+            let moved = displacement[first.end - 1] - displacement[0];
+            if self.segment[0] == 0 { moved < 0.0 } else { moved > 0.0 }
+        };
+        let by_itself = if is_wrong(&self.displacement) { Negate::Displacement } else { Negate::None };
+        let negate = asked.unwrap_or(by_itself);
+        if matches!(negate, Negate::Displacement | Negate::Both) != (by_itself == Negate::Displacement) {
+            let away = if self.segment[0] == 0 { "away" } else { "closer" };
+            let found = format!("the body moves {away} in the first segment with --negate {negate}");
+            return refused(
+                found,
+                "an approach first; --negate displacement for a distance between the bodies",
+            );
+        }
+        for (values, one) in
+            [(&mut self.displacement, Negate::Displacement), (&mut self.force, Negate::Force)]
+        {
+            if negate == one || negate == Negate::Both {
+                values.iter_mut().for_each(|value| *value = -*value);
+            }
+        }
+        Ok(negate)
+    }
+
+    /// Returns true for a single segment that ends without contact.
+    pub fn is_retraction(&self, least: f64) -> bool {
+        let change = |values: &[f64]| {
+            let free = free_count(values, least).ok()?;
+            Some(Baseline::through(&values[..free]).slope.abs() * free as f64)
+        };
+        let reversed: Vec<f64> = self.force.iter().rev().copied().collect();
+        change(&reversed).is_some_and(|after| change(&self.force).is_none_or(|before| after < before))
+    }
+
+    /// Number of the last points, which are after contact.
+    pub fn free_at_the_end(&self, least: f64) -> Option<usize> {
+        let last = self.moving(*self.segment.last()?);
+        let reversed: Vec<f64> = self.force[last].iter().rev().copied().collect();
+        free_count(&reversed, least).ok()
+    }
+
+    /// Displacements at which the segments up to a number end, m; a retraction follows the last approach.
+    pub fn turns(&self, last: usize) -> Vec<f64> {
+        let all = ends(self.displacement.iter().copied());
+        let end = |number: usize| {
+            let of = self.of(number);
+            let (low, high) = if of.is_empty() { all } else { ends(self.displacement[of].iter().copied()) };
+            if number.is_multiple_of(2) { high } else { low }
+        };
+        (0..=last).map(end).collect()
+    }
+}
+
+/// Places of the points of the chosen segments, which leave pauses out; of all without a choice.
+pub(super) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
+    let all = 0..points.force.len();
+    let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;
+    if let Some(wrong) = options.segments.iter().find(|number| !numbers.contains(*number)) {
+        let allowed = numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(", ");
+        return refused(format!("--segments {wrong}: the curve has no such segment"), allowed);
+    }
+    if options.segments.is_empty() {
+        return Ok(all.collect());
+    }
+    let is_kept =
+        |index: &usize| options.segments.contains(&(points.segment[*index] + 1)) && !points.is_still[*index];
+    let kept: Vec<usize> = all.filter(is_kept).collect();
+    if kept.len() < 2 * FEWEST {
+        let fault = format!("--segments: {} points in the chosen segments", kept.len());
+        return refused(fault, format!("at least {}", 2 * FEWEST));
+    }
+    Ok(kept)
+}

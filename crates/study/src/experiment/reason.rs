@@ -1,0 +1,360 @@
+//! The reason why a model does not describe a curve, by the pattern of its residuals.
+
+use super::ExperimentError;
+use super::baseline::{dot, ends, right_angled, take_off};
+use super::curve::MeasuredCurve;
+use super::free::least_squares;
+use super::model::Model;
+use super::parameter::{Parameter, Values};
+use asperity_data::format_quantity;
+use asperity_data::median;
+use asperity_scene::CheckedScene;
+use asperity_scene::LEAST_TABOR_NUMBER;
+use asperity_scene::Simulation;
+use serde::{Serialize, Serializer};
+use thiserror::Error;
+
+/// Share of the length in contact of a body that is longer than its profile, and fewest springs in contact.
+const FULL: f64 = 0.99;
+const FEWEST_SPRINGS: u64 = 20;
+/// Jump between two points over the pull-off force: a sphere on a rigid instrument jumps by 5/9 of it.
+const RIGID: f64 = 0.65;
+/// Share of the squared residuals that a pattern explains.
+const EXPLAINS: f64 = 0.4;
+/// Tabor number below which the theory of Johnson, Kendall and Roberts does not apply at all.
+const LONG_RANGE: f64 = 1.0;
+/// Slope of the force over the stiffness of an instrument that does not allow it, and the part of the way from first touch to
+/// the turn, and fewest points there, by which it is found.
+const STEEPER: f64 = 1.03;
+const PRESSED: f64 = 0.2;
+const FEWEST: usize = 5;
+/// Relative step of a derivative, and change of the force over its range that is a jump and no derivative.
+const STEP: f64 = 1e-3;
+const LEAPS: f64 = 0.02;
+/// Residual over their median that counts no further: a point on the wrong side of a jump.
+const CUT: f64 = 5.0;
+
+/// Why a model does not describe a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum Reason {
+    /// The contact fills the profile of this length, m.
+    #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
+    ShortProfile(f64),
+    /// So few springs are in contact at most.
+    #[error(
+        "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
+    )]
+    CoarseProfile(u64),
+    /// The force jumps by this, N, on an instrument that the scene takes as rigid.
+    #[error(
+        "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
+        format_quantity(*.0, "N")
+    )]
+    Rigid(f64),
+    /// Residuals at pauses.
+    #[error(
+        "Most of the residual is at pauses, where the body creeps or relaxes: --segments 1,2 leaves them out."
+    )]
+    Pause,
+    /// A slope of the force over time where nothing touches.
+    #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
+    Drift,
+    /// A slope of the force over the displacement where nothing touches.
+    #[error("The force has a slope over the displacement where nothing touches: --tilt remove takes it off.")]
+    Tilt,
+    /// Slopes of the force over time and over the displacement where nothing touches.
+    #[error(
+        "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
+    )]
+    DriftAndTilt,
+    /// The force differs before and after contact by this, N.
+    #[error(
+        "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
+         alone.",
+        format_quantity(*.0, "N")
+    )]
+    Step(f64),
+    /// Attraction of long range: its Tabor number.
+    #[error(
+        "The Tabor number is {}, below {LEAST_TABOR_NUMBER}: attraction of this range is not that of Johnson, Kendall and \
+         Roberts.",
+        format_quantity(*.0, "1")
+    )]
+    TaborNumber(f64),
+    /// Approach and retraction differ.
+    #[error(
+        "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
+         closing. --free {} tries the second, --segments 2 fits the retraction alone.",
+        Parameter::ClosingWork.name()
+    )]
+    Branches,
+    /// The force rises by so many N/m, more than the stiffness of the instrument in the scene allows.
+    #[error(
+        "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
+        format_quantity(*.0, "N/m")
+    )]
+    Stiffness(f64),
+    /// Approach and retraction deviate alike: another stiffness of the instrument, or another form or profile.
+    #[error(
+        "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
+         another form or profile."
+    )]
+    StiffnessOrForm,
+    /// Another form or profile.
+    #[error("Another form or profile than that of the scene is likely.")]
+    Form,
+}
+
+impl Serialize for Reason {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// The reason why a scene with these values does not describe a curve, for these free parameters.
+///
+/// # Errors
+/// A failure of the computation.
+pub(super) fn reason(
+    curve: &MeasuredCurve,
+    scene: &CheckedScene,
+    simulation: &mut Simulation,
+    (values, free): (&Values, &[Parameter]),
+    tabor: Option<f64>,
+) -> Result<Reason, ExperimentError> {
+    if let Some(reason) = of_profile(scene, simulation) {
+        return Ok(reason);
+    }
+    let is_rigid = scene.loading_stiffness.is_none() && !free.contains(&Parameter::Stiffness);
+    let jump = largest_jump(curve);
+    if is_rigid && curve.pull_off_force().is_some_and(|force| jump > RIGID * force) {
+        return Ok(Reason::Rigid(jump));
+    }
+    let mut model = Model::new(curve, scene, simulation);
+    let forces = model.forces(values)?;
+    let mut rests: Vec<f64> = curve.force.iter().zip(&forces).map(|(force, model)| force - model).collect();
+    let lines = curve.lines(free.contains(&Parameter::Zero));
+    lines.iter().for_each(|line| {
+        take_off(&mut rests, line);
+    });
+    let squares = dot(&rests, &rests);
+    let still = rests.iter().zip(&curve.is_still).filter(|(_, is_still)| **is_still);
+    if 2.0 * still.map(|(rest, _)| rest * rest).sum::<f64>() > squares {
+        return Ok(Reason::Pause);
+    }
+    let residual = (squares / rests.len() as f64).sqrt();
+    let [drift, tilt, step] = curve.remaining.map(|slope| slope.abs() > residual);
+    match (drift, tilt) {
+        (true, true) => return Ok(Reason::DriftAndTilt),
+        (true, false) => return Ok(Reason::Drift),
+        (false, true) => return Ok(Reason::Tilt),
+        (false, false) => {}
+    }
+    if step && curve.segment.first() != curve.segment.last() {
+        return Ok(Reason::Step(curve.remaining[2]));
+    }
+    let low = tabor.filter(|number| *number < LEAST_TABOR_NUMBER);
+    if let Some(number) = low.filter(|number| *number < LONG_RANGE) {
+        return Ok(Reason::TaborNumber(number));
+    }
+    let stiffness = values[Parameter::Stiffness as usize];
+    let is_stated = stiffness.is_finite() && !free.contains(&Parameter::Stiffness);
+    let slope = slope_when_pressed(curve);
+    if is_stated && slope > STEEPER * stiffness {
+        return Ok(Reason::Stiffness(slope));
+    }
+    if curve.segment.first() != curve.segment.last()
+        && branches_differ(curve, &mut model, (values, free), (&forces, rests, lines))?
+    {
+        return Ok(Reason::Branches);
+    }
+    let other = if is_stated { Reason::StiffnessOrForm } else { Reason::Form };
+    Ok(low.map_or(other, Reason::TaborNumber))
+}
+
+/// A contact that fills its profile, or has few springs.
+fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
+    let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).ok()?;
+    let points = || outcome.history.legs.iter().flat_map(|leg| &leg.curve);
+    let length = ends(points().map(|point| point.contact_length)).1;
+    let springs = points().map(|point| point.springs).max()?;
+    // The contact of a flat face does not grow.
+    let grows = scene.form.as_ref().is_some_and(|form| form.summit_curvature() != Some(0.0));
+    if grows && length >= FULL * outcome.line.length {
+        return Some(Reason::ShortProfile(outcome.line.length));
+    }
+    (springs < FEWEST_SPRINGS).then_some(Reason::CoarseProfile(springs))
+}
+
+/// Largest rise of the force from point to point of a retraction, N: only a contact that is lost makes it rise.
+fn largest_jump(curve: &MeasuredCurve) -> f64 {
+    let pairs = curve.segment.windows(2).zip(curve.force.windows(2));
+    let retracting = pairs.filter(|(segment, _)| segment[0] == segment[1] && segment[0] % 2 == 1);
+    retracting.map(|(_, force)| force[1] - force[0]).fold(0.0, f64::max)
+}
+
+/// Slope of the force over the displacement in the last fifth of the first approach, or the first one of a retraction, N/m.
+fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
+    let (touch, turn) = (curve.touch, curve.turns[0]);
+    let first = curve.segment.iter().zip(curve.displacement.iter().zip(&curve.force));
+    let pressed = first.filter(|(segment, (at, _))| {
+        Some(*segment) == curve.segment.first() && **at > turn - PRESSED * (turn - touch)
+    });
+    let points: Vec<(f64, f64)> = pressed.map(|(_, (at, force))| (at - turn, *force)).collect();
+    let columns = [vec![1.0; points.len()], points.iter().map(|point| point.0).collect()];
+    let forces: Vec<f64> = points.iter().map(|point| point.1).collect();
+    let slope = (points.len() >= FEWEST).then(|| least_squares(&columns, &forces)).flatten();
+    // Less what the noise may add.
+    slope.map_or(0.0, |found| found[1].0 - 3.0 * found[1].1)
+}
+
+/// Returns true if another modulus or work of adhesion of the retractions alone explains most of the residuals, beside small
+/// changes of the free parameters: their effects are linear.
+fn branches_differ(
+    curve: &MeasuredCurve,
+    model: &mut Model<'_>,
+    (values, free): (&Values, &[Parameter]),
+    (forces, mut rests, mut columns): (&[f64], Vec<f64>, Vec<Vec<f64>>),
+) -> Result<bool, ExperimentError> {
+    let (low, high) = ends(curve.force.iter().copied());
+    let mut change = |parameter: Parameter| -> Result<Vec<f64>, ExperimentError> {
+        let mut moved = *values;
+        let unit = match parameter {
+            Parameter::Offset => curve.turns[0] - values[Parameter::Offset as usize],
+            Parameter::Zero => high - low,
+            _ => -values[parameter as usize],
+        };
+        moved[parameter as usize] += STEP * unit;
+        let most = moved[Parameter::Work as usize];
+        moved[Parameter::ClosingWork as usize] = moved[Parameter::ClosingWork as usize].min(most);
+        let changed = model.forces(&moved)?;
+        let is_leap = |change: f64| change.is_nan() || change.abs() > LEAPS * (high - low);
+        let changes = changed.iter().zip(forces).map(|(one, other)| one - other);
+        Ok(changes.map(|change| if is_leap(change) { 0.0 } else { change }).collect())
+    };
+    for parameter in free {
+        columns.push(change(*parameter)?);
+    }
+    let mut candidates = vec![change(Parameter::Modulus)?];
+    if values[Parameter::Work as usize] > 0.0 {
+        candidates.push(change(Parameter::Work)?);
+    }
+    // A point on the wrong side of a jump counts no more than others.
+    let mut sizes: Vec<f64> = rests[curve.free..].iter().map(|rest| rest.abs()).collect();
+    let most = CUT * median(&mut sizes).unwrap_or(0.0);
+    rests.iter_mut().for_each(|rest| *rest = rest.clamp(-most, most));
+    let basis = right_angled(&columns);
+    let rest_of = |column: &mut Vec<f64>| {
+        basis.iter().for_each(|one| {
+            take_off(column, one);
+        });
+    };
+    rest_of(&mut rests);
+    let whole = dot(&rests, &rests);
+    let explains = |mut column: Vec<f64>| {
+        let of_approach = column.iter_mut().zip(&curve.segment).filter(|(_, segment)| **segment % 2 == 0);
+        of_approach.for_each(|(one, _)| *one = 0.0);
+        rest_of(&mut column);
+        dot(&rests, &column).powi(2) > EXPLAINS * dot(&column, &column) * whole
+    };
+    Ok(candidates.into_iter().any(explains))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made::from_text;
+    use super::super::options::CurveOptions;
+    use super::super::scene::values_of;
+    use super::*;
+    use asperity_scene::{Document, open};
+    use std::fmt::Write;
+
+    const HERTZ: [(&str, &str); 6] = [
+        ("form.radius", "7.5e-6"),
+        ("length", "2.4e-5"),
+        ("material", "(effective_modulus: 2e6)"),
+        ("adhesion", "None"),
+        ("loading_stiffness", "3"),
+        ("numerics.points", "256"),
+    ];
+
+    fn scene(changes: &[(&str, &str)]) -> Document {
+        let changes = changes.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned()));
+        open("jkr-sphere").unwrap().set_all(&changes.collect::<Vec<_>>()).unwrap()
+    }
+
+    /// Force of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3 N/m: by bisection of d + F/k.
+    fn hertz(modulus: f64, at: f64) -> f64 {
+        let force = |d: f64| 4.0 / 3.0 * modulus * (7.5e-6 * d.powi(3)).sqrt();
+        let (mut low, mut high) = (0.0, at.max(0.0));
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *if middle + force(middle) / 3.0 < at { &mut low } else { &mut high } = middle;
+        }
+        force(low)
+    }
+
+    /// The reason for a curve of these points, displacement in µm from first touch, force in µN and noise of 1 nN, against a
+    /// scene.
+    fn found(points: impl Iterator<Item = (f64, f64)>, changes: &[(&str, &str)]) -> Reason {
+        let mut text = "displacement [um],force [uN]\n".to_owned();
+        for (index, (at, force)) in points.enumerate() {
+            writeln!(text, "{at},{}", force + if index % 2 == 0 { 1e-3 } else { -1e-3 }).unwrap();
+        }
+        let curve = from_text(&text, &CurveOptions::default()).unwrap();
+        let document = curve.load(&scene(&[&HERTZ, changes].concat()), 0.0).unwrap();
+        let mut simulation = Simulation::default();
+        let (_, governing) = simulation.contact(document.scene()).unwrap();
+        let values = values_of(document.scene(), &governing);
+        let tabor = asperity_scene::scene_tabor_number(document.scene(), &governing);
+        let free = [Parameter::Modulus, Parameter::Offset];
+        reason(&curve, document.scene(), &mut simulation, (&values, &free), tabor).unwrap()
+    }
+
+    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, at a displacement, m, and a time from 0
+    /// to 1.
+    fn curve(approach: impl Fn(f64, f64) -> f64, retraction: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+        let point = |index: i32| {
+            let time = f64::from(index) / 399.0;
+            let at =
+                if index < 200 { f64::from(index) / 99.5 - 1.0 } else { 1.0 - f64::from(index - 199) / 99.5 };
+            (at, 1e6 * if index < 200 { approach(1e-6 * at, time) } else { retraction(1e-6 * at, time) })
+        };
+        (0..400).map(point).collect()
+    }
+
+    fn elastic(at: f64, _: f64) -> f64 {
+        hertz(2e6, at)
+    }
+
+    #[test]
+    fn each_pattern_has_its_reason() {
+        let both = || curve(elastic, elastic).into_iter();
+        // A sphere of another modulus is a change by a free parameter.
+        assert_eq!(found(both(), &[("material", "(effective_modulus: 1.9e6)")]), Reason::StiffnessOrForm);
+        assert_eq!(found(both(), &[("loading_stiffness", "None")]), Reason::Form);
+        assert!(
+            matches!(found(both(), &[("loading_stiffness", "0.5")]), Reason::Stiffness(slope) if slope > 0.5)
+        );
+        let stiffer = curve(elastic, |at, _| hertz(2.6e6, at - 1e-7));
+        assert_eq!(found(stiffer.into_iter(), &[]), Reason::Branches);
+        let tilted = |at: f64, time: f64| elastic(at, time) + 0.1 * at;
+        assert_eq!(found(curve(tilted, tilted).into_iter(), &[]), Reason::Tilt);
+        let drifts = |at: f64, time: f64| elastic(at, time) - 1e-7 * time;
+        assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Drift);
+        let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
+        assert!(matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9));
+        let mut paused = curve(elastic, elastic);
+        let top = paused[199].1;
+        paused.splice(200..200, (0..200).map(|index| (1.0, top * (1.0 - f64::from(index) / 1000.0))));
+        assert_eq!(found(paused.into_iter(), &[]), Reason::Pause);
+        assert!(
+            matches!(found(both(), &[("length", "2e-6")]), Reason::ShortProfile(length) if (length - 2e-6).abs() < 1e-9)
+        );
+        assert!(matches!(found(both(), &[("length", "1e-3")]), Reason::CoarseProfile(..)));
+        let jumps = curve(elastic, |at, time| if at < 0.0 { 0.0 } else { elastic(at, time) - 5e-7 });
+        assert!(matches!(found(jumps.into_iter(), &[("loading_stiffness", "None")]), Reason::Rigid(_)));
+        let weak = [("adhesion", "(work: 1e-6)")];
+        assert!(matches!(found(both(), &weak), Reason::TaborNumber(number) if number < 1.0));
+    }
+}

@@ -1,0 +1,435 @@
+//! The search for the parameters that describe a curve, and their errors: a population that samples their probability
+//! (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat. Soc. B 68, 411, 2006).
+//!
+//! The forces jump with the parameters, so neither derivatives nor a linearised fit say how well a curve determines them. A
+//! population can: its members are drawn over the ranges and weighted as if the noise were large, where jumps count little.
+//! Then the noise falls step by step to the noise of the curve. At each step likely members are doubled, unlikely ones are left
+//! out, and all move by differences of others, which have the extent and the directions of the population, and now and then
+//! by a random step of any size, so that copies of one member part again. In the end the members are distributed as the
+//! parameters are by the noise. The start is no member: a start close to the values would be copied to the whole population.
+
+use super::baseline::{dot, ends};
+use super::model::Model;
+use super::parameter::{Coordinate, Parameter};
+use super::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
+use super::space::Space;
+use super::{ExperimentError, refused};
+use asperity_contact::ContactError;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::ops::Range;
+
+const SEED: u64 = 29;
+/// Members drawn at first for each free parameter.
+const SCAN: usize = 60;
+/// Members of a population, and further ones for each free parameter.
+const MEMBERS: usize = 24;
+const FOR_EACH: usize = 8;
+/// Share of the members that count after a step of the noise.
+const EFFECTIVE: f64 = 0.3;
+/// Moves of the population at each step, and moves at the end, after each of which all members are samples.
+const MOVES: usize = 5;
+const LAST_MOVES: usize = 16;
+/// Share of the moves that are random steps, and decades over which their lengths extend down from the whole range.
+const RANDOM: f64 = 0.02;
+const DECADES: f64 = 6.0;
+/// Noise over the noise of the curve down to which the forces are coarse, and factor of the members until then.
+const COARSE: f64 = 10.0;
+const MORE: usize = 2;
+/// Part of the residual of the best member down to which the noise falls, if that residual exceeds the noise of the curve.
+const DEEPER: f64 = 8.0;
+/// Mean square residual in units of the noise beyond which a second population is made.
+const EXPECTED: f64 = 1.2;
+/// Populations at most, and cost by which a start is better than a population that missed it.
+const ATTEMPTS: usize = 3;
+const MISSED: f64 = 3.0;
+/// Largest noise over the noise of the curve, and halvings of its logarithm in a step.
+const LARGE: f64 = 1e6;
+const HALVINGS: usize = 12;
+/// Largest factor of the noise in a step.
+const SLOWEST: f64 = 0.99;
+/// Residual in contact, in units of the noise, of a model that does not describe the curve.
+pub(super) const MISFIT: f64 = 1.5;
+/// Coordinate of a work of adhesion below which one without adhesion is tried: a few times that which the noise hides.
+const CLOSE: f64 = 2.5;
+/// Residual in units of the noise of a force beyond all numbers.
+const FAR: f64 = 1e12;
+/// Bases of evenly scattered points.
+const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
+
+/// What a search has found.
+pub(super) struct Found {
+    /// The member of the least residuals.
+    pub best: Member,
+    /// Noise of the samples over the noise of the curve: the residual where it is larger.
+    pub noise: f64,
+    /// Members that are distributed as the noise has it.
+    pub samples: Vec<Vec<f64>>,
+    /// Costs of each sample at its noise over each block of the curve; empty where the model describes the curve.
+    pub blocks: Vec<Vec<f64>>,
+    /// Least cost without adhesion less the cost of the best member; infinite if no sample comes close to no adhesion.
+    pub without_adhesion: f64,
+}
+
+/// A search on one profile.
+pub(super) struct Search<'a> {
+    pub space: &'a Space<'a>,
+    pub model: Model<'a>,
+    pub lines: Vec<Vec<f64>>,
+    /// Receives the number of computed curves.
+    pub report: &'a mut dyn FnMut(usize),
+}
+
+impl Search<'_> {
+    fn member(&mut self, at: Vec<f64>) -> Result<Member, ExperimentError> {
+        if (self.space.stop)() {
+            return Err(ContactError::Interrupted.into());
+        }
+        (self.report)(self.model.evaluations);
+        let forces = self.model.forces(&self.space.values(&at))?;
+        let measured = self.space.curve.force.iter().zip(&forces);
+        let rest = |(measured, model): (&f64, &f64)| (measured - model) / self.space.curve.noise;
+        let rests = measured.map(rest).map(|rest| if rest.is_finite() { rest } else { FAR }).collect();
+        Ok(Member { at, rests })
+    }
+
+    /// Residuals without the lines of zero and drift, for which residuals beyond a limit count as the limit.
+    pub fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
+        let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
+        let mut refined = rests.to_vec();
+        for line in &self.lines {
+            let along = dot(&clamped, line);
+            refined.iter_mut().zip(line).for_each(|(rest, line)| *rest -= along * line);
+        }
+        refined
+    }
+
+    /// Residual in contact in units of the noise, see [`Space::misfit`], with lines that are estimated at this noise.
+    fn misfit(&self, member: &Member, noise: f64) -> f64 {
+        self.space.misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
+    }
+
+    /// Sum of the [`loss`] of all points at a noise over the noise of the curve.
+    fn cost(&self, member: &Member, noise: f64) -> f64 {
+        self.refined(&member.rests, WRONG_SIDE * noise).iter().map(|rest| loss(rest / noise)).sum()
+    }
+
+    /// Costs over each block of the curve.
+    fn block_costs(&self, member: &Member, noise: f64) -> Vec<f64> {
+        let rests = self.refined(&member.rests, WRONG_SIDE * noise);
+        let cost = |block: Range<usize>| rests[block].iter().map(|rest| loss(rest / noise)).sum();
+        self.space.blocks().into_iter().map(cost).collect()
+    }
+
+    /// Points evenly scattered over the ranges, others in each attempt.
+    fn scattered(&mut self, attempt: usize) -> Result<Vec<Member>, ExperimentError> {
+        let coordinates = &self.space.coordinates;
+        let start = self.space.start();
+        let count = SCAN * start.len();
+        let mut members = Vec::with_capacity(count + 1);
+        for number in attempt * count + 1..=(attempt + 1) * count {
+            let rows = coordinates.iter().zip(PRIMES).zip(&start);
+            let of = rows.map(|((one, prime), start)| {
+                match (one.parameter, one.ends(), share_of(number, prime)) {
+                    // Rough bodies touch before the force exceeds the noise.
+                    (Parameter::Offset, (low, high), share) => (start + 8.0 * share - 6.5).clamp(low, high),
+                    (Parameter::Zero, _, share) => start + 0.1 * (share - 0.5),
+                    (_, (low, high), share) => low + share * (high - low),
+                }
+            });
+            let at = of.collect();
+            members.push(self.member(at)?);
+        }
+        Ok(members)
+    }
+
+    /// Finds the member of the least residuals, and coordinates that are distributed as the noise has it. A population is drawn
+    /// anew at other points if its residuals exceed the noise, as one in thirty ends in another minimum and one in 200 twice, if
+    /// it has missed a better start, which is then a member of the next one, or if it has not spread.
+    pub fn find(&mut self) -> Result<Found, ExperimentError> {
+        let mut generator = ChaCha8Rng::seed_from_u64(SEED);
+        self.model.noise = 1.0;
+        let start = self.member(self.space.start())?;
+        let mut population = self.anneal(0, None, &mut generator)?;
+        for attempt in 1..ATTEMPTS {
+            let is_poor = self.cost(&population.best, 1.0) > EXPECTED * 0.5 * start.rests.len() as f64;
+            let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;
+            let has_spread = population.has_spread();
+            if has_spread && !has_missed && !is_poor {
+                break;
+            }
+            let other = self.anneal(attempt, has_missed.then_some(&start), &mut generator)?;
+            let noise = population.noise.min(other.noise);
+            if !has_spread || self.cost(&other.best, noise) < self.cost(&population.best, noise) {
+                population = other;
+            }
+        }
+        population.keep(&start, self.cost(&start, population.noise));
+        let noise = self.misfit(&population.best, population.noise).max(1.0);
+        self.set_noise(&mut population, noise);
+        for _ in 0..MOVES {
+            self.move_all(&mut population, &mut generator)?;
+        }
+        let (mut samples, mut blocks) = (Vec::new(), Vec::new());
+        for _ in 0..LAST_MOVES {
+            self.move_all(&mut population, &mut generator)?;
+            samples.extend(population.members.iter().map(|member| member.at.clone()));
+            if noise > MISFIT {
+                blocks.extend(population.members.iter().map(|member| self.block_costs(member, noise)));
+            }
+        }
+        if !population.has_spread() {
+            let fault = format!("the search ends at {} values of the parameters", population.distinct());
+            return refused(
+                fault,
+                "more; other ranges of the parameters by --free NAME=A..B, or a larger --noise",
+            );
+        }
+        let without_adhesion = self.without_adhesion(&population, &samples)?;
+        Ok(Found { best: population.best, noise, samples, blocks, without_adhesion })
+    }
+
+    /// Coordinates of the best member of one population.
+    pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
+        Ok(self.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
+    }
+
+    /// Least cost without adhesion less the cost of the best member; infinite if no sample comes close to no adhesion.
+    fn without_adhesion(
+        &mut self,
+        population: &Population,
+        samples: &[Vec<f64>],
+    ) -> Result<f64, ExperimentError> {
+        let is_work = |one: &Coordinate| one.parameter == Parameter::Work && one.range.0 == 0.0;
+        let mut least = f64::INFINITY;
+        if let Some(work) = self.space.coordinates.iter().position(is_work)
+            && samples.iter().any(|at| at[work] < CLOSE)
+        {
+            for member in &population.members {
+                let mut at = member.at.clone();
+                at[work] = 0.0;
+                let member = self.member(at)?;
+                least = least.min(self.cost(&member, population.noise) - population.cost);
+            }
+        }
+        Ok(least)
+    }
+
+    /// A population at the noise of the curve, or at a part of the residual: with more members and coarse forces while the
+    /// noise is large.
+    fn anneal(
+        &mut self,
+        attempt: usize,
+        start: Option<&Member>,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<Population, ExperimentError> {
+        self.model.noise = COARSE;
+        let mut members = self.scattered(attempt)?;
+        members.extend(start.cloned());
+        let misfit = |member: &&Member| self.misfit(member, f64::INFINITY);
+        let best = members.iter().min_by(|one, other| misfit(one).total_cmp(&misfit(other)));
+        let best = best.cloned().ok_or(ContactError::Internal("no values have been drawn"))?;
+        let (costs, noise) = (vec![0.0; members.len()], f64::INFINITY);
+        let mut population = Population { members, costs, noise, best, cost: f64::INFINITY };
+        let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
+        loop {
+            let least = (self.misfit(&population.best, population.noise) / DEEPER).max(1.0);
+            if population.noise <= least {
+                self.refine(&mut population)?;
+                return Ok(population);
+            }
+            let (noise, weights) = self.cooler(&population, least);
+            let count = if noise > COARSE { MORE * count } else { count };
+            population.members = drawn(&population.members, &weights, count, generator.random());
+            if noise < COARSE {
+                self.refine(&mut population)?;
+            }
+            self.set_noise(&mut population, noise);
+            for _ in 0..MOVES {
+                self.move_all(&mut population, generator)?;
+            }
+        }
+    }
+
+    /// Computes the exact forces of a population of which the forces are coarse.
+    fn refine(&mut self, population: &mut Population) -> Result<(), ExperimentError> {
+        if self.model.noise > 1.0 {
+            self.model.noise = 1.0;
+            for member in population.members.iter_mut().chain([&mut population.best]) {
+                *member = self.member(std::mem::take(&mut member.at))?;
+            }
+            self.set_noise(population, population.noise);
+        }
+        Ok(())
+    }
+
+    /// Weighs a population by this noise.
+    fn set_noise(&self, population: &mut Population, noise: f64) {
+        population.costs = population.members.iter().map(|member| self.cost(member, noise)).collect();
+        (population.noise, population.cost) = (noise, self.cost(&population.best, noise));
+        let best = (0..population.costs.len())
+            .min_by(|&one, &other| population.costs[one].total_cmp(&population.costs[other]));
+        if let Some(best) = best {
+            population.keep(&population.members[best].clone(), population.costs[best]);
+        }
+    }
+
+    /// The next noise, at least `least`, and the weights of the members there.
+    fn cooler(&self, population: &Population, least: f64) -> (f64, Vec<f64>) {
+        let weights = |noise: f64| -> Vec<f64> {
+            let pairs = population.members.iter().zip(&population.costs);
+            let changes: Vec<f64> = pairs.map(|(member, cost)| cost - self.cost(member, noise)).collect();
+            let largest = ends(changes.iter().copied()).1;
+            changes.iter().map(|change| (change - largest).exp()).collect()
+        };
+        let enough = EFFECTIVE * population.members.len() as f64;
+        let is_enough =
+            |weights: &[f64]| weights.iter().sum::<f64>().powi(2) >= enough * dot(weights, weights);
+        let found = weights(least);
+        if is_enough(&found) {
+            return (least, found);
+        }
+        let (mut low, mut high) = (least, population.noise.min(LARGE));
+        for _ in 0..HALVINGS {
+            let middle = (low * high).sqrt();
+            *if is_enough(&weights(middle)) { &mut high } else { &mut low } = middle;
+        }
+        // Never the same again.
+        let next = if high < population.noise { high } else { SLOWEST * high };
+        (next, weights(next))
+    }
+
+    /// Moves each member by the difference of two others (ter Braak, Stat. Comput. 16, 239, 2006) or by a random step along one
+    /// coordinate, or leaves it where it is.
+    fn move_all(
+        &mut self,
+        population: &mut Population,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<(), ExperimentError> {
+        let usual = 2.38 / (2.0 * self.space.coordinates.len() as f64).sqrt();
+        let count = population.members.len();
+        for index in 0..count {
+            let here = &population.members[index].at;
+            let mut at = here.clone();
+            let length: f64 = generator.random();
+            if generator.random::<f64>() < RANDOM {
+                let moved = generator.random_range(0..at.len());
+                let (low, high) = self.space.coordinates[moved].ends();
+                at[moved] +=
+                    (high - low) * (2.0 * length - 1.0) * 10_f64.powf(-DECADES * generator.random::<f64>());
+            } else {
+                let [one, other] = [(); 2].map(|()| &population.members[generator.random_range(0..count)].at);
+                let differences = one.iter().zip(other).map(|(one, other)| one - other);
+                at.iter_mut().zip(differences).for_each(|(at, by)| *at += usual * (0.5 + length) * by);
+            }
+            let chance: f64 = generator.random();
+            let is_within = |(at, one): (&f64, &Coordinate)| (one.ends().0..=one.ends().1).contains(at);
+            if at == *here || !at.iter().zip(&self.space.coordinates).all(is_within) {
+                continue;
+            }
+            let member = self.member(at)?;
+            let cost = self.cost(&member, population.noise);
+            if chance < (population.costs[index] - cost).exp() {
+                population.keep(&member, cost);
+                (population.members[index], population.costs[index]) = (member, cost);
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::curve::MeasuredCurve;
+    use super::super::made::{on_rubber, read, rubber};
+    use super::super::options::Drift;
+    use super::*;
+    use asperity_scene::Simulation;
+
+    const FREE: [Parameter; 4] = [Parameter::Work, Parameter::Modulus, Parameter::Offset, Parameter::Zero];
+
+    /// Does this with a search on rubber without adhesion, the stated noise of which is this multiple of the true one.
+    fn searched(times: f64, of: impl Fn(&mut Search, &MeasuredCurve)) {
+        let mut curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        curve.noise *= times;
+        let coordinate = |parameter| match parameter {
+            Parameter::Work => Coordinate { parameter, start: 1e-3, range: (0.0, 0.1), unit: 1e-3 },
+            Parameter::Modulus => Coordinate { parameter, start: 2e6, range: (1e6, 4e6), unit: 1.0 },
+            Parameter::Offset => Coordinate { parameter, start: 2e-6, range: (0.0, 4e-6), unit: 1e-7 },
+            _ => Coordinate { parameter, start: 0.0, range: (-1e-6, 1e-6), unit: 1e-7 },
+        };
+        let space = Space {
+            base: [1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 7.5e-6],
+            coordinates: FREE.map(coordinate).into(),
+            most_on_closing: f64::INFINITY,
+            curve: &curve,
+            stop: &|| false,
+        };
+        let mut simulation = Simulation::default();
+        let model = Model::new(&curve, on_rubber(1e-3, 2e6).scene(), &mut simulation);
+        of(&mut Search { space: &space, model, report: &mut |_| (), lines: space.lines() }, &curve);
+    }
+
+    #[test]
+    fn a_population_is_scattered_over_the_ranges() {
+        searched(1.0, |search, _| {
+            let scattered = [0, 1].map(|attempt| search.scattered(attempt).unwrap());
+            let expected =
+                [(0.0, 100.0_f64.asinh()), (1e6_f64.ln(), 4e6_f64.ln()), (13.5, 21.5), (-0.05, 0.05)];
+            for members in &scattered {
+                assert_eq!(members.len(), SCAN * FREE.len());
+                for (index, (low, high)) in expected.into_iter().enumerate() {
+                    let (least, most) = ends(members.iter().map(|member| member.at[index]));
+                    let width = high - low;
+                    assert!(low <= least && least < low + 0.03 * width, "{index}: {least}");
+                    assert!(high - 0.03 * width < most && most <= high, "{index}: {most}");
+                    let mean =
+                        members.iter().map(|member| member.at[index]).sum::<f64>() / members.len() as f64;
+                    assert!((mean - 0.5 * (low + high)).abs() < 0.02 * width, "{index}: {mean}");
+                }
+            }
+            let is_in_both = |member: &Member| scattered[1].iter().any(|other| other.at == member.at);
+            assert!(!scattered[0].iter().any(is_in_both));
+        });
+    }
+
+    #[test]
+    fn a_population_ends_at_the_noise_of_the_curve_with_exact_forces() {
+        searched(1.0, |search, _| {
+            let population = search.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED)).unwrap();
+            assert_eq!((population.members.len(), population.noise), (MEMBERS + FOR_EACH * FREE.len(), 1.0));
+            assert!(population.has_spread() && search.model.noise == 1.0);
+            let exact = search.member(population.best.at.clone()).unwrap();
+            assert_eq!(exact.rests, population.best.rests);
+            assert_eq!(search.cost(&exact, 1.0), population.cost);
+            assert!(population.costs.iter().all(|cost| *cost >= population.cost));
+        });
+    }
+
+    /// Residuals of 1000 noises: the noise ends at a part of them, where the population is still the larger one, of exact forces.
+    #[test]
+    fn a_population_at_large_noise_is_larger() {
+        searched(1e-3, |search, _| {
+            let population = search.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED)).unwrap();
+            let count = MORE * (MEMBERS + FOR_EACH * FREE.len());
+            assert!(population.noise > COARSE && population.members.len() == count);
+            let exact = search.member(population.best.at.clone()).unwrap();
+            assert_eq!(exact.rests, population.best.rests);
+        });
+    }
+
+    /// The costs of blocks are parts of the cost of the curve, at the same noise.
+    #[test]
+    fn costs_of_blocks_add_up() {
+        searched(1.0, |search, curve| {
+            let mut rests = vec![6.0; curve.force.len()];
+            rests[150] = 300.0;
+            let member = Member { at: search.space.start(), rests };
+            let blocks = search.block_costs(&member, 3.0);
+            let sum = 2.0 * curve.free as f64 + blocks.iter().sum::<f64>();
+            assert!((search.cost(&member, 3.0) / sum - 1.0).abs() < 1e-12, "{sum}");
+            assert!((blocks[0] - 2.0 * ((100 - curve.free) / 4) as f64).abs() < 1e-9, "{blocks:?}");
+            assert!((sum - 2.0 * 199.0 - loss(100.0)).abs() < 1e-9, "{sum}");
+        });
+    }
+}

@@ -1,0 +1,286 @@
+//! The coordinates in which a scene is fitted, and the parts of the curve beside it.
+
+use super::baseline::ends;
+use super::curve::MeasuredCurve;
+use super::parameter::{Coordinate, FitOptions, Free, Parameter, Values};
+use super::population::WRONG_SIDE;
+use super::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
+use super::statistics::{PARTS, scale};
+use super::{ExperimentError, refused};
+use asperity_data::format_quantity;
+use asperity_scene::Simulation;
+use asperity_scene::{Document, Solver};
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Factor from the start to the ends of a range that is not given.
+const FACTOR: f64 = 30.0;
+/// Pull-off force of a smooth body over the pull-off force of the curve up to which the coordinate of the work of adhesion is
+/// linear, if the noise does not hide more.
+const LINEAR: f64 = 0.01;
+
+/// The coordinates in which a scene is fitted, from these values on.
+pub(super) struct Space<'a> {
+    pub base: Values,
+    pub coordinates: Vec<Coordinate>,
+    /// Largest work of adhesion on closing, J/m².
+    pub most_on_closing: f64,
+    pub curve: &'a MeasuredCurve,
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Refuses parameters of which there are none, or one twice.
+fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
+    if free.is_empty() {
+        let names = Parameter::ALL.map(Parameter::name).join(", ");
+        return refused("no free parameter", format!("one or more of {names}"));
+    }
+    for (index, Free { parameter, .. }) in free.iter().enumerate() {
+        if free[..index].iter().any(|other| other.parameter == *parameter) {
+            return refused(format!("{} is free twice", parameter.name()), "each parameter once");
+        }
+    }
+    Ok(())
+}
+
+impl<'a> Space<'a> {
+    /// Checks parameters and scene; returns the document with a work of adhesion, and the coordinates of the fit.
+    pub fn of(
+        curve: &'a MeasuredCurve,
+        document: &Document,
+        simulation: &mut Simulation,
+        options: &FitOptions,
+        stop: &'a (dyn Fn() -> bool + Sync),
+    ) -> Result<(Document, Self), ExperimentError> {
+        check_free(&options.free)?;
+        let scene = document.scene();
+        if scene.numerics.solver != Solver::Exact {
+            return refused(
+                "numerics.solver = Stepwise: a fit needs the exact solver",
+                "numerics.solver = Exact",
+            );
+        }
+        if options.lines > 1 && scene.seed().is_none() {
+            return refused("--lines: the scene has no random profile", "a scene with random roughness");
+        }
+        let is_free = |parameter| options.free.iter().any(|free| free.parameter == parameter);
+        let radius = radius_of(scene);
+        if is_free(Parameter::Radius) && radius.is_none() {
+            return refused(
+                "radius: the form of the scene has none",
+                "form = Paraboloid, WavySphere or Punch",
+            );
+        }
+        let (low, high) = ends(curve.force.iter().copied());
+        // Work of adhesion of a smooth body with this pull-off force.
+        let smooth = |force: f64, modulus: f64| {
+            let of_sphere = radius.map(|radius| force / (1.5 * PI * radius));
+            let of_flat = force.powi(2) / (PI * modulus * scene.length.powi(3));
+            of_sphere
+                .into_iter()
+                .chain([of_flat])
+                .find(|work| work.is_finite() && *work > 0.0)
+                .unwrap_or(0.05)
+        };
+        let pull_off = curve.noise.max(-low);
+        let (_, governing) = simulation.contact(scene)?;
+        let of_curve = smooth(pull_off, governing.effective_modulus);
+        let least_work = smooth(curve.noise.max(LINEAR * pull_off), governing.effective_modulus);
+        let work = is_free(Parameter::Work).then_some(of_curve);
+        let document = written_out(document, &governing, work).map_err(wrong)?;
+        let (_, governing) = simulation.contact(document.scene())?;
+        if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
+            return refused(
+                format!("{}: the scene has no adhesion", Parameter::ClosingWork.name()),
+                "adhesion.work above 0, or a free work of adhesion too",
+            );
+        }
+        let mut base = values_of(document.scene(), &governing);
+        let (touch, turn) = (curve.touch, curve.turns[0]);
+        if turn <= touch {
+            let [touch, turn] = [touch, turn].map(|at| format_quantity(at, "m"));
+            return refused(
+                format!("the contact begins at {touch}, and the displacement turns at {turn}"),
+                "a contact before the first turning point",
+            );
+        }
+        // Of the force.
+        let extent = (high - low).max(curve.noise);
+        base[Parameter::Offset as usize] = touch;
+        let stiffness = &mut base[Parameter::Stiffness as usize];
+        if is_free(Parameter::Stiffness) && stiffness.is_infinite() {
+            *stiffness = 10.0 * extent / (turn - touch);
+        }
+        let mut coordinates = Vec::new();
+        for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
+            let start = base[parameter as usize];
+            let given =
+                options.free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
+            let range = given.unwrap_or_else(|| match parameter {
+                Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
+                Parameter::Zero => (-extent, extent),
+                Parameter::Work => (0.0, start.max(of_curve) * FACTOR),
+                Parameter::ClosingWork if is_free(Parameter::Work) => {
+                    (0.0, base[Parameter::Work as usize].max(of_curve) * FACTOR)
+                }
+                Parameter::ClosingWork => (0.0, base[Parameter::Work as usize]),
+                _ => (start / FACTOR, start * FACTOR),
+            });
+            let start = start.clamp(range.0, range.1);
+            base[parameter as usize] = start;
+            let unit = match parameter {
+                Parameter::Work => least_work,
+                // A tenth of the change that the parameter makes at most.
+                Parameter::Zero => 0.1 * extent,
+                _ => 0.1 * (turn - touch),
+            };
+            coordinates.push(Coordinate { parameter, start, range, unit });
+        }
+        let most_on_closing = most_on_closing(document.scene());
+        Ok((document, Space { base, coordinates, most_on_closing, curve, stop }))
+    }
+
+    /// Values of all parameters at these coordinates.
+    pub fn values(&self, at: &[f64]) -> Values {
+        let mut values = self.base;
+        for (coordinate, &at) in self.coordinates.iter().zip(at) {
+            values[coordinate.parameter as usize] = coordinate.value(at, &values);
+            if coordinate.parameter == Parameter::Work {
+                let work = values[Parameter::Work as usize];
+                values[Parameter::ClosingWork as usize] = work.min(self.most_on_closing);
+            }
+        }
+        values
+    }
+
+    /// Coordinates of the start.
+    pub fn start(&self) -> Vec<f64> {
+        self.coordinates.iter().map(|one| one.of(one.start, &self.base)).collect()
+    }
+
+    /// Consecutive parts of each segment in contact, which depend on each other less than points do.
+    pub fn blocks(&self) -> Vec<Range<usize>> {
+        let (mut blocks, mut from) = (Vec::new(), self.curve.free);
+        for segment in self.curve.segment[from..].chunk_by(|one, next| one == next) {
+            let end = |part: usize| from + segment.len() * part / PARTS;
+            blocks.extend((0..PARTS).map(|part| end(part)..end(part + 1)));
+            from += segment.len();
+        }
+        blocks
+    }
+
+    /// Straight lines of the curve that are refined with each model, see [`MeasuredCurve::lines`].
+    pub fn lines(&self) -> Vec<Vec<f64>> {
+        let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
+        self.curve.lines(has_zero)
+    }
+
+    /// Root mean square residual in contact, in units of the noise; see [`scale`].
+    pub fn misfit(&self, rests: &[f64]) -> f64 {
+        scale(&rests[self.curve.free..], WRONG_SIDE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::baseline::dot;
+    use super::super::made::{on_rubber, read, rubber};
+    use super::super::options::Drift;
+    use super::*;
+
+    fn space<'a>(curve: &'a MeasuredCurve, parameters: &[Parameter]) -> Space<'a> {
+        let coordinate = |&parameter| Coordinate { parameter, start: 2.0, range: (1.0, 4.0), unit: 0.5 };
+        Space {
+            base: [3.0, 3.0, 5.0, 0.0, 0.0, 7.0, 1.0],
+            coordinates: parameters.iter().map(coordinate).collect(),
+            most_on_closing: 1.5,
+            curve,
+            stop: &|| false,
+        }
+    }
+
+    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) of a sphere (JKR) and F²/(π E* L³) of a punch as
+    /// long as the profile (Kendall).
+    #[test]
+    fn a_fit_begins_with_the_work_of_a_smooth_body() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let pull_off = curve.noise.max(-ends(curve.force.iter().copied()).0);
+        let (sphere, punch) =
+            (pull_off / (1.5 * PI * 7.5e-6), pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)));
+        for (form, expected) in [("Paraboloid(radius: 7.5e-6)", sphere), ("None", punch)] {
+            let changes = [("form", form), ("adhesion", "None")];
+            let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
+            let document = on_rubber(1e-3, 2e6).set_all(&changes).unwrap();
+            let options = FitOptions { free: vec!["work".parse().unwrap()], lines: 1, jobs: 1 };
+            let mut simulation = Simulation::default();
+            let (_, space) = Space::of(&curve, &document, &mut simulation, &options, &|| false).unwrap();
+            let Coordinate { start, range, .. } = space.coordinates[0];
+            assert!((start / expected - 1.0).abs() < 1e-12, "{form}: {start:e} {expected:e}");
+            assert!(
+                (range.1 / (FACTOR * expected) - 1.0).abs() < 1e-12 && range.0 == 0.0,
+                "{form}: {range:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn parameters_are_named_once_each() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let refused = |free: &[&str]| {
+            let free = free.iter().map(|one| one.parse().unwrap()).collect();
+            let options = FitOptions { free, lines: 1, jobs: 1 };
+            let found =
+                Space::of(&curve, &on_rubber(1e-3, 2e6), &mut Simulation::default(), &options, &|| false);
+            found.map(|_| ()).unwrap_err().to_string()
+        };
+        assert!(refused(&[]).starts_with("no free parameter; allowed: one or more of work, closing_work"));
+        assert_eq!(refused(&["work", "work"]), "work is free twice; allowed: each parameter once");
+    }
+
+    #[test]
+    fn blocks_are_parts_of_the_segments_in_contact() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let blocks = space(&curve, &[]).blocks();
+        assert_eq!(blocks.len(), 2 * PARTS);
+        assert_eq!(
+            (blocks[0].start, blocks[3].end, blocks[4].start, blocks[7].end),
+            (curve.free, 100, 100, 200)
+        );
+        assert!(blocks.windows(2).all(|pair| pair[0].end == pair[1].start));
+        assert!(blocks.iter().all(|block| (10..=25).contains(&block.len())), "{blocks:?}");
+    }
+
+    #[test]
+    fn zero_and_drift_are_lines_at_right_angles() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Remove);
+        let [zero, drift] = &space(&curve, &[Parameter::Work]).lines()[..] else { panic!("two lines") };
+        for (one, other, product) in [(zero, zero, 1.0), (drift, drift, 1.0), (zero, drift, 0.0)] {
+            assert!((dot(one, other) - product).abs() < 1e-12);
+        }
+        assert!(zero.iter().all(|value| *value == zero[0]));
+        let step = drift[1] - drift[0];
+        assert!(step > 0.0 && drift.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-12));
+        let lines = space(&curve, &[Parameter::Zero]).lines();
+        // A zero that is free is no line.
+        let [drift] = &lines[..] else { panic!("one line") };
+        let step = drift[1] - drift[0];
+        assert!(step > 0.0 && drift.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-12));
+        let kept = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        assert_eq!(space(&kept, &[Parameter::Work]).lines().len(), 1);
+    }
+
+    #[test]
+    fn a_work_that_is_found_holds_on_closing_too_up_to_that_of_the_scene() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let space = space(&curve, &[Parameter::Work, Parameter::Modulus]);
+        let start = space.start();
+        assert_eq!(start, [4.0_f64.asinh(), 2.0_f64.ln()]);
+        let values = space.values(&start);
+        assert!((values[0] - 2.0).abs() < 1e-12 && values[1] == 1.5 && (values[2] - 2.0).abs() < 1e-12);
+        assert!((space.values(&[2.0_f64.asinh(), 0.0])[1] - 1.0).abs() < 1e-12);
+        assert_eq!(values[5..], [7.0, 1.0]);
+        let mut rests = vec![100.0; curve.force.len()];
+        rests[curve.free..].fill(-3.0);
+        assert!((space.misfit(&rests) - 3.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,154 @@
+//! Statistics of samples and residuals.
+
+use super::baseline::dot;
+use asperity_data::{mean, standard_deviation};
+
+/// Fewest ranges without correlation in a curve.
+const RANGES: usize = 20;
+
+/// Parts of each segment that are blocks of a curve.
+pub(super) const PARTS: usize = 4;
+
+/// Root mean square of residuals, where larger ones than `cut` times this scale count as `cut` times the scale (Huber, Robust Statistics,
+/// proposal 2): single ones on the wrong side of a jump count little, while all may be as large as they are.
+pub(super) fn scale(residuals: &[f64], cut: f64) -> f64 {
+    let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();
+    squares.sort_by(f64::total_cmp);
+    let (mut sum, mut count) = (squares.iter().sum::<f64>(), squares.len() as f64);
+    let is_beyond =
+        |largest: &f64, sum: f64, count: f64| count > cut * cut && largest * count > cut * cut * sum;
+    while squares.pop().is_some_and(|largest| is_beyond(&largest, sum, count)) {
+        // With one residual less it is (sum + beyond · cut² · scale²)/count = scale².
+        (sum, count) = (squares.iter().sum(), count - cut * cut);
+    }
+    (sum / count).sqrt()
+}
+
+/// Standard error of a value by the scatter over blocks of the curve, from samples of the value and their costs over each block
+/// (infinitesimal jackknife; Giordano and Broderick, arXiv 2305.06466): where a model does not describe a curve, its residuals
+/// are no independent noise, and each block would have other values. Blocks are joined up to whole segments; the largest
+/// error counts.
+pub(super) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
+    let (count, average) = (values.len() as f64, mean(values));
+    let influence = |block: usize| {
+        values.iter().zip(blocks).map(|(value, costs)| (value - average) * costs[block]).sum::<f64>() / count
+    };
+    let influences: Vec<f64> = (0..blocks.first().map_or(0, Vec::len)).map(influence).collect();
+    let error = |joined: usize| {
+        let of: Vec<f64> = influences.chunks(joined).map(|part| part.iter().sum()).collect();
+        let average = mean(&of);
+        of.iter().map(|one| (one - average).powi(2)).sum::<f64>().sqrt()
+    };
+    [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
+}
+
+/// Factor of the variance of a mean of residuals by their correlation along the curve: 1 without one.
+pub(super) fn correlated(residuals: &[f64]) -> f64 {
+    let square = dot(residuals, residuals);
+    let least = 2.0 / (residuals.len() as f64).sqrt();
+    let correlations = (1..residuals.len() / RANGES).map(|lag| dot(residuals, &residuals[lag..]) / square);
+    1.0 + 2.0 * correlations.take_while(|correlation| *correlation > least).sum::<f64>()
+}
+
+fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
+    samples.iter().map(|sample| sample[index]).collect()
+}
+
+/// Multiplies the deviations of samples from their mean by a factor.
+pub(super) fn widen(samples: &mut [Vec<f64>], factor: f64) {
+    for index in 0..samples.first().map_or(0, Vec::len) {
+        let mean = mean(&column(samples, index));
+        samples.iter_mut().for_each(|sample| sample[index] = mean + factor * (sample[index] - mean));
+    }
+}
+
+/// Standard deviation, and 2.5 % and 97.5 % quantiles.
+pub(super) fn spread(mut values: Vec<f64>) -> (f64, (f64, f64)) {
+    values.sort_by(f64::total_cmp);
+    let quantile = |share: f64| values[((share * values.len() as f64) as usize).min(values.len() - 1)];
+    (standard_deviation(&values, mean(&values)), (quantile(0.025), quantile(0.975)))
+}
+
+/// Correlation of two coordinates over samples, 0 of one that does not vary.
+pub(super) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
+    let [one, other] = pair.map(|index| {
+        let mut values = column(samples, index);
+        let mean = mean(&values);
+        values.iter_mut().for_each(|value| *value -= mean);
+        values
+    });
+    let squares = dot(&one, &one) * dot(&other, &other);
+    if squares > 0.0 { dot(&one, &other) / squares.sqrt() } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_close(one: f64, other: f64) -> bool {
+        (one - other).abs() < 1e-12 * other.abs()
+    }
+
+    #[test]
+    fn single_residuals_beyond_the_scale_count_little() {
+        // 98 of 1, and two that count as 5 times the scale: scale² = (98 + 2 · 25 scale²)/100.
+        let mut residuals = vec![1.0; 98];
+        residuals.extend([-1000.0, 1e12]);
+        assert!(is_close(scale(&residuals, 5.0), (98.0_f64 / 50.0).sqrt()));
+        // Where all are large they are what the scale is, and the lesser ones count as they are.
+        assert!(is_close(scale(&[350.0, -350.0, 350.0], 5.0), 350.0));
+        assert!(is_close(scale(&[3.0, 4.0, 0.0, 0.0], 5.0), 2.5));
+        assert_eq!(scale(&[0.0; 30], 5.0), 0.0);
+    }
+
+    #[test]
+    fn the_error_by_blocks_is_that_of_their_influence() {
+        // Values ±1 and costs of slope ±2 over them: influences of 2 and -2 that alternate over 8 blocks.
+        let values: Vec<f64> = (0..64).map(|index| [-1.0, 1.0][index % 2]).collect();
+        let costs = |slope: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
+            values.iter().map(|value| (0..8).map(|block| 7.0 + value * slope(block)).collect()).collect()
+        };
+        let alternating = block_error(&values, &costs(&|block| [2.0, -2.0][block % 2]));
+        assert!(is_close(alternating, 32.0_f64.sqrt()), "{alternating}");
+        // Approach against retraction: joined to two segments, of influences of 8 and -8.
+        let branches = block_error(&values, &costs(&|block| if block < 4 { 2.0 } else { -2.0 }));
+        assert!(is_close(branches, 128.0_f64.sqrt()), "{branches}");
+        // One block has no scatter, and a mean influence, which a population aside of the minimum has, is no scatter.
+        let error = block_error(&values, &costs(&|_| 2.0));
+        assert!(error.abs() < 1e-9, "{error}");
+        assert_eq!(
+            (block_error(&values, &[]), block_error(&[1.0, 2.0], &[vec![1.0], vec![3.0]])),
+            (0.0, 0.0)
+        );
+    }
+
+    #[test]
+    fn correlated_residuals_count_less() {
+        // Sines of 16 points a period, and their values in an order without correlation.
+        let sine = |index: usize| (std::f64::consts::TAU * index as f64 / 16.0).sin();
+        let smooth: Vec<f64> = (0..480).map(sine).collect();
+        let factor = correlated(&smooth);
+        // 1 + 2 Σ cos(2πn/16) up to the first that is close to 0.
+        let expected: f64 =
+            1.0 + 2.0 * (1..4).map(|lag| sine(4 + lag) * (480 - lag) as f64 / 480.0).sum::<f64>();
+        assert!((factor / expected - 1.0).abs() < 0.01, "{factor} {expected}");
+        let turned: Vec<f64> = (0..480).map(|index| sine(index * index * 7)).collect();
+        assert!(correlated(&turned) < 2.0, "{}", correlated(&turned));
+        let alternating: Vec<f64> = (0..480).map(|index| [1.0, -1.0][index % 2]).collect();
+        assert_eq!(correlated(&alternating), 1.0);
+    }
+
+    #[test]
+    fn samples_have_deviation_quantiles_and_correlation() {
+        let values: Vec<f64> = (0..=200).rev().map(f64::from).collect();
+        let (deviation, interval) = spread(values.clone());
+        assert!(is_close(deviation, (201.0_f64 * 202.0 / 12.0).sqrt()), "{deviation}");
+        assert_eq!(interval, (5.0, 195.0));
+        let mut samples: Vec<Vec<f64>> =
+            values.iter().map(|value| vec![*value, 3.0 - 2.0 * value, 5.0]).collect();
+        assert!(is_close(correlation(&samples, [0, 1]), -1.0));
+        assert_eq!(correlation(&samples, [0, 2]), 0.0);
+        widen(&mut samples, 2.0);
+        assert_eq!((samples[0][0], samples[200][0], samples[9][2]), (300.0, -100.0, 5.0));
+    }
+}

@@ -1,0 +1,345 @@
+//! The live map over κ or e_el/γ and H: a study in memory, computed from coarse to fine.
+
+use super::axis::Axis;
+use super::cells::Streak;
+use super::error::StudyError;
+use super::grid::Grid;
+use super::plan::Plan;
+use super::recorder::Recorder;
+use super::results::Results;
+use asperity_scene::Simulation;
+use std::collections::BTreeMap;
+
+/// Number of springs above which a map gets fewer cells, and still fewer far above.
+const MANY: u64 = 1 << 14;
+const VERY_MANY: u64 = 1 << 17;
+
+/// Resolution of a map. Every level contains the cells of the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// 5 × 5 cells.
+    Coarse,
+    /// 9 × 9 cells.
+    Medium,
+    /// 17 values of κ or e_el/γ, all of H.
+    Fine,
+    /// All cells.
+    Whole,
+}
+
+impl Level {
+    /// All levels, the coarsest first.
+    pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
+
+    /// Finest level of maps with this number of springs: waves that need very many have fewer cells.
+    fn finest(springs: u64) -> Level {
+        let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
+        Level::ALL[3 - too_fine]
+    }
+
+    /// Places of the level on an axis, at about equal distances; all of an axis with few more.
+    fn places(self, axis: &Axis) -> Vec<usize> {
+        let (wanted, all) = ([5, 9, 17, 33][self as usize], axis.values.len());
+        if 4 * all <= 5 * wanted {
+            return (0..all).collect();
+        }
+        let step = (all - 1) as f64 / (wanted - 1) as f64;
+        (0..wanted).map(|index| (step * index as f64).round_ties_even() as usize).collect()
+    }
+}
+
+/// A map with the cells computed so far.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveMap {
+    results: Results,
+    failed: BTreeMap<u64, String>,
+}
+
+impl LiveMap {
+    /// A map of a plan of [`live_plan`](crate::live_plan::live_plan()), without cells.
+    ///
+    /// # Errors
+    /// A map that is too large for the memory.
+    pub fn new(plan: Plan) -> Result<Self, StudyError> {
+        Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
+    }
+
+    /// The plan of all cells.
+    pub fn plan(&self) -> &Plan {
+        self.results.plan()
+    }
+
+    /// The cells of a level: for each H those of all κ or e_el/γ.
+    pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
+        let plan = self.plan();
+        let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
+        let (parameters, hursts) = (places(0), places(1));
+        let of_hurst = |&hurst| parameters.iter().map(|&at| plan.cell_at(&[at, hurst])).collect();
+        hursts.iter().map(of_hurst).collect()
+    }
+
+    /// Returns true for a computed cell, or one that cannot be computed.
+    fn is_known(&self, cell: u64) -> bool {
+        self.failed.contains_key(&cell) || self.results.is_whole(cell)
+    }
+
+    /// Sets the values of a cell on a profile, in the order of [`crate::live_plan::MAP_RECORD`].
+    pub fn set(&mut self, cell: u64, line: u64, values: &[f64]) {
+        self.results.set(cell * self.plan().lines + line, values);
+    }
+
+    fn levels(&self) -> impl Iterator<Item = Level> + use<> {
+        let finest = Level::finest(self.plan().scene.numerics.points);
+        Level::ALL.into_iter().filter(move |level| *level <= finest)
+    }
+
+    fn has(&self, level: &Level) -> bool {
+        self.cells(*level).concat().iter().all(|cell| self.is_known(*cell))
+    }
+
+    /// The finest complete level.
+    pub fn level(&self) -> Option<Level> {
+        self.levels().take_while(|level| self.has(level)).last()
+    }
+
+    /// Returns true for a complete map.
+    pub fn is_whole(&self) -> bool {
+        self.levels().all(|level| self.has(&level))
+    }
+
+    /// Computes the missing cells, from coarse to fine: all κ of an H are on the same profiles. `report` sees the map after
+    /// each H. Stops as soon as `stop` returns true and keeps the records so far. A cell that cannot be computed keeps the
+    /// reason.
+    pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
+        let plan = self.plan().clone();
+        let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
+        let rows: Vec<Vec<u64>> = self.levels().flat_map(|level| self.cells(level)).collect();
+        for row in rows {
+            if row.iter().all(|cell| self.is_known(*cell)) {
+                continue;
+            }
+            for (line, &cell) in (0..plan.lines).flat_map(|line| row.iter().map(move |cell| (line, cell))) {
+                if self.failed.contains_key(&cell) || self.results.has(cell, line) {
+                    continue;
+                }
+                if stop() {
+                    return;
+                }
+                match recorder.record(&Streak { cells: cell..cell + 1, line }) {
+                    Ok(records) => self.set(cell, line, &records.concat()),
+                    Err(error) if error.is_interruption() => return,
+                    Err(error) => drop(self.failed.insert(cell, error.to_string())),
+                }
+            }
+            report(self);
+        }
+    }
+
+    /// The map for display: H across, and κ or e_el/γ up as in the paper. Of too few profiles for a confidence, cells
+    /// have the range of the profiles alone.
+    pub fn grid(&self) -> Grid {
+        let last = self.plan().axes.len() - 1;
+        let mut grid =
+            self.results.grid((last, (last > 0).then_some(0)), vec![0; last + 1], self.results.layers());
+        for (number, cell) in (0..).zip(&mut grid.cells) {
+            if let Some(why) = self.failed.get(&number) {
+                *cell = Some(Err(why.clone()));
+            } else if !self.results.is_whole(number) {
+                *cell = None;
+            }
+            let statistics = cell.iter_mut().flatten().flat_map(|cell| &mut cell.statistics);
+            statistics.flatten().for_each(|all| all.spread = None);
+        }
+        grid.stand_ins = (0..self.plan().cells()).map(|cell| self.stand_in(cell) as usize).collect();
+        grid
+    }
+
+    /// The cell shown for this cell: itself or, until it is computed, one of a coarser level.
+    fn stand_in(&self, cell: u64) -> u64 {
+        let plan = self.plan();
+        let on_level = |level: Level| {
+            let near = |(place, axis): (usize, &Axis)| {
+                level.places(axis).into_iter().min_by_key(|one| one.abs_diff(place))
+            };
+            let places: Vec<usize> = plan.places(cell).into_iter().zip(&plan.axes).filter_map(near).collect();
+            Some(plan.cell_at(&places)).filter(|cell| self.is_known(*cell))
+        };
+        Level::ALL.into_iter().rev().find_map(on_level).unwrap_or(cell)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::live_plan::live_plan;
+    use crate::plan_text::Changes;
+    use crate::quantity::Quantity;
+    use crate::run::{Options, run};
+    use crate::shard::Shard;
+    use crate::store::Folder;
+    use crate::study_map::StudyMap;
+    use crate::tables::merge;
+    use asperity_scene::Regime;
+    use asperity_scene::{Adhesion, Roughness, RoughnessParameter, open, to_ron};
+    use std::cell::Cell;
+
+    const HURSTS: usize = 19;
+    const KAPPAS: usize = 33;
+
+    /// Map of a small scene over κ.
+    fn map() -> LiveMap {
+        map_over(RoughnessParameter::Kappa)
+    }
+
+    fn map_over(parameter: RoughnessParameter) -> LiveMap {
+        let document = open("pressure-sensitive").unwrap();
+        let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
+        let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = document.set_all(&small).unwrap();
+        LiveMap::new(live_plan(document.scene(), parameter).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn every_level_has_the_cells_of_the_one_before() {
+        let map = map();
+        let cells = Level::ALL.map(|level| map.cells(level));
+        assert_eq!(
+            cells.each_ref().map(|rows| (rows[0].len(), rows.len())),
+            [(5, 5), (9, 9), (17, 19), (33, 19)]
+        );
+        for pair in cells.map(|rows| rows.concat()).windows(2) {
+            assert!(pair[0].iter().all(|cell| pair[1].contains(cell)));
+        }
+        let places = |level: Level| level.places(&map.plan().axes[1]);
+        assert_eq!(places(Level::Coarse), [0, 4, 9, 14, 18]);
+        assert_eq!(places(Level::Medium), [0, 2, 4, 7, 9, 11, 14, 16, 18]);
+        assert_eq!(
+            [1024, MANY + 1, VERY_MANY + 1].map(Level::finest),
+            [Level::Whole, Level::Fine, Level::Medium]
+        );
+    }
+
+    #[test]
+    fn a_map_goes_from_coarse_to_fine_and_adhesion_falls_with_kappa() {
+        let (mut map, mut levels, mut rows) = (map(), Vec::new(), 0);
+        map.compute(&|| false, &mut |map| {
+            rows += 1;
+            levels.extend(map.level());
+        });
+        levels.dedup();
+        assert_eq!(levels, Level::ALL);
+        assert_eq!(rows, 5 + 9 + 19 + 19);
+        let grid = map.grid();
+        assert_eq!(grid.size(), (HURSTS, KAPPAS), "H across");
+        let shares = grid.statistics(Quantity::ZeroLoadAdhesionShare, false);
+        for column in 0..HURSTS {
+            let cell = |row| grid.shown(column, row).unwrap().0.clone().unwrap();
+            let regime = |row| cell(row).regimes[0].most().unwrap().0;
+            assert_eq!(regime(0), Regime::PressureInsensitive);
+            assert_eq!(regime(KAPPAS - 1), Regime::NonAdhesive);
+            assert!((0..KAPPAS).all(|row| cell(row).regimes[0].profiles() == 4));
+            let mean = |row: usize| shares[row * HURSTS + column].unwrap().mean;
+            assert!(mean(0) > 0.5 && mean(KAPPAS - 1) < 0.01);
+        }
+        let (_, column, row) = grid.nearest((0.31, Some(1.02))).unwrap();
+        assert_eq!((grid.up.as_ref().unwrap().values[row], grid.across.values[column]), (1.0, 0.3));
+        // The cell is the mean over its scenes.
+        let values = (0..map.plan().lines).map(|line| {
+            let mut scene = map.plan().scene.clone();
+            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0));
+            if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
+                (*hurst, *seed) = (0.3, *seed + line);
+            }
+            let scene = scene.checked().unwrap();
+            let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+            outcome.zero_load_adhesion_force.unwrap() / outcome.ideal_adhesion_force.unwrap()
+        });
+        let values: Vec<f64> = values.collect();
+        let shown = shares[row * HURSTS + column].unwrap();
+        let (low, high) =
+            (values.iter().copied().fold(1.0, f64::min), values.iter().copied().fold(0.0, f64::max));
+        assert_eq!((shown.range, shown.spread), ((low, high), None));
+        assert!((4.0 * shown.mean / values.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_map_of_a_study_of_the_same_cells_is_the_same() {
+        for parameter in RoughnessParameter::ALL {
+            let (mut live, rows) = (map_over(parameter), Cell::new(0));
+            live.compute(&|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+            let [up, across] = [0, 1].map(|axis| Level::Coarse.places(&live.plan().axes[axis]));
+            let list = |axis: usize, places: &[usize]| {
+                let value = |&place: &usize| format!("{:?}", live.plan().axes[axis].values[place]);
+                places.iter().map(value).collect::<Vec<_>>().join(", ")
+            };
+            let text = format!(
+                "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
+                 adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force], axes: [List(path: \"{}\", values: [{}]), \
+                 List(path: \"roughness.hurst\", values: [{}])])",
+                to_ron(&live.plan().scene),
+                live.plan().lines,
+                parameter.path(),
+                list(0, &up),
+                list(1, &across),
+            );
+            let plan = Plan::parse(&text, "map", &Changes::default()).unwrap();
+            let place = tempfile::tempdir().unwrap();
+            let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
+            run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+            merge(&folder, false).unwrap();
+            let study = StudyMap::open(folder.path()).unwrap().grid(0);
+            let (live, mut disagreeing) = (live.grid(), 0);
+            for (row, &kappa) in up.iter().enumerate() {
+                for (column, &hurst) in across.iter().enumerate() {
+                    let [mut studied, shown] = [study.shown(column, row), live.shown(hurst, kappa)]
+                        .map(|place| place.unwrap().0.clone().unwrap());
+                    studied.statistics.iter_mut().flatten().for_each(|all| all.spread = None);
+                    assert_eq!(studied, shown, "{parameter:?}, {column} {row}");
+                    disagreeing += u64::from(studied.regimes[0].most().unwrap().1 < 4);
+                }
+            }
+            assert!(disagreeing > 0, "no cell in which profiles differ");
+        }
+    }
+
+    #[test]
+    fn known_cells_are_not_computed_again() {
+        let mut once = map();
+        once.compute(&|| false, &mut |_| ());
+        let (mut map, rows) = (map(), Cell::new(0));
+        map.compute(&|| rows.get() == 7, &mut |_| rows.set(rows.get() + 1));
+        assert_eq!((rows.get(), map.level()), (7, Some(Level::Coarse)));
+        map.compute(&|| false, &mut |_| rows.set(rows.get() + 1));
+        assert_eq!(rows.get(), 5 + 9 + 19 + 19);
+        assert_eq!(map, once);
+        map.compute(&|| false, &mut |_| panic!("nothing is missing"));
+    }
+
+    #[test]
+    fn missing_cells_are_shown_by_the_nearest_of_a_coarser_level() {
+        let (mut map, rows) = (map(), Cell::new(0));
+        assert!(map.grid().shown(3, 3).is_none());
+        map.compute(&|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+        let grid = map.grid();
+        for (asked, expected) in [((0, 0), (0, 0)), ((1, 3), (0, 0)), ((3, 5), (4, 8)), ((18, 32), (18, 32))]
+        {
+            let (_, column, row) = grid.shown(asked.0, asked.1).unwrap();
+            assert_eq!((column, row), expected, "{asked:?}");
+        }
+        let computed = grid.statistics(Quantity::ZeroLoadAdhesionShare, false);
+        assert_eq!(computed.iter().flatten().count(), 25);
+        assert!(grid.shown(HURSTS, 0).is_none() && grid.shown(0, KAPPAS).is_none());
+    }
+
+    #[test]
+    fn a_cell_that_cannot_be_computed_keeps_the_reason() {
+        let document = open("pressure-sensitive").unwrap();
+        let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
+        let mut map = LiveMap::new(live_plan(never.scene(), RoughnessParameter::Kappa).unwrap()).unwrap();
+        let reported = Cell::new(false);
+        map.compute(&|| reported.get(), &mut |_| reported.set(true));
+        assert!(
+            map.grid().shown(0, 0).is_some_and(|(cell, ..)| cell.as_ref().is_err_and(|why| !why.is_empty()))
+        );
+    }
+}

@@ -1,0 +1,152 @@
+//! The plan of the live map of a scene.
+
+use super::axis::{Axis, Spacing};
+use super::plan::Plan;
+use super::quantity::Quantity;
+use asperity_contact::Edges;
+use asperity_data::round_to;
+use asperity_scene::FEW_SAMPLES;
+use asperity_scene::{Adhesion, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver};
+
+/// Random profiles of each cell.
+pub const MAP_LINES: u64 = 4;
+/// Quantities of each cell.
+pub const MAP_RECORD: [Quantity; 5] = [
+    Quantity::ZeroLoadAdhesionShare,
+    Quantity::AdhesionCoefficient,
+    Quantity::Regime,
+    Quantity::ZeroForceAdhesionShare,
+    Quantity::RegimeAfterZeroForce,
+];
+/// Fewest and most springs of a map; a scene with fewer keeps its own number, shorter waves need more.
+const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
+/// Representatives of all κ or e_el/γ and all H.
+const ANY: (f64, f64) = (1.0, 0.5);
+
+/// Values of κ: quarters of octaves from 1/8 to 32; of e_el/γ, which grows with κ²: half octaves from 1/64 to 1024.
+const PARAMETERS: u32 = 33;
+/// Values of H, from 0.05 to 0.95.
+const HURSTS: u32 = 19;
+
+/// Values of κ or e_el/γ to three digits, so that a scene set to a shown value is that of the cell.
+fn parameters(parameter: RoughnessParameter) -> Vec<f64> {
+    let per_octave = match parameter {
+        RoughnessParameter::Kappa => 4.0,
+        RoughnessParameter::ElasticEnergyRatio => 2.0,
+    };
+    let exact = |index: u32| ((f64::from(index) - 12.0) / per_octave).exp2();
+    (0..PARAMETERS).map(|index| round_to(exact(index), 3)).collect()
+}
+
+/// The study of all cells of the live map of a checked scene: κ or e_el/γ and, if its roughness has one, H. Scenes that
+/// differ only in these or in the resolution of their curve have the same.
+///
+/// # Errors
+/// The reason why the scene has no map.
+pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &'static str> {
+    let adhesion = scene
+        .adhesion
+        .ok_or("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")?;
+    if adhesion.closing_work().is_some() {
+        return Err("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out");
+    }
+    // The range of the attraction changes no map.
+    let adhesion = Adhesion { range: None, ..adhesion.with_parameter(parameter, ANY.0) };
+    let mut scene = scene.clone();
+    let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);
+    let (points, has_hurst) = match &mut scene.roughness {
+        None => {
+            return Err("no map: a smooth body has neither κ nor H; switch roughness on with t in its row");
+        }
+        Some(Roughness::SelfAffine { hurst, .. }) => {
+            *hurst = ANY.1;
+            let wanted = last.saturating_mul(SPRINGS_PER_WAVE).clamp(SPRINGS.0, SPRINGS.1);
+            (wanted.max(last.saturating_mul(2)), true)
+        }
+        Some(Roughness::Measured { .. }) => (SPRINGS.1, false),
+    };
+    scene.adhesion = Some(adhesion);
+    scene.strip(FEW_SAMPLES);
+    let points = points.min(scene.numerics.points);
+    // Edges between springs: a map of few springs is then as accurate as one of very many.
+    scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };
+    let hursts = || (1..=HURSTS).map(|index| f64::from(index) * 5.0 / 100.0).collect();
+    let hursts = has_hurst.then(|| ("roughness.hurst", Spacing::Linear, hursts()));
+    let parameters = (parameter.path(), Spacing::Logarithmic, parameters(parameter));
+    let axes = [parameters].into_iter().chain(hursts);
+    // Both are quantities of a scene.
+    let axes = axes.filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());
+    let lines = if has_hurst { MAP_LINES } else { 1 };
+    Ok(Plan { axes: axes.collect(), ..Plan::of_scene(&scene, lines, &MAP_RECORD) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::place::governing;
+    use asperity_scene::RoughnessParameter::Kappa;
+    use asperity_scene::{Document, open};
+
+    fn document() -> Document {
+        open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap()
+    }
+
+    #[test]
+    fn a_map_is_that_of_all_kappa_and_hurst() {
+        let document = document();
+        let of = |document: &Document| live_plan(document.scene(), Kappa);
+        let plan = of(&document).unwrap();
+        assert_eq!((plan.scene.numerics.points, plan.axes.len(), plan.lines), (2048, 2, MAP_LINES));
+        for (path, value) in [
+            ("adhesion.kappa", "2.0"),
+            ("roughness.hurst", "0.2"),
+            ("title", "\"another\""),
+            ("numerics.samples", "64"),
+            ("numerics.points", "65536"),
+            ("numerics.edges", "Grid"),
+            ("adhesion", "(work: 0.05)"),
+        ] {
+            assert_eq!(of(&document.set(path, value).unwrap()).unwrap(), plan, "{path}");
+        }
+        for (path, value) in [
+            ("roughness.seed", "2"),
+            ("roughness.rms_height", "1.0e-7"),
+            ("loading", "[ToForce(2.0e-5), ToSeparation]"),
+            ("material.youngs_modulus", "1.0e6"),
+            ("numerics.points", "1024"),
+        ] {
+            assert_ne!(of(&document.set(path, value).unwrap()).unwrap(), plan, "{path}");
+        }
+        // Short waves get enough springs.
+        let short = [("numerics.points", "1048576"), ("roughness.modes", "(1, 131072)")];
+        let short = short.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let short = of(&document.set_all(&short).unwrap()).unwrap();
+        assert!(short.scene.numerics.points > plan.scene.numerics.points);
+        assert!(of(&document.set("adhesion", "None").unwrap()).unwrap_err().contains("no adhesion"));
+        assert!(of(&open("jkr-sphere").unwrap()).unwrap_err().contains("a smooth body"));
+    }
+
+    #[test]
+    fn the_scenes_of_all_cells_are_sound() {
+        for parameter in RoughnessParameter::ALL {
+            let plan = live_plan(document().scene(), parameter).unwrap();
+            assert_eq!(plan.check_cells(), Ok(()));
+            for cell in 0..plan.cells() {
+                let scene = plan.scene_of(cell).unwrap();
+                let known = governing(&scene).unwrap().parameter(parameter);
+                assert_eq!(known, Some(plan.value(cell, 0)));
+            }
+            assert_eq!((plan.cells(), plan.seed_of(3)), (u64::from(HURSTS * PARAMETERS), 8));
+            assert!([0.05, 0.5, 0.7, 0.95].iter().all(|hurst| plan.axes[1].values.contains(hurst)));
+        }
+    }
+
+    #[test]
+    fn the_values_are_round() {
+        let [kappa, ratio] = RoughnessParameter::ALL.map(parameters);
+        assert_eq!([0, 4, 8, 12, 16, 24, 32].map(|at| kappa[at]), [0.125, 0.25, 0.5, 1.0, 2.0, 8.0, 32.0]);
+        assert_eq!([0, 8, 12, 14, 32].map(|at| ratio[at]), [0.0156, 0.25, 1.0, 2.0, 1020.0]);
+        assert_eq!((kappa[13], ratio[13]), (1.19, 1.41));
+        assert!([kappa, ratio].iter().all(|values| values.windows(2).all(|pair| pair[0] < pair[1])));
+    }
+}

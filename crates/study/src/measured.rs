@@ -1,0 +1,82 @@
+//! The measured files of a study: surfaces, and the table of a form. Their content determines the results as much as the plan does, so the plan holds its
+//! hash, and a run computes with exactly the bytes that were hashed.
+//!
+//! SHA-256 rather than the checksum of records: one in 4e9 accidental changes would pass a CRC of 32 bits, and
+//! `sha256sum` identifies the right copy of a file.
+
+use super::error::StudyError;
+use super::plan::{PLAN_FILE, Plan};
+use asperity_data::path_name;
+use asperity_data::{hexadecimal, sha256_of};
+use asperity_surface::Form;
+use asperity_surface::{MeasuredRoughness, read_faces};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The first measured file of a plan, if its scene has one.
+pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
+    plan.scene.measured_files().first().map(PathBuf::from)
+}
+
+/// The plan with the present hash of its measured file.
+///
+/// # Errors
+/// A file that cannot be read, or whose hash differs from that in the plan.
+pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
+    let (_, measured_sha256) = read(plan, || "the plan".into())?;
+    Ok(Plan { measured_sha256, ..plan.clone() })
+}
+
+/// The measured profile of a study in a folder, if the study has one.
+///
+/// # Errors
+/// A file that cannot be read, is no profile, or whose hash differs from that in the plan.
+pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
+    let (surface, _) = read(plan, || path_name(&folder.join(PLAN_FILE)))?;
+    Ok(surface.map(Arc::new))
+}
+
+pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> StudyError {
+    StudyError::folder(
+        file,
+        format!(
+            "the content of this measured file has changed: its SHA-256 is {found}, {plan} has {expected}; bring \
+             back the file the study began with, or begin another study in another folder"
+        ),
+    )
+}
+
+/// The surface of a plan, if it has one, and the hash of its bytes, which is that of the plan. Several files are hashed one
+/// after the other, of a table beside a surface the hash of its own.
+fn read(
+    plan: &Plan,
+    origin: impl Fn() -> String,
+) -> Result<(Option<MeasuredRoughness>, Option<String>), StudyError> {
+    let Some(file) = file_of(plan) else { return Ok((None, None)) };
+    let faces = read_faces(&plan.scene.measured_paths(Path::new("")))?;
+    let table = match &plan.scene.form {
+        Some(Form::Table { file, .. }) => {
+            let file = Path::new(file);
+            Some(sha256_of(file).map_err(|error| StudyError::folder(file, error))?)
+        }
+        _ => None,
+    };
+    let found = match table {
+        Some(table) if faces.is_empty() => table,
+        table => {
+            let mut hasher = Sha256::new();
+            faces.iter().flatten().for_each(|(_, content)| hasher.update(content));
+            hasher.update(table.unwrap_or_default());
+            hexadecimal(hasher)
+        }
+    };
+    if let Some(expected) = plan.measured_sha256.as_ref().filter(|expected| **expected != found) {
+        return Err(changed(&file, &found, &origin(), expected));
+    }
+    let surface = match plan.scene.measured() {
+        Some(_) => Some(MeasuredRoughness::new(&faces, &plan.scene.measured_options())?),
+        None => None,
+    };
+    Ok((surface, Some(found)))
+}

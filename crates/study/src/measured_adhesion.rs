@@ -1,0 +1,251 @@
+//! Adhesion of a measured surface, with two spreads: that over random profiles of one spectrum, and that of the spectrum,
+//! which the measurement leaves uncertain.
+//!
+//! Each random profile is solved on the fitted spectrum and, with the same phases, on one that is moved a little in a
+//! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
+//! forces of a profile differ by the spectrum alone.
+
+use super::error::{NO_PROFILES, StudyError};
+use super::quantity::Quantity;
+use super::statistics::{RegimeCounts, Statistics};
+use asperity_data::on_threads;
+use asperity_data::root_mean_square;
+use asperity_scene::Regime;
+use asperity_scene::{CheckedScene, Document};
+use asperity_scene::{FEW_SAMPLES, RunError, Simulation};
+use asperity_surface::{EquivalentLine, MeasuredRoughness, read_faces};
+use serde::Serialize;
+use std::sync::Arc;
+
+/// Share of a drawn step by which a spectrum is moved. Errors of the fit are stated to first order; its longest
+/// waves are nearly unknown, and whole steps of their logarithms would be powers of ten.
+const SHARE: f64 = 1.0 / 32.0;
+
+/// Adhesion of one random profile.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ProfileAdhesion {
+    /// Seed of the profile.
+    pub seed: u64,
+    /// Adhesion force F_a on the fitted spectrum, N; `None` without a tensile force.
+    pub adhesion_force: Option<f64>,
+    /// Change of F_a, to first order, by a step of the spectrum drawn from the uncertainty of the fit, N.
+    pub fit_change: Option<f64>,
+    /// Regime on the fitted spectrum, from first touch.
+    pub regime: Option<Regime>,
+    /// The same after zero net force.
+    pub regime_after_zero_force: Option<Regime>,
+}
+
+impl ProfileAdhesion {
+    /// Solves a scene of a measured surface on one random profile of its equivalent line.
+    pub fn solve(
+        scene: &CheckedScene,
+        line: &EquivalentLine,
+        seed: u64,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Self, RunError> {
+        let scene = scene.with_seed(seed).stripped(FEW_SAMPLES);
+        let on = |scene: &CheckedScene, line: EquivalentLine| {
+            let measured = Arc::new(MeasuredRoughness::Equivalent(line));
+            Simulation::default().with_measured(measured).run(scene, stop, &mut |_, _, _| Ok(()))
+        };
+        let fitted = on(&scene, line.clone())?;
+        // If κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
+        let with_work = |work| {
+            scene.with(|scene| scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work)))
+        };
+        let scene = fitted.governing.work_of_adhesion.map_or(Ok(scene.clone()), with_work)?;
+        let moved = on(&scene, line.drawn(seed, SHARE))?;
+        let (one, other) = (fitted.figures.adhesion_force, moved.figures.adhesion_force);
+        Ok(ProfileAdhesion {
+            seed,
+            adhesion_force: one,
+            fit_change: one.zip(other).map(|(one, other)| (other - one) / SHARE),
+            regime: fitted.regime,
+            regime_after_zero_force: fitted.regime_after_zero_force,
+        })
+    }
+}
+
+/// Adhesion of several random profiles of a measured surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeasuredAdhesion {
+    /// The profiles, in the order of their seeds.
+    pub profiles: Vec<ProfileAdhesion>,
+}
+
+impl MeasuredAdhesion {
+    /// Solves the scene of a document on `count` profiles of its measured surface: its seed and the seeds that follow. The
+    /// files are read with the scene's own options, from the folder of the scene file. `jobs` threads share the profiles; no
+    /// bit of a result depends on their number.
+    ///
+    /// # Errors
+    /// A scene without the equivalent line of a measured surface, a file that cannot be read, or the first profile that
+    /// fails.
+    pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
+        if count == 0 {
+            return Err(NO_PROFILES);
+        }
+        let scene = document.scene();
+        if scene.measured().is_none() || scene.measured_as_line() {
+            let allowed = "roughness: Measured with as_line: false";
+            return Err(StudyError::NotAllowed { found: "the scene has no equivalent line", allowed });
+        }
+        let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
+        let line = EquivalentLine::new(&faces, &scene.measured_options())?;
+        MeasuredAdhesion::solve(scene, &line, count, jobs)
+    }
+
+    /// The same for a line that has been made with the options of the scene.
+    pub fn solve(
+        scene: &CheckedScene,
+        line: &EquivalentLine,
+        count: u32,
+        jobs: usize,
+    ) -> Result<Self, StudyError> {
+        let profiles = on_threads(u64::from(count), jobs, || {
+            |number| {
+                let seed = scene.seed().unwrap_or(0).wrapping_add(number);
+                let solved = ProfileAdhesion::solve(scene, line, seed, &|| false);
+                solved.map_err(|error| StudyError::Run { place: format!("seed {seed}: "), error })
+            }
+        })?;
+        Ok(MeasuredAdhesion { profiles })
+    }
+
+    /// The adhesion force over the profiles of the fitted spectrum, N.
+    pub fn adhesion_force(&self) -> Option<Statistics> {
+        let forces = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
+        Statistics::of(forces, Quantity::AdhesionForce.bounds())
+    }
+
+    /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the
+    /// changes of the profiles. `None` for fewer than two.
+    pub fn fit_deviation(&self) -> Option<f64> {
+        rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
+    }
+
+    /// The median adhesion force, N, smaller and larger by the error of the fit: by the root mean square of its relative
+    /// changes on a logarithmic scale, as no force is below 0. `None` for fewer than two profiles.
+    pub fn fit_interval(&self) -> Option<(f64, f64)> {
+        let relative = |profile: &ProfileAdhesion| {
+            Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
+        };
+        let factor = rms(self.profiles.iter().filter_map(relative))?.exp();
+        let median = self.adhesion_force()?.quartiles[1];
+        Some((median / factor, median * factor))
+    }
+
+    /// Numbers of profiles in each regime, from first touch and after zero net force.
+    pub fn regimes(&self) -> [RegimeCounts; 2] {
+        let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
+        [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))
+    }
+}
+
+/// Root mean square of two numbers at least.
+fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
+    let numbers: Vec<f64> = numbers.collect();
+    (numbers.len() >= 2).then(|| root_mean_square(numbers)).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::Scene;
+
+    fn scene_and_line(adhesion: &str) -> (CheckedScene, EquivalentLine) {
+        let text = format!(
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: {adhesion}, \
+             roughness: Measured(file: \"none.txt\", seed: 5), numerics: (points: 1024), \
+             loading: [ToForce(1.0e-4), ToSeparation])"
+        );
+        let scene = Document::parse(&text, "test").unwrap().scene().clone();
+        let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+        let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
+        let face = vec![("".into(), format!("x [um] z [nm]\n{rows}").into_bytes())];
+        let line = EquivalentLine::new(&[face], &scene.measured_options()).unwrap();
+        (scene, line)
+    }
+
+    #[test]
+    fn both_spreads_are_those_of_separate_runs() {
+        let (scene, line) = scene_and_line("(work: 0.05)");
+        let found = MeasuredAdhesion::solve(&scene, &line, 6, 1).unwrap();
+        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 6, 3).unwrap(), found);
+        let force = |line: EquivalentLine, seed: u64| {
+            let scene = scene.with_seed(seed);
+            let measured = Arc::new(MeasuredRoughness::Equivalent(line));
+            let mut simulation = Simulation::default().with_measured(measured);
+            simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap().figures.adhesion_force.unwrap()
+        };
+        let (mut fitted, mut square) = (Vec::new(), 0.0);
+        for (profile, seed) in found.profiles.iter().zip(5..) {
+            let (one, other) = (force(line.clone(), seed), force(line.drawn(seed, SHARE), seed));
+            assert_eq!((profile.seed, profile.adhesion_force), (seed, Some(one)));
+            let change = (other - one) / SHARE;
+            assert_eq!(profile.fit_change, Some(change));
+            // To first order: a step of half the size changes the force by half as much.
+            let half = 2.0 * (force(line.drawn(seed, 0.5 * SHARE), seed) - one) / SHARE;
+            assert!((half - change).abs() < 0.2 * change.abs() + 1e-3 * one, "{seed}: {half} {change}");
+            fitted.push(one);
+            square += change.powi(2) / 6.0;
+        }
+        assert_eq!(found.adhesion_force(), Statistics::of(fitted, (0.0, f64::INFINITY)));
+        let deviation = found.fit_deviation().unwrap();
+        assert!((deviation / square.sqrt() - 1.0).abs() < 1e-12 && deviation > 0.0, "{deviation}");
+        assert_eq!(found.regimes().map(|of| of.present().map(|(_, count)| count).sum::<usize>()), [6; 2]);
+    }
+
+    /// With `periodic: true` as without it, the files are read as the scene says.
+    #[test]
+    fn the_options_are_those_of_the_scene() {
+        let folder = tempfile::tempdir().unwrap();
+        let rows: String =
+            (0..128).map(|i| format!("{i} {}\n", 30.0 * (f64::from(i * i) * 0.37).sin())).collect();
+        std::fs::write(folder.path().join("line.txt"), format!("x [um] z [nm]\n{rows}")).unwrap();
+        for periodic in [true, false] {
+            let text = format!(
+                "(version: 1, material: (effective_modulus: 1.0e6), length: 1.28e-4, adhesion: (work: 0.05), roughness: \
+                 Measured(file: \"line.txt\", periodic: {periodic}), numerics: (points: 512), loading: [ToTouch, \
+                 ToSeparation])"
+            );
+            let document =
+                Document::parse(&text, &folder.path().join("scene.ron").display().to_string()).unwrap();
+            let found = MeasuredAdhesion::of(&document, 1, 1).unwrap();
+            let outcome = asperity_scene::run(&document).unwrap();
+            assert_eq!(found.profiles[0].adhesion_force, outcome.figures.adhesion_force, "{periodic}");
+        }
+        assert!(MeasuredAdhesion::of(&asperity_scene::open("jkr-sphere").unwrap(), 1, 1).is_err());
+    }
+
+    #[test]
+    fn a_given_kappa_is_that_of_the_fitted_spectrum() {
+        let (scene, line) = scene_and_line("(kappa: 1.5)");
+        let by_kappa = MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap();
+        let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
+        let mut simulation = Simulation::default().with_measured(measured);
+        let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let work = outcome.governing.work_of_adhesion.unwrap();
+        let with_work = |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
+        let scene = scene.with(with_work).unwrap();
+        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap(), by_kappa);
+    }
+
+    #[test]
+    fn one_force_has_no_spread() {
+        let profile = |adhesion_force, fit_change| ProfileAdhesion {
+            seed: 1,
+            adhesion_force,
+            fit_change,
+            regime: None,
+            regime_after_zero_force: None,
+        };
+        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(2.0)), profile(None, None)] };
+        assert_eq!((found.adhesion_force().unwrap().spread, found.fit_deviation()), (None, None));
+        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(-2.0)); 2] };
+        assert_eq!(found.fit_deviation(), Some(2.0));
+        // Twice the force itself: a factor, and nothing below 0.
+        assert_eq!(found.fit_interval(), Some(((-2.0_f64).exp(), 2.0_f64.exp())));
+    }
+}

@@ -1,0 +1,41 @@
+//! Memory that a study takes.
+
+use super::axis::Axis;
+use super::error::StudyError;
+use super::plan::{MOST_CHECKED, Plan};
+use asperity_data::check_room;
+
+/// Code, stacks, files and the reserve of the allocator, bytes.
+const PROGRAM: u64 = 16 << 20;
+/// Bytes per spring of a transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
+const KEPT: u64 = 20;
+const LONGEST_KEPT: u64 = 1 << 22;
+/// Bytes per spring of the unloadings from several preloads, where nearly every spring is an event.
+const REVERSED: u64 = 192;
+
+impl Plan {
+    /// Most memory, bytes, of the study with this number of threads, each with the largest scene of the plan.
+    ///
+    /// # Errors
+    /// More than the system provides now.
+    pub fn memory(&self, jobs: u64) -> Result<u64, StudyError> {
+        let of_cell = |cell| {
+            let scene = self.scene_of(cell).ok()?;
+            let spare = 16 * scene.numerics.samples * scene.loading.len() as u64;
+            let peak = asperity_scene::Workload::of(&scene).peak_bytes;
+            let points = scene.numerics.points;
+            let kept = if points <= LONGEST_KEPT { KEPT * points } else { 0 };
+            // The contact without adhesion or at zero force may add to the memory of the scene itself.
+            let turns = self.preloads().is_some() && scene.adhesion.is_some();
+            let reversed = if turns { REVERSED * points } else { 0 };
+            Some((peak + kept + reversed, spare))
+        };
+        let cells = self.extremes(MOST_CHECKED).into_iter().filter_map(of_cell);
+        let (job, spare) = cells.fold((0, 0), |(job, spare), one| (job.max(one.0), spare.max(one.1)));
+        // The axes, and one byte for each record.
+        let values: u64 = self.axes.iter().map(Axis::count).sum();
+        let bytes = PROGRAM + 8 * values + self.records_in_all() + jobs.saturating_mul(job + spare);
+        check_room(bytes).map_err(|_| StudyError::Memory { jobs, bytes })?;
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,236 @@
+//! Values of axes in scenes: the place of a scene on an axis, and scenes moved to other places.
+
+use super::axis::{Axis, Spacing, Target};
+use asperity_contact::Move;
+use asperity_scene::Governing;
+use asperity_scene::{
+    Adhesion, Document, FIELDS, Field, Range, RoughnessParameter, Scene, SceneError, SceneErrors, Tree,
+};
+
+impl Axis {
+    /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
+    /// of a scene whose file has to be read to obtain them.
+    pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
+        if let Some(parameter) = self.target.parameter() {
+            let known = governing(scene).or(computed.copied());
+            let stated = scene.adhesion?.parameter().filter(|(stated, _)| *stated == parameter);
+            return known.and_then(|known| known.parameter(parameter)).or(stated.map(|(_, value)| value));
+        }
+        let number = |path: &str| Tree::of(scene).get(path);
+        match (self.target, scene.loading.first()) {
+            (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
+            (Target::Preload, _) => None,
+            (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64),
+            _ => number(&self.path),
+        }
+    }
+}
+
+/// The scene with other values of the quantities of axes: first the numbers of the scene, then what follows from others,
+/// then κ or e_el/γ, in place of a work of adhesion. The preload, which is no part of a scene, is left to the run.
+///
+/// # Errors
+/// The path of a number that the scene does not have, and the reason.
+pub(super) fn scene_with<'a>(
+    base: &Scene,
+    values: impl Iterator<Item = (&'a Axis, f64)>,
+) -> Result<Scene, SceneErrors> {
+    let refused = |message| SceneError { message, ..SceneError::default() };
+    let (mut tree, mut by_parameter) = (Tree::of(base), None);
+    let mut values: Vec<_> = values.collect();
+    // The last mode follows from the number of springs.
+    values.sort_by_key(|(axis, _)| axis.target == Target::SpringsPerWave);
+    for (axis, value) in values {
+        if let Some(parameter) = axis.target.parameter() {
+            by_parameter = Some((parameter, value));
+            continue;
+        }
+        let (path, value) = match axis.target {
+            Target::Preload => continue,
+            Target::SpringsPerWave => shortest_wave(&tree, value),
+            Target::Number(_) | Target::Stage(_) => (axis.path.as_str(), value),
+        };
+        if !tree.set(path, value) {
+            let stages = base.loading.len();
+            let counted = format!("; its {stages} loading stages are counted from 0");
+            let counted = if axis.path.starts_with("loading.") { counted } else { String::new() };
+            return Err(refused(format!("axis {}: the scene has no {path}{counted}", axis.path)).into());
+        }
+    }
+    let mut scene = tree.scene().map_err(refused)?;
+    if let Some((parameter, value)) = by_parameter {
+        scene.adhesion = Some(with_parameter(&scene, parameter, value));
+    }
+    Ok(scene)
+}
+
+/// The adhesion of a scene by a parameter, with the range of the scene.
+fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> Adhesion {
+    let by_parameter = Adhesion::by_parameter(parameter, value);
+    scene.adhesion.map_or(by_parameter, |adhesion| adhesion.with_parameter(parameter, value))
+}
+
+/// Path and value of the shortest wave with this number of springs, as a mode or, where these are given, as a wavelength.
+fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
+    let [points, length] = ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
+    match tree.get("roughness.wavelengths.1") {
+        Some(_) => ("roughness.wavelengths.1", springs * length / points),
+        None => ("roughness.modes.1", (points / springs).round()),
+    }
+}
+
+/// The numbers of a scene other than counts, zeros and what belongs to the numerics, as axes without values.
+pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
+    let tree = Tree::of(scene);
+    let is_physical =
+        |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
+    let fields = FIELDS.iter().filter(is_physical);
+    let paths = fields.flat_map(|field| ["", ".0", ".1"].map(|end| format!("{}{end}", field.path)));
+    let stages = (0..scene.loading.len()).map(|stage| format!("loading.{stage}.0"));
+    let mut numbers: Vec<(Axis, f64)> = Vec::new();
+    for path in paths.chain(stages) {
+        let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).ok();
+        let number = axis.zip(tree.get(&path).filter(|value| *value != 0.0));
+        // Variants of a choice share paths.
+        numbers.extend(number.filter(|_| numbers.iter().all(|(axis, _)| axis.path != path)));
+    }
+    numbers
+}
+
+pub(super) fn governing(scene: &Scene) -> Option<Governing> {
+    let unit = scene.spectrum()?.unit_amplitude(scene.length);
+    Some(Governing::of(scene, Some(unit), None))
+}
+
+/// Unit of preloads, E* h L, of a scene with a self-affine profile, N.
+fn force_unit(scene: &Scene) -> Option<f64> {
+    governing(scene)?.force_unit(scene.length)
+}
+
+/// Replaces the loading of a scene by a preload in units of E* h L, if that unit follows from the scene, and a pull-off.
+pub(super) fn press(scene: &mut Scene, preload: f64) {
+    if let Some(unit) = force_unit(scene) {
+        scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
+    }
+}
+
+/// Document with other values of the quantities of axes. A scene by its work of adhesion stays one at another κ or
+/// e_el/γ, and a preload replaces the loading; both are set last, since they depend on the others.
+///
+/// # Errors
+/// A value that is not allowed.
+pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
+    let mut scene = scene_with(document.scene(), values.iter().copied())?;
+    let moves_parameter = values.iter().any(|(axis, _)| axis.target.parameter().is_some());
+    let by_work = document.scene().adhesion.filter(|one| moves_parameter && one.parameter().is_none());
+    if let Some(adhesion) = by_work {
+        let work = governing(&scene).and_then(|known| known.work_of_adhesion);
+        scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);
+    }
+    if let Some((_, preload)) = values.iter().find(|(axis, _)| axis.target == Target::Preload) {
+        press(&mut scene, *preload);
+    }
+    document.with_scene(&scene)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axis::Spacing;
+    use crate::live_plan::live_plan;
+    use asperity_scene::Simulation;
+    use asperity_scene::open;
+
+    fn with(base: &Scene, path: &str, value: f64) -> Result<Scene, SceneErrors> {
+        let axis = Axis::new(path, Spacing::List, vec![value], base).unwrap();
+        scene_with(base, std::iter::once((&axis, value)))
+    }
+
+    #[test]
+    fn numbers_are_set_as_by_overrides() {
+        for (base, path, value, overrides) in [
+            ("rough-sphere", "roughness.hurst", 0.55, ("roughness.hurst", "0.55")),
+            ("rough-sphere", "roughness.modes.1", 64.0, ("roughness.modes.1", "64")),
+            ("rough-sphere", "numerics.points", 8192.0, ("numerics.points", "8192")),
+            ("rough-sphere", "loading.0.0", 2.5e-5, ("loading.0.0", "2.5e-5")),
+            ("rough-sphere", "adhesion.kappa", 1.5, ("adhesion", "(kappa: 1.5)")),
+            (
+                "rough-sphere",
+                "adhesion.elastic_energy_ratio",
+                0.5,
+                ("adhesion", "(elastic_energy_ratio: 0.5)"),
+            ),
+            ("rough-sphere", "adhesion.work", 0.015, ("adhesion.work", "0.015")),
+            ("rough-sphere", "springs_per_wave", 8.0, ("roughness.modes.1", "2048")),
+            ("kendall-punch", "form.radius", 2.5e-5, ("form.radius", "2.5e-5")),
+        ] {
+            let document = open(base).unwrap();
+            let scene = with(document.scene(), path, value).unwrap();
+            assert_eq!(&scene, &**document.set(overrides.0, overrides.1).unwrap().scene(), "{path}");
+        }
+    }
+
+    #[test]
+    fn axes_move_waves_in_metres() {
+        let waves = [("roughness.modes", "None"), ("roughness.wavelengths", "25 µm, 0.2 µm")];
+        let waves = waves.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("pressure-sensitive").unwrap().set_all(&waves).unwrap();
+        for (path, value, set) in [
+            ("roughness.wavelengths.0", 5e-5, ("roughness.wavelengths.0", "50 µm")),
+            ("roughness.wavelengths.1", 4e-7, ("roughness.wavelengths", "(2.5e-5, 4e-7)")),
+            ("roughness.roll_off", 1e-5, ("roughness.roll_off", "10 µm")),
+            ("springs_per_wave", 16.0, ("roughness.wavelengths.1", "9.765625e-8")),
+        ] {
+            let axis = Axis::new(path, Spacing::List, vec![value], document.scene()).unwrap();
+            let scene = with(document.scene(), path, value).unwrap();
+            assert_eq!(&scene, &**document.set(set.0, set.1).unwrap().scene(), "{path}");
+            assert_eq!(&scene, &**super::moved(&document, &[(&axis, value)]).unwrap().scene(), "{path}");
+            assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
+        }
+        // A longer line has the same waves: more modes.
+        let modes =
+            |document: &Document| document.scene().spectrum().map(|spectrum| (spectrum.first, spectrum.last));
+        for (length, nearest) in [("100 µm", (4, 500)), ("120 µm", (5, 600)), ("250 µm", (10, 1250))] {
+            assert_eq!(modes(&document.set("length", length).unwrap()), Some(nearest), "{length}");
+        }
+        let as_modes = [("roughness.modes", "(4, 500)"), ("roughness.wavelengths", "None")];
+        let as_modes = document.set_all(&as_modes.map(|(path, value)| (path.to_owned(), value.to_owned())));
+        let gaps = |document: &Document| {
+            let mut simulation = Simulation::default();
+            simulation.make_line(document.scene()).unwrap().0.gaps.clone()
+        };
+        assert_eq!(gaps(&document), gaps(&as_modes.unwrap()));
+    }
+
+    #[test]
+    fn numbers_that_a_scene_does_not_have_are_stated() {
+        let scene = open("jkr-sphere").unwrap().scene().clone();
+        for path in
+            ["roughness.hurst", "form.angle", "loading.7.0", "numerics.solver.step", "springs_per_wave"]
+        {
+            assert!(with(&scene, path, 1.0).unwrap_err().to_string().contains("the scene has no "), "{path}");
+        }
+        for path in
+            ["version", "roughness.seed", "roughness.wavelengths", "roughness.modes", "numerics", "title"]
+        {
+            assert!(Target::of(path).is_err(), "{path}");
+        }
+    }
+
+    #[test]
+    fn a_document_is_moved_in_its_own_terms() {
+        let by_kappa = open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap();
+        let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
+        let axes = live_plan(by_kappa.scene(), RoughnessParameter::Kappa).unwrap().axes;
+        for document in [by_kappa.clone(), by_work] {
+            let moved = moved(&document, &[(&axes[1], 0.4), (&axes[0], 3.0)]).unwrap();
+            let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());
+            assert_eq!(before.work().is_some(), after.work().is_some());
+            let [kappa, hurst] = [0, 1].map(|axis| axes[axis].value_in(moved.scene(), None).unwrap());
+            assert!((kappa / 3.0 - 1.0).abs() < 1e-12 && hurst == 0.4, "{kappa} {hurst}");
+            let governing = Simulation::default().make_line(moved.scene()).map(|(_, _, governing)| governing);
+            assert!((governing.unwrap().kappa.unwrap() / 3.0 - 1.0).abs() < 1e-9);
+        }
+        assert!(moved(&by_kappa, &[(&axes[0], f64::NAN)]).is_err());
+    }
+}

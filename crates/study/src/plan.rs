@@ -1,0 +1,354 @@
+//! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
+
+use super::axis::Axis;
+use super::place::scene_with;
+use super::quantity::{Needs, Quantity};
+use asperity_scene::{CheckedScene, Scene, SceneError, SceneErrors, ron_float};
+use serde::{Deserialize, Serialize};
+
+/// File name of the plan in the folder of a study.
+pub(super) const PLAN_FILE: &str = "plan.ron";
+pub(super) const PRELOAD: &str = "preload";
+
+/// Most cells of a plan.
+pub const MOST_CELLS: u64 = 10_000_000;
+/// Most profiles of a plan.
+pub const MOST_LINES: u64 = 1_000_000;
+/// Most records of a plan: cells times profiles.
+pub const MOST_RECORDS: u64 = 100_000_000;
+pub(super) const MOST_AXES: usize = 16;
+/// Most scenes of which each is checked; of more, those at the ends of all axes.
+pub(super) const MOST_CHECKED: u64 = 4096;
+/// Most cells with invalid scenes that are named; the rest is counted.
+const MOST_NAMED: usize = 8;
+const MOST_FORCES: u64 = 1000;
+
+/// Axes that set the same quantity, of which a plan may have one.
+const SAME: [&[&str]; 2] = [
+    &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
+    &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
+];
+
+/// Why a scene has a single profile, and which scenes have several.
+pub(super) const ONE_PROFILE: (&str, &str) = (
+    "more than one profile, and the profile of this scene is fixed",
+    "random roughness (SelfAffine, or an equivalent line)",
+);
+
+/// A checked plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Title of the study, one line.
+    pub title: String,
+    /// Notice for the reader of the results.
+    pub notice: String,
+    /// The scene whose numbers vary; its files have absolute paths.
+    pub scene: Scene,
+    /// Axes, the last one fastest. That of preloads, in units of E* h L, is the last; without preloads the loading is
+    /// that of the scene.
+    pub axes: Vec<Axis>,
+    /// Random profiles of each cell.
+    pub lines: u64,
+    /// Seed of the first profile; the next ones follow consecutively, the same in all cells.
+    pub seed: u64,
+    /// Recorded quantities.
+    pub record: Vec<Quantity>,
+    /// Forces between which the exponents are fitted.
+    pub stiffness: StiffnessRange,
+    /// SHA-256 of the content of the measured file, 64 hexadecimal digits; set in the folder of a study.
+    pub measured_sha256: Option<String>,
+}
+
+/// Forces between which exponents of the contact without adhesion are fitted, in units of E* h L.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StiffnessRange {
+    /// Smallest force, above zero.
+    pub from: f64,
+    /// Largest force.
+    pub to: f64,
+    /// Number of forces at equal ratios, at least 2.
+    pub count: u64,
+}
+
+impl Default for StiffnessRange {
+    /// Between the forces carried by a few waves and those that flatten the long waves.
+    fn default() -> Self {
+        StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
+    }
+}
+
+impl Plan {
+    /// The plan of a checked scene without axes: one cell on `lines` profiles, starting at the seed of the scene.
+    pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
+        Plan {
+            title: String::new(),
+            notice: String::new(),
+            scene: scene.clone(),
+            axes: Vec::new(),
+            lines,
+            seed: scene.seed().unwrap_or(0),
+            record: record.to_vec(),
+            stiffness: StiffnessRange::default(),
+            measured_sha256: None,
+        }
+    }
+
+    /// The axis of preloads.
+    pub fn preloads(&self) -> Option<&Axis> {
+        self.axes.last().filter(|axis| axis.path == PRELOAD)
+    }
+
+    /// The axes of numbers of the scene: all but that of preloads.
+    pub fn scene_axes(&self) -> &[Axis] {
+        &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> u64 {
+        self.axes.iter().map(Axis::count).product()
+    }
+
+    /// Number of records: cells times profiles.
+    pub fn records_in_all(&self) -> u64 {
+        self.cells() * self.lines
+    }
+
+    pub(super) fn places(&self, cell: u64) -> Vec<usize> {
+        self.places_on(0..self.axes.len(), cell)
+    }
+
+    /// Places of a number among all combinations of values of these axes, the last one fastest; 0 on the other axes.
+    pub(super) fn places_on(&self, axes: impl DoubleEndedIterator<Item = usize>, number: u64) -> Vec<usize> {
+        let (mut rest, mut places) = (number, vec![0; self.axes.len()]);
+        for axis in axes.rev() {
+            let count = self.axes[axis].count();
+            places[axis] = (rest % count) as usize;
+            rest /= count;
+        }
+        places
+    }
+
+    pub(super) fn cell_at(&self, places: &[usize]) -> u64 {
+        places.iter().zip(&self.axes).fold(0, |cell, (place, axis)| cell * axis.count() + *place as u64)
+    }
+
+    pub(super) fn value(&self, cell: u64, axis: usize) -> f64 {
+        let faster: u64 = self.axes[axis + 1..].iter().map(Axis::count).product();
+        self.axes[axis].values[(cell / faster % self.axes[axis].count()) as usize]
+    }
+
+    /// Values of the axes in a cell.
+    pub fn values(&self, cell: u64) -> Vec<f64> {
+        (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
+    }
+
+    /// Coordinates of a cell for readers.
+    pub fn coordinates(&self, cell: u64) -> String {
+        let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
+        let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
+        if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
+    }
+
+    /// The scene of a cell; its loading is that of the plan's scene, whatever the preload.
+    ///
+    /// # Errors
+    /// The path of an axis over a number that the scene does not have, or values out of their ranges.
+    pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
+        scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()
+    }
+
+    /// Seed of a profile.
+    pub fn seed_of(&self, line: u64) -> u64 {
+        self.seed.wrapping_add(line)
+    }
+
+    /// Place of a quantity among the recorded ones.
+    pub fn column(&self, quantity: Quantity) -> Option<usize> {
+        self.record.iter().position(|one| *one == quantity)
+    }
+
+    pub(super) fn records(&self, needs: Needs) -> bool {
+        self.record.iter().any(|quantity| quantity.needs() == needs)
+    }
+}
+
+/// Checks: those of the plan itself are quick; scenes of cells are checked when a plan is opened for a study, not when the
+/// folder of a study is opened again.
+impl Plan {
+    pub(super) fn errors(&self) -> Vec<String> {
+        let mut wrong = self.errors_of_texts();
+        let paths: Vec<&str> = self.axes.iter().map(|axis| axis.path.as_str()).collect();
+        for (index, path) in paths.iter().enumerate() {
+            let before = &paths[..index];
+            if before.contains(path) {
+                wrong.push(format!("axis {path}: given twice"));
+            }
+            let same = SAME.iter().find(|same| same.contains(path));
+            let other =
+                before.iter().find(|other| same.is_some_and(|same| same.contains(other)) && *other != path);
+            wrong.extend(
+                other.map(|other| format!("axis {path}: {other} sets it as well; allowed: one of them")),
+            );
+        }
+        if !(1..=MOST_LINES).contains(&self.lines) {
+            wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
+        }
+        if self.lines > 1 && self.scene.seed().is_none() {
+            wrong.push(format!("lines = {}: {}; allowed: {}", self.lines, ONE_PROFILE.0, ONE_PROFILE.1));
+        }
+        if self.record.is_empty() {
+            wrong.push("record = []: allowed: at least one quantity".into());
+        }
+        for (index, quantity) in self.record.iter().enumerate() {
+            if self.record[..index].contains(quantity) {
+                wrong.push(format!("record: {} is given twice", quantity.name()));
+            }
+        }
+        let preloads = self.axes.iter().find(|axis| axis.path == PRELOAD);
+        if let Some(value) = preloads.and_then(|axis| axis.values.iter().find(|value| **value <= 0.0)) {
+            wrong.push(format!("preload {value:?}: allowed: above 0, in units of E* h L"));
+        }
+        let StiffnessRange { from, to, count } = self.stiffness;
+        if !(from > 0.0 && from < to && to.is_finite() && (2..=MOST_FORCES).contains(&count)) {
+            wrong.push(format!(
+                "stiffness = (from: {from:?}, to: {to:?}, count: {count}): allowed: 0 < from < to, count from 2 \
+                 to {MOST_FORCES}"
+            ));
+        }
+        if self.scene.roughness.is_none() && (preloads.is_some() || self.records(Needs::Stiffness)) {
+            wrong.push(
+                "preloads and exponents count forces in units of E* h L, and this scene is smooth; \
+                 allowed: an axis loading.0.0, in N"
+                    .into(),
+            );
+        }
+        let cells = self.axes.iter().map(Axis::count).try_fold(1_u64, u64::checked_mul);
+        let counts = || self.axes.iter().map(|axis| axis.count().to_string()).collect::<Vec<_>>().join(" × ");
+        match cells.filter(|cells| *cells <= MOST_CELLS) {
+            None => wrong.push(format!("{} cells; allowed: at most {MOST_CELLS}", counts())),
+            Some(cells) if cells.saturating_mul(self.lines) > MOST_RECORDS => wrong.push(format!(
+                "{} cells on {} profiles; allowed: at most {MOST_RECORDS} together",
+                counts(),
+                self.lines
+            )),
+            Some(_) => {}
+        }
+        wrong
+    }
+
+    /// Errors of title and notice, by the rules of a scene, and of the hash without a measured file.
+    fn errors_of_texts(&self) -> Vec<String> {
+        let (title, notice) = (self.title.clone(), self.notice.clone());
+        let texts = Scene { title, notice, ..self.scene.clone() };
+        let errors = texts.checked().err();
+        let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
+        let mut wrong: Vec<String> =
+            errors.iter().flat_map(SceneErrors::iter).filter(is_text).map(SceneError::to_string).collect();
+        if self.measured_sha256.is_some() && self.scene.measured_files().is_empty() {
+            wrong.push(
+                "measured_sha256: allowed with roughness: Measured and form: Table; this scene has no such file".into(),
+            );
+        }
+        wrong
+    }
+
+    /// Checks the scenes of the cells, see [`Plan::extremes`].
+    pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
+        let (mut wrong, mut more) = (Vec::new(), 0_u64);
+        for cell in self.extremes(MOST_CHECKED) {
+            let Err(errors) = self.scene_of(cell) else { continue };
+            if wrong.len() < MOST_NAMED {
+                wrong.push(format!("cell {cell} ({}): {}", self.coordinates(cell), errors.first()));
+            } else {
+                more += 1;
+            }
+        }
+        if more > 0 {
+            wrong.push(format!("and {more} more cells are not allowed"));
+        }
+        if wrong.is_empty() { Ok(()) } else { Err(wrong) }
+    }
+
+    /// Cells whose scenes are allowed only if those of all cells are, and one of which takes most memory: the first one at
+    /// each combination of values but preloads, or of more than `most` combinations, those of the ends of all axes. Each condition
+    /// of a scene bounds every number from one side or from both, so that it holds between values at which it holds.
+    pub(super) fn extremes(&self, most: u64) -> Vec<u64> {
+        let preloads = self.preloads().map_or(1, Axis::count);
+        if self.cells() / preloads <= most {
+            return (0..self.cells()).step_by(preloads as usize).collect();
+        }
+        let mut cells = vec![Vec::new()];
+        for axis in self.scene_axes() {
+            let order = axis.order();
+            let mut ends = vec![order[0], order[order.len() - 1]];
+            ends.dedup();
+            let with_end =
+                |cell: &Vec<usize>| ends.iter().map(|end| [&cell[..], &[*end]].concat()).collect::<Vec<_>>();
+            cells = cells.iter().flat_map(with_end).collect();
+        }
+        let numbers = cells.into_iter().map(|mut cell| {
+            cell.resize(self.axes.len(), 0);
+            self.cell_at(&cell)
+        });
+        numbers.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axis::Spacing;
+    use crate::place::numbers;
+    use asperity_scene::{open, presets};
+
+    #[test]
+    fn scenes_between_allowed_ends_are_allowed() {
+        let mut allowed = [0, 0];
+        for preset in presets() {
+            let document = open(preset.name).unwrap();
+            let scene = document.scene();
+            let paths = ["numerics.points", "springs_per_wave", "adhesion.kappa", "roughness.modes.1"];
+            let more = paths.iter().filter_map(|path| {
+                let axis = Axis::new(path, Spacing::List, Vec::new(), scene).ok()?;
+                Some((axis.clone(), axis.value_in(scene, None)?))
+            });
+            let axes: Vec<Axis> = numbers(scene)
+                .into_iter()
+                .chain(more)
+                .map(|(axis, value)| {
+                    let near = [0.03, 0.3, 0.9, 1.0, 1.1, 3.0, 30.0].map(|factor| factor * value);
+                    let values =
+                        near.map(|value| if axis.is_whole() { value.round() } else { value }).to_vec();
+                    Axis { values, ..axis }
+                })
+                .collect();
+            for (index, one) in axes.iter().enumerate() {
+                for other in &axes[..index] {
+                    // All seven values, and those near that of the scene.
+                    for range in [0..7, 1..6, 2..5] {
+                        let part = |axis: &Axis| Axis {
+                            values: axis.values[range.clone()].to_vec(),
+                            ..axis.clone()
+                        };
+                        let axes = vec![part(one), part(other)];
+                        let plan = Plan { axes, ..Plan::of_scene(scene, 1, &[Quantity::Regime]) };
+                        let is_allowed = |cell| plan.scene_of(cell).is_ok();
+                        let ends = plan.extremes(0);
+                        assert_eq!(ends.len(), 4);
+                        let is_met = ends.into_iter().all(is_allowed);
+                        allowed[usize::from(is_met)] += 1;
+                        assert_eq!(
+                            is_met,
+                            (0..plan.cells()).all(is_allowed),
+                            "{}: {:?}",
+                            preset.name,
+                            plan.axes
+                        );
+                    }
+                }
+            }
+        }
+        assert!(allowed[0] > 100 && allowed[1] > 100, "{allowed:?}");
+    }
+}

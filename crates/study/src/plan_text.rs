@@ -1,0 +1,234 @@
+//! The text of a plan: reading, including the named scene, and writing.
+
+use super::axis::{Axis, AxisText, Spacing};
+use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
+use super::quantity::Quantity;
+use asperity_data::read_regular_text;
+use asperity_scene::{
+    Document, LONGEST_TEXT, Preset, Scene, SceneErrors, built_in, did_you_mean, explain, is_file_name,
+    is_path, line_column, open, read_ron, ron_float, ron_string, to_ron,
+};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use thiserror::Error;
+
+/// The only supported version of the plan file.
+pub const PLAN_VERSION: u32 = 1;
+
+/// The built-in plans.
+pub const PLANS: &[Preset] = built_in!("plans/":
+    "figure-5a",
+    "figure-5b",
+    "figure-6",
+    "equation-15",
+    "elastic-energy",
+    "stiffness-exponent",
+    "self-averaging"
+);
+
+/// All errors of a plan, one line each.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{}", .0.join("\n"))]
+pub struct PlanErrors(pub Vec<String>);
+
+/// Changes of a plan for one study, in addition to the text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Changes {
+    /// Overrides of the scene: path and value.
+    pub set: Vec<(String, String)>,
+    /// Number of profiles.
+    pub lines: Option<u64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "Plan")]
+struct PlanText {
+    version: u32,
+    #[serde(default)]
+    title: String,
+    #[serde(default)]
+    notice: String,
+    #[serde(default)]
+    base: Option<String>,
+    #[serde(default)]
+    scene: Option<Scene>,
+    #[serde(default)]
+    set: BTreeMap<String, String>,
+    #[serde(default)]
+    axes: Vec<AxisText>,
+    #[serde(default)]
+    preloads: Vec<f64>,
+    #[serde(default)]
+    lines: Option<u64>,
+    #[serde(default)]
+    seed: Option<u64>,
+    record: Vec<Quantity>,
+    #[serde(default)]
+    stiffness: StiffnessRange,
+    #[serde(default)]
+    measured_sha256: Option<String>,
+}
+
+impl Plan {
+    /// Opens and checks a plan: a file if one of that name exists or the name looks like a path, else a built-in
+    /// plan. Scenes given by a path are relative to its file.
+    ///
+    /// # Errors
+    /// All errors, up to those of the scene of every single cell.
+    pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
+        if is_file_name(name_or_path) {
+            let text = read_regular_text(Path::new(name_or_path), LONGEST_TEXT);
+            let text = text.map_err(|error| PlanErrors(vec![format!("{name_or_path}: {error}")]))?;
+            return Plan::parse(&text, name_or_path, changes);
+        }
+        let plan = Plan::built_in(name_or_path)?;
+        Plan::parse(plan.text, plan.name, changes)
+    }
+
+    /// The built-in plan of this name.
+    ///
+    /// # Errors
+    /// No such plan, with the names of all.
+    pub fn built_in(name: &str) -> Result<&'static Preset, PlanErrors> {
+        PLANS.iter().find(|plan| plan.name == name).ok_or_else(|| {
+            let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
+            let (near, names) = (did_you_mean(name, names.iter().copied()), names.join(", "));
+            let message = "there is no such file and no such built-in plan";
+            PlanErrors(vec![format!("{name}: {message}{near} (built-in: {names})")])
+        })
+    }
+
+    /// Reads and checks a plan; `name` is that of its file, for errors.
+    ///
+    /// # Errors
+    /// As [`Plan::open`].
+    pub fn parse(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
+        let plan = Plan::read(text, name, changes)?;
+        plan.check_cells().map_err(|wrong| in_plan(wrong, name))?;
+        Ok(plan)
+    }
+
+    /// Reads a plan and checks all but the scenes of its cells, which no one computes: the plan in the folder of a
+    /// study, whose cells were checked when the study began.
+    pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let refused = |what: String| PlanErrors(vec![format!("{name}: {what}")]);
+        if text.len() > LONGEST_TEXT {
+            return Err(refused(format!("the plan is too long: at most {LONGEST_TEXT} bytes are read")));
+        }
+        let read: PlanText = read_ron(text).map_err(|error| {
+            let (offset, error) = explain(text, &error);
+            let (line, column) = line_column(text, offset);
+            PlanErrors(vec![format!("{name}:{line}:{column}: {}", error.what())])
+        })?;
+        if read.version != PLAN_VERSION {
+            return Err(refused(format!(
+                "version = {}: allowed: {PLAN_VERSION} (version of the plan file)",
+                read.version
+            )));
+        }
+        let scene = resolved_scene(&read, name, &changes.set)?;
+        Plan::of(read, scene, changes.lines).map_err(|wrong| in_plan(wrong, name))
+    }
+
+    fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
+        let PlanText { title, notice, axes, preloads, record, stiffness, measured_sha256, .. } = read;
+        if axes.len() > MOST_AXES {
+            return Err(vec![format!("{} axes; allowed: at most {MOST_AXES}", axes.len())]);
+        }
+        let preloads = Some(preloads).filter(|values| !values.is_empty());
+        let preloads = preloads.map(|values| AxisText::List { path: PRELOAD.into(), values });
+        let (mut wrong, mut read_axes) = (Vec::new(), Vec::new());
+        for axis in axes.into_iter().chain(preloads) {
+            match Axis::of(&axis, &scene) {
+                Ok(axis) => read_axes.push(axis),
+                Err(error) => wrong.push(error),
+            }
+        }
+        // The preload is the fastest axis, wherever the plan has it.
+        read_axes.sort_by_key(|axis| axis.path == PRELOAD);
+        let plan = Plan {
+            title,
+            notice,
+            axes: read_axes,
+            lines: lines.or(read.lines).unwrap_or(1),
+            seed: read.seed.or(scene.seed()).unwrap_or(0),
+            record,
+            scene,
+            stiffness,
+            measured_sha256,
+        };
+        wrong.extend(plan.errors());
+        if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
+    }
+
+    /// The plan as canonical text including its scene; parsing the text returns the same plan.
+    pub fn to_ron(&self) -> String {
+        let mut lines = vec![format!("    version: {PLAN_VERSION},\n")];
+        let mut line = |name: &str, value: String| lines.push(format!("    {name}: {value},\n"));
+        for (name, text) in [("title", &self.title), ("notice", &self.notice)] {
+            if !text.is_empty() {
+                line(name, ron_string(text));
+            }
+        }
+        line("scene", to_ron(&self.scene).trim_end().replace('\n', "\n    "));
+        let axes: String = self.axes.iter().map(|axis| format!("        {},\n", in_ron(axis))).collect();
+        line("axes", format!("[\n{axes}    ]"));
+        line("lines", self.lines.to_string());
+        line("seed", self.seed.to_string());
+        let names: Vec<_> = self.record.iter().map(|quantity| quantity.name()).collect();
+        line("record", format!("[{}]", names.join(", ")));
+        let StiffnessRange { from, to, count } = self.stiffness;
+        line("stiffness", format!("(from: {}, to: {}, count: {count})", ron_float(from), ron_float(to)));
+        if let Some(hash) = &self.measured_sha256 {
+            line("measured_sha256", ron_string(hash));
+        }
+        format!("(\n{})\n", lines.concat())
+    }
+}
+
+fn in_ron(axis: &Axis) -> String {
+    let path = ron_string(&axis.path);
+    let kind = match axis.spacing {
+        Spacing::List => {
+            let values: Vec<_> = axis.values.iter().map(|value| ron_float(*value)).collect();
+            return format!("List(path: {path}, values: [{}])", values.join(", "));
+        }
+        Spacing::Linear => "Linear",
+        Spacing::Logarithmic => "Logarithmic",
+    };
+    let [from, to] =
+        [axis.values.first(), axis.values.last()].map(|end| ron_float(*end.unwrap_or(&f64::NAN)));
+    format!("{kind}(path: {path}, from: {from}, to: {to}, count: {})", axis.count())
+}
+
+fn in_plan(wrong: Vec<String>, name: &str) -> PlanErrors {
+    PlanErrors(wrong.into_iter().map(|wrong| format!("{name}: {wrong}")).collect())
+}
+
+/// The scene of a plan with all overrides; its paths are made absolute.
+fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, PlanErrors> {
+    let in_scene =
+        |errors: SceneErrors| in_plan(errors.to_string().lines().map(str::to_owned).collect(), name);
+    let one_of = |given: &str| Err(in_plan(vec![format!("{given}; allowed: one of them")], name));
+    let document = match (&read.base, &read.scene) {
+        (Some(_), Some(_)) => return one_of("`base` and `scene` are given"),
+        (None, None) => return one_of("neither `base` nor `scene` is given"),
+        (None, Some(scene)) => Document::from_scene(scene, name).map_err(in_scene)?,
+        (Some(base), None) => {
+            let beside = Path::new(name).parent().unwrap_or(Path::new("")).join(base);
+            let beside = beside.to_string_lossy();
+            let is_file = is_path(base) || Path::new(&*beside).is_file();
+            open(if is_file { &beside } else { base }).map_err(in_scene)?
+        }
+    };
+    let set: Vec<_> = read.set.clone().into_iter().chain(set.iter().cloned()).collect();
+    let document = document.set_all(&set).map_err(in_scene)?;
+    let mut scene = Scene::clone(document.scene());
+    scene.rename_measured_files(|file| {
+        let path = document.resolve(file);
+        std::path::absolute(&path).unwrap_or(path).display().to_string()
+    });
+    Ok(scene)
+}

@@ -1,0 +1,258 @@
+//! Adhesion against preload: a study in memory over preloads in N, in place of the unit of a plan, and the staircase of one
+//! profile.
+
+use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
+use super::plan::PRELOAD;
+use super::quantity::Quantity;
+use super::results::Results;
+use super::statistics::Statistics;
+use asperity_contact::Move;
+use asperity_contact::Reversal;
+use asperity_data::AxisScale;
+use asperity_scene::{CheckedScene, LEG_FORCE};
+use asperity_scene::{RunError, Simulation};
+use std::ops::RangeInclusive;
+
+/// Numbers of preloads.
+pub const PRELOADS: RangeInclusive<usize> = 2..=512;
+
+/// Part of the axis of preloads within which a step of a staircase is found: less than the width of a line in a figure.
+const FINEST: f64 = 1.0 / 2048.0;
+/// Relative difference of two adhesion forces below which they are the same but for rounding.
+const SAME: f64 = 1e-9;
+
+impl Axis {
+    /// Preloads between two forces, N, at equal distances or equal ratios.
+    ///
+    /// # Errors
+    /// What is wrong with the forces or their number, and what is allowed.
+    pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, String> {
+        check_ends(from, to, count as u64, *PRELOADS.end() as u64)?;
+        let range = LEG_FORCE.range;
+        if !(range.contains(from) && range.contains(to)) {
+            return Err(format!("from {from:?} to {to:?}: allowed: {range} N"));
+        }
+        let is_logarithmic = scale == AxisScale::Logarithmic;
+        if is_logarithmic {
+            check_logarithm(from)?;
+        }
+        let (low, high) = (scale.coordinate(from), scale.coordinate(to));
+        let inner = |index: usize| low + (high - low) * (index as f64 / (count - 1) as f64);
+        let inner = (1..count - 1).map(|index| scale.number(inner(index)).clamp(from, to));
+        Ok(Axis {
+            path: PRELOAD.into(),
+            name: "preload".into(),
+            symbol: "F_n",
+            unit: "N",
+            spacing: if is_logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
+            values: std::iter::once(from).chain(inner).chain([to]).collect(),
+            target: Target::Preload,
+        })
+    }
+}
+
+/// Adhesion force of one profile over the preload. Only the closing of a patch that decides the pull-off raises this
+/// force, so the curve is a staircase; with a smaller work of adhesion on closing it rises between its steps as well.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Staircase {
+    /// Scale of the preloads.
+    pub scale: AxisScale,
+    /// Force at first touch and adhesion force after turning there, N.
+    pub touch: (f64, f64),
+    /// Adhesion force after turning where the force is back at zero, N.
+    pub zero_force: f64,
+    /// Preloads, ascending, with the adhesion force after each, N; 0 N where the body does not pull.
+    pub forces: Vec<(f64, f64)>,
+}
+
+impl Staircase {
+    /// Finds the staircase of a checked scene over an axis of preloads, each step within 1/2048 of the axis. `report`
+    /// receives the staircase at the preloads of the axis, and after each halving of the intervals with a step.
+    ///
+    /// # Errors
+    /// As [`Simulation::reverse`], and a preload below the force at first touch.
+    pub fn find(
+        scene: &CheckedScene,
+        preloads: &Axis,
+        simulation: &mut Simulation,
+        stop: &dyn Fn() -> bool,
+        report: &mut dyn FnMut(&Staircase),
+    ) -> Result<Staircase, RunError> {
+        let mut solve = |ends: &[Move]| -> Result<Vec<(f64, f64)>, RunError> {
+            let mut solved = vec![(0.0, 0.0); ends.len()];
+            simulation.reverse(scene, (ends, &[]), stop, &mut |index, reversal: Reversal| {
+                solved[index] = (reversal.turn.force, reversal.adhesion_force().unwrap_or(0.0));
+                Ok(())
+            })?;
+            Ok(solved)
+        };
+        let scale = preloads.scale();
+        let ends = solve(&[Move::ToTouch, Move::ToZeroForce])?;
+        let (touch, zero_force) = (ends[0], ends[1].1);
+        if let Some(&preload) = preloads.values.first().filter(|preload| **preload < touch.0) {
+            return Err(RunError::BelowTouch { preload, touch: touch.0 });
+        }
+        let mut all = Staircase { scale, touch, zero_force, forces: Vec::new() };
+        let mut missing = preloads.values.clone();
+        while !missing.is_empty() {
+            let ends: Vec<Move> = missing.iter().map(|&force| Move::ToForce(force)).collect();
+            let solved = solve(&ends)?.into_iter().map(|(_, adhesion)| adhesion);
+            all.forces.extend(missing.into_iter().zip(solved));
+            all.forces.sort_by(|one, other| one.0.total_cmp(&other.0));
+            report(&all);
+            missing = all.halves();
+        }
+        Ok(all)
+    }
+
+    /// Returns true once each step is found.
+    pub fn is_whole(&self) -> bool {
+        !self.forces.is_empty() && self.halves().is_empty()
+    }
+
+    /// The middles of those intervals of preloads that are still wide and have a step.
+    fn halves(&self) -> Vec<f64> {
+        let at = |point: &(f64, f64)| self.scale.coordinate(point.0);
+        let [Some(low), Some(high)] = [self.forces.first(), self.forces.last()].map(|end| end.map(at)) else {
+            return Vec::new();
+        };
+        let middle = |pair: &[(f64, f64)]| {
+            let ([from, to], steps) =
+                ([at(&pair[0]), at(&pair[1])], pair[1].1 - pair[0].1 > SAME * pair[1].1);
+            (steps && to - from > FINEST * (high - low)).then(|| self.scale.number(f64::midpoint(from, to)))
+        };
+        self.forces.windows(2).filter_map(middle).collect()
+    }
+
+    /// The staircase as a line: level up to the next known preload, then upright.
+    pub fn line(&self) -> Vec<(f64, f64)> {
+        let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
+        self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()
+    }
+}
+
+impl Results {
+    /// Recorded quantities of adhesion against preload.
+    pub const OF_PRELOADS: [Quantity; 4] = [
+        Quantity::PreloadIndentation,
+        Quantity::AdhesionForce,
+        Quantity::PullOffIndentation,
+        Quantity::DissipatedEnergy,
+    ];
+
+    /// The adhesion force over the computed profiles at each preload, N, where there are two at least. A profile without a
+    /// tensile force counts as 0 N, so that the mean is the mean adhesion force.
+    pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
+        let spread = |cell| {
+            let (preload, forces) = self.forces_in(cell);
+            let all = Statistics::of(forces, Quantity::AdhesionForce.bounds())?;
+            all.spread.map(|_| (preload, all))
+        };
+        (0..self.plan.cells()).filter_map(spread).collect()
+    }
+
+    /// The preload nearest to this one, N, and the adhesion forces of the computed profiles there.
+    pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
+        let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
+        let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));
+        nearest.map(|cell| self.forces_in(cell))
+    }
+
+    fn forces_in(&self, cell: u64) -> (f64, Vec<f64>) {
+        let force = |(line, _)| self.value(cell, line, Quantity::AdhesionForce).unwrap_or(0.0);
+        (self.plan.value(cell, 0), self.records_of(cell).map(force).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::error::FIXED_PROFILE;
+    use super::*;
+    use asperity_scene::{Document, open};
+
+    fn preloads(ends: (f64, f64), count: usize) -> Axis {
+        Axis::of_preloads(ends, count, AxisScale::Linear).unwrap()
+    }
+
+    fn solved(document: &Document, preloads: &Axis, lines: u64, jobs: usize) -> Result<Results, String> {
+        let (scene, folder) = (document.scene(), document.resolve(""));
+        let results = Results::of_scene(scene, &folder, &Results::OF_PRELOADS, lines, Some(preloads), jobs);
+        results.map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn adhesion_grows_with_the_preload_over_sixteen_profiles() {
+        let document = open("pressure-sensitive").unwrap();
+        let preloads = preloads((0.0, 2e-5), 9);
+        assert_eq!((preloads.values[0], preloads.values[8], preloads.values.len()), (0.0, 2e-5, 9));
+        let results = solved(&document, &preloads, 16, 2).unwrap();
+        // One profile is the scene itself, loaded to one of the forces.
+        let scene = document.scene().with_seed(results.plan().seed_of(3));
+        let loading = vec![Move::ToForce(preloads.values[4]), Move::ToSeparation];
+        let scene = scene.with(|scene| scene.loading = loading).unwrap();
+        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let found = |quantity| results.value(4, 3, quantity);
+        assert_eq!(found(Quantity::AdhesionForce), outcome.figures.adhesion_force);
+        assert_eq!(found(Quantity::DissipatedEnergy), outcome.figures.dissipated_energy);
+        for line in 0..16 {
+            let curve: Vec<f64> = (0..9).map(|cell| results.forces_in(cell).1[line]).collect();
+            assert!(curve.windows(2).all(|pair| pair[0] <= pair[1]), "{curve:?}");
+        }
+        let means: Vec<f64> = results.spread_of_adhesion().iter().map(|(_, one)| one.mean).collect();
+        assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
+        // Twice the preload about doubles the mean.
+        assert!(means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2], "{means:?}");
+        assert!(means[0] < 0.1 * means[8], "{means:?}");
+        assert_eq!(solved(&document, &preloads, 16, 1), Ok(results));
+    }
+
+    #[test]
+    fn smooth_bodies_have_but_one_profile() {
+        let (smooth, preloads) = (open("jkr-sphere").unwrap(), preloads((0.0, 1e-6), 2));
+        assert_eq!(solved(&smooth, &preloads, 2, 1), Err(FIXED_PROFILE.to_string()));
+        let one = solved(&smooth, &preloads, 1, 1).unwrap();
+        assert_eq!((one.plan().cells(), one.spread_of_adhesion()), (2, Vec::new()));
+        let stepwise = smooth.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();
+        let error = solved(&stepwise, &preloads, 1, 1).unwrap_err();
+        assert!(error.starts_with("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
+    }
+    /// Each step of the staircase lies where a fine grid of preloads has it, and forces below zero turn while the bodies are
+    /// drawn together.
+    #[test]
+    fn a_staircase_has_its_steps_where_a_fine_grid_has_them() {
+        let document = open("pressure-sensitive").unwrap();
+        let scene = document.scene().with(|scene| scene.numerics.points = 2048).unwrap();
+        let find = |ends, count, scale| {
+            let axis = Axis::of_preloads(ends, count, scale).unwrap();
+            let mut parts = Vec::new();
+            let found = Staircase::find(&scene, &axis, &mut Simulation::default(), &|| false, &mut |part| {
+                parts.push(part.forces.len());
+            });
+            found.map(|found| (found, parts))
+        };
+        let (coarse, parts) = find((0.0, 4e-5), 5, AxisScale::Linear).unwrap();
+        let (fine, _) = find((0.0, 4e-5), 512, AxisScale::Linear).unwrap();
+        assert!(parts[0] == 5 && parts.windows(2).all(|pair| pair[0] < pair[1]), "{parts:?}");
+        let at = |all: &Staircase, preload: f64| {
+            all.forces[all.forces.partition_point(|point| point.0 <= preload).saturating_sub(1)].1
+        };
+        let width = FINEST * 4e-5;
+        let mut steps = 0;
+        for (preload, force) in fine.forces {
+            let (before, after) = (at(&coarse, preload - 2.0 * width), at(&coarse, preload + 2.0 * width));
+            assert!(before <= force * (1.0 + 1e-9) && force <= after * (1.0 + 1e-9), "{preload}");
+            steps += usize::from(before < after);
+        }
+        assert!(steps > 2, "{steps}");
+        // Level, then upright: never a ramp.
+        assert!(coarse.line().windows(2).all(|pair| pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1));
+        let (touch, adhesion) = coarse.touch;
+        assert!(touch < 0.0 && adhesion <= coarse.zero_force);
+        let (drawn, _) = find((touch, -touch), 9, AxisScale::Linear).unwrap();
+        assert_eq!((drawn.forces[0], at(&drawn, 0.0)), ((touch, adhesion), coarse.zero_force));
+        let below = RunError::BelowTouch { preload: 2.0 * touch, touch };
+        assert_eq!(find((2.0 * touch, 1e-5), 9, AxisScale::Linear), Err(below));
+        let (ratios, _) = find((1e-9, 1e-3), 64, AxisScale::Logarithmic).unwrap();
+        assert_eq!((ratios.forces[0].0, ratios.forces[ratios.forces.len() - 1].0), (1e-9, 1e-3));
+    }
+}

@@ -1,0 +1,252 @@
+//! Quantities that a study records for each cell and profile: one row each.
+
+use super::case_outcome::CaseOutcome;
+use asperity_scene::Regime;
+use serde::{Deserialize, Serialize};
+
+struct Row {
+    /// Name in plans and of columns.
+    name: &'static str,
+    /// Symbol; may be empty.
+    symbol: &'static str,
+    /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
+    unit: &'static str,
+    meaning: &'static str,
+    bounds: (f64, f64),
+    needs: Needs,
+    of: fn(&CaseOutcome<'_>) -> Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Needs {
+    /// The profile and its governing parameters.
+    Profile,
+    /// Statistics of the heights without the form.
+    Heights,
+    /// F_a(0) by the touch protocol: turning point at first touch.
+    Touch,
+    /// F_a(0) by the zero-force protocol: turning point where the force is back at zero.
+    ZeroForce,
+    /// The loading to the preload, or the scene's own.
+    Loading,
+    /// The force curve without adhesion.
+    Stiffness,
+}
+
+const ROW: Row = Row {
+    name: "",
+    symbol: "",
+    unit: "1",
+    meaning: "",
+    bounds: (0.0, f64::INFINITY),
+    needs: Needs::Loading,
+    of: |_| None,
+};
+
+/// Bounds of a quantity that may be negative, and of a share.
+const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+const SHARE: (f64, f64) = (0.0, 1.0);
+
+/// Makes the enum of the quantities and the table of their rows.
+macro_rules! quantities {
+    ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
+        /// A recorded quantity.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum Quantity {
+            $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
+        }
+
+        const ROWS: &[Row] = &[$(Row { name: $name, meaning: $meaning, $($field: $value,)* ..ROW },)*];
+
+        impl Quantity {
+            /// All quantities, in the order of the table.
+            pub const ALL: [Quantity; ROWS.len()] = [$(Quantity::$variant,)*];
+        }
+    };
+}
+
+quantities! {
+    Kappa {
+        name: "kappa", meaning: "roughness-adhesion parameter, eq. (11)",
+        symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
+    }
+    ElasticEnergy {
+        name: "elastic_energy", meaning: "elastic energy of conformity per area",
+        symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
+    }
+    ElasticEnergyRatio {
+        name: "elastic_energy_ratio", meaning: "elastic energy of conformity over the work of adhesion",
+        symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
+    }
+    WorkOfAdhesion {
+        name: "work_of_adhesion", meaning: "work of adhesion",
+        symbol: "γ", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.work_of_adhesion,
+    }
+    IdealAdhesionForce {
+        name: "ideal_adhesion_force", meaning: "adhesion force of a flat face, eq. (14)",
+        symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
+    }
+    ZeroLoadAdhesionForce {
+        name: "zero_load_adhesion_force", meaning: "adhesion force after turning at first touch",
+        symbol: "F_a(0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load,
+    }
+    ZeroLoadAdhesionShare {
+        name: "zero_load_adhesion_share",
+        meaning: "adhesion force after turning at first touch, over that of a flat face",
+        symbol: "F_a(0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
+        of: |case| case.share(case.zero_load),
+    }
+    ZeroForceAdhesionForce {
+        name: "zero_force_adhesion_force",
+        meaning: "adhesion force after turning where the force is back at zero",
+        symbol: "F_a(F=0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
+    }
+    ZeroForceAdhesionShare {
+        name: "zero_force_adhesion_share",
+        meaning: "adhesion force after turning where the force is back at zero, over that of a flat face",
+        symbol: "F_a(F=0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
+        of: |case| case.share(case.zero_force),
+    }
+    PreloadForce {
+        name: "preload_force", meaning: "preload: largest force since the last separation, before the last unloading",
+        symbol: "F_n", unit: "N", of: |case| case.loading.figures.preload,
+    }
+    PreloadIndentation {
+        name: "preload_indentation", meaning: "indentation at the preload",
+        symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.preload_indentation,
+    }
+    AdhesionForce {
+        name: "adhesion_force", meaning: "adhesion force after the preload",
+        symbol: "F_a", unit: "N", of: |case| case.loading.figures.adhesion_force,
+    }
+    AdhesionShare {
+        name: "adhesion_share", meaning: "adhesion force after the preload, over that of a flat face",
+        symbol: "F_a/F_a,max", bounds: SHARE, of: |case| case.share(case.loading.figures.adhesion_force),
+    }
+    AdhesionCoefficient {
+        name: "adhesion_coefficient", meaning: "adhesion force over preload",
+        symbol: "F_a/F_n", of: |case| case.loading.figures.adhesion_coefficient,
+    }
+    PullOffIndentation {
+        name: "pull_off_indentation", meaning: "indentation at the smallest force",
+        symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.pull_off_indentation,
+    }
+    DissipatedEnergy {
+        name: "dissipated_energy", meaning: "energy lost over the loop",
+        symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
+    }
+    TaborNumber {
+        name: "tabor_number", meaning: "Tabor number; below 5, energies come out too large",
+        symbol: "μ", of: |case| case.tabor_number(),
+    }
+    ContactFraction {
+        name: "contact_fraction", meaning: "largest length in contact over the length",
+        bounds: SHARE, of: |case| case.contact_fraction(),
+    }
+    Fragments {
+        name: "fragments", meaning: "contact patches at the preload",
+        of: |case| case.loading.preload.map(|point| point.fragments as f64),
+    }
+    Regime {
+        name: "regime", meaning: "regime of adhesion from first touch, Fig. 4",
+        unit: "", of: |case| case.regime(case.zero_load),
+    }
+    RegimeAfterZeroForce {
+        name: "regime_after_zero_force", meaning: "the same with F_a(F=0), after zero net force",
+        unit: "", of: |case| case.regime(case.zero_force),
+    }
+    StiffnessExponent {
+        name: "stiffness_exponent",
+        meaning: "exponent of the stiffness over the force without adhesion, k ∝ F^α; 1/(1+H) is expected",
+        symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.0),
+    }
+    ForceExponent {
+        name: "force_exponent",
+        meaning: "exponent of the force over the indentation without adhesion, F ∝ dⁿ",
+        symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.1),
+    }
+    RmsHeight {
+        name: "rms_height", meaning: "rms height of the line",
+        symbol: "h", unit: "m", needs: Needs::Heights, of: |case| case.profile.rms_height,
+    }
+    Skewness {
+        name: "skewness", meaning: "skewness of the heights of the line",
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.0),
+    }
+    ExcessKurtosis {
+        name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the line",
+        bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.1),
+    }
+    SummitHeight {
+        name: "summit_height", meaning: "height of the summit over the rms height",
+        needs: Needs::Heights, of: |case| case.profile.summit,
+    }
+}
+
+impl Quantity {
+    /// F_a(0)/F_a,max by the two protocols.
+    pub const ADHESION_SHARES: [Quantity; 2] =
+        [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
+
+    /// The regimes by the two protocols.
+    pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
+
+    /// The protocol of the regime that is mapped with a quantity, in words.
+    pub fn protocol(self) -> &'static str {
+        if self == Quantity::RegimeAfterZeroForce { "after zero net force" } else { "from first touch" }
+    }
+
+    /// The same in a title or a legend.
+    pub fn short_protocol(self) -> &'static str {
+        if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "touch" }
+    }
+
+    /// Returns true for a regime, which is not a number.
+    pub fn is_regime(self) -> bool {
+        Quantity::REGIMES.contains(&self)
+    }
+
+    const fn row(self) -> &'static Row {
+        &ROWS[self as usize]
+    }
+
+    /// Name in plans and of columns.
+    pub const fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// Symbol; empty where the quantity has none.
+    pub const fn symbol(self) -> &'static str {
+        self.row().symbol
+    }
+
+    /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
+    pub const fn unit(self) -> &'static str {
+        self.row().unit
+    }
+
+    /// Meaning in one line.
+    pub const fn meaning(self) -> &'static str {
+        self.row().meaning
+    }
+
+    /// Smallest and largest possible value.
+    pub const fn bounds(self) -> (f64, f64) {
+        self.row().bounds
+    }
+
+    pub(super) const fn needs(self) -> Needs {
+        self.row().needs
+    }
+
+    /// Finite value of a case, SI unit; NaN if the case has none. A regime is its place in
+    /// [`asperity_scene::Regime::ALL`].
+    pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
+        (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
+    }
+}
+
+/// The regime of a recorded value; `None` for NaN.
+pub(super) fn regime_of(value: f64) -> Option<Regime> {
+    Regime::ALL.get(Some(value as usize).filter(|_| !value.is_nan())?).copied()
+}

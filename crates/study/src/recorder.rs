@@ -1,0 +1,208 @@
+//! Recorder of a streak: solves its loadings on one profile and reads the recorded quantities.
+
+use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
+use super::cells::Streak;
+use super::plan::{Plan, StiffnessRange};
+use super::quantity::{Needs, Quantity};
+use asperity_contact::ContactError;
+use asperity_contact::Move;
+use asperity_data::printable;
+use asperity_data::slope;
+use asperity_scene::Governing;
+use asperity_scene::{CheckedScene, Roughness, Solver};
+use asperity_scene::{FEW_SAMPLES, Outcome, RunError, Simulation};
+use asperity_surface::SurfaceError;
+
+/// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case
+/// does not have.
+pub(super) type Records = Vec<Vec<f64>>;
+
+/// Values of a record, or the reason, on one line, why they cannot be computed.
+pub(super) type Recorded = Result<Vec<f64>, String>;
+
+/// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
+pub(super) struct Recorder<'p> {
+    plan: &'p Plan,
+    pub simulation: Simulation,
+    /// Properties of the last profile, and their scene without adhesion and loading.
+    profile: Option<(CheckedScene, ProfileRecord)>,
+    stop: &'p dyn Fn() -> bool,
+}
+
+impl<'p> Recorder<'p> {
+    /// A recorder that stops within a case as soon as `stop` returns true.
+    pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
+        Recorder { plan, simulation, profile: None, stop }
+    }
+
+    /// Solves a streak. A cell that cannot be computed has the reason in place of its values.
+    ///
+    /// # Errors
+    /// Too little memory, or a stop: neither is a property of a cell.
+    pub fn record_each(&mut self, streak: &Streak) -> Result<Vec<Recorded>, RunError> {
+        match self.record(streak) {
+            Ok(records) => Ok(records.into_iter().map(Ok).collect()),
+            Err(error) if is_of_machine(&error) => Err(error),
+            Err(error) if streak.cells.end - streak.cells.start == 1 => {
+                let reason = error.to_string();
+                Ok(vec![Err(printable(reason.lines().next().unwrap_or_default()).into_owned())])
+            }
+            // Of several preloads some may be within reach.
+            Err(_) => {
+                let one = |cell| self.record_each(&Streak { cells: cell..cell + 1, line: streak.line });
+                Ok(streak.cells.clone().map(one).collect::<Result<Vec<_>, _>>()?.concat())
+            }
+        }
+    }
+
+    /// Solves a streak.
+    ///
+    /// # Errors
+    /// A failure of the profile or the contact, or a stop.
+    pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
+        let plan = self.plan;
+        let scene =
+            plan.scene_of(streak.cells.start)?.with_seed(plan.seed_of(streak.line)).stripped(FEW_SAMPLES);
+        let profile = self.profile_record(&scene)?;
+        let (_, _, governing) = self.simulation.make_line(&scene)?;
+        let mut loops = Vec::new();
+        if plan.records(Needs::Loading) {
+            match plan.preloads() {
+                Some(preloads) => {
+                    // Preloads in units of E* h L, or in N.
+                    let unit = || governing.force_unit(scene.length).unwrap_or(f64::NAN);
+                    let unit = if preloads.unit == "N" { 1.0 } else { unit() };
+                    let press = |preload: &f64| vec![Move::ToForce(preload * unit), Move::ToSeparation];
+                    let first = streak.cells.start as usize % preloads.values.len();
+                    let count = (streak.cells.end - streak.cells.start) as usize;
+                    loops.extend(preloads.values[first..first + count].iter().map(press));
+                }
+                None => loops.push(scene.loading.clone()),
+            }
+        }
+        let count = loops.len();
+        let [touch_regime, regime] = Quantity::REGIMES.map(|regime| plan.column(regime).is_some());
+        let needs_zero_force = plan.records(Needs::ZeroForce) || regime;
+        if needs_zero_force {
+            loops.push(vec![Move::ToZeroForce, Move::ToSeparation]);
+        }
+        let (mut each, mut zero_load) = (Vec::new(), None);
+        if !loops.is_empty() || plan.records(Needs::Touch) {
+            (each, zero_load) = self.solve(&scene, &governing, loops)?;
+        }
+        let zero_force = each.get(count).filter(|_| needs_zero_force);
+        let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
+        each.truncate(count);
+        each.resize((streak.cells.end - streak.cells.start) as usize, LoadingOutcome::default());
+        let values = |loading: LoadingOutcome| {
+            let smooth = match touch_regime || regime {
+                true => self.simulation.smooth_adhesion_force(&scene, &governing, &loading.figures)?,
+                false => None,
+            };
+            let case =
+                CaseOutcome { governing, profile, scene: &scene, zero_load, zero_force, smooth, loading };
+            Ok(plan.record.iter().map(|quantity| quantity.of(&case)).collect())
+        };
+        each.into_iter().map(values).collect()
+    }
+
+    /// Outcomes of loadings, each of which begins at separation, and F_a(0) by the touch protocol.
+    fn solve(
+        &mut self,
+        scene: &CheckedScene,
+        governing: &Governing,
+        loops: Vec<Vec<Move>>,
+    ) -> Result<(Vec<LoadingOutcome>, Option<f64>), RunError> {
+        let press = |legs: &Vec<Move>| match legs[..] {
+            [press @ (Move::ToForce(_) | Move::ToTouch | Move::ToZeroForce), Move::ToSeparation] => {
+                Some(press)
+            }
+            _ => None,
+        };
+        let turned: Option<Vec<Move>> = loops.iter().map(press).collect();
+        if let (Some(turned), Solver::Exact) = (turned, scene.numerics.solver) {
+            // One loading serves all reversals.
+            let ends = [&[Move::ToTouch], turned.as_slice()].concat();
+            let mut each = vec![LoadingOutcome::default(); ends.len()];
+            self.simulation.reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
+                each[index] = LoadingOutcome::of_reversal(ends[index], &reversal);
+                Ok(())
+            })?;
+            let at_touch = each.remove(0).figures.adhesion_force;
+            return Ok((each, at_touch.filter(|_| governing.adhesive_work().is_some())));
+        }
+        let loops = if loops.is_empty() { vec![vec![Move::ToTouch, Move::ToSeparation]] } else { loops };
+        let (mut each, mut zero_load) = (Vec::with_capacity(loops.len()), None);
+        for one in loops {
+            let outcome = self.run(&scene.with(|scene| scene.loading = one)?)?;
+            zero_load = zero_load.or(outcome.zero_load_adhesion_force);
+            each.push(LoadingOutcome::of_legs(outcome.history.legs));
+        }
+        Ok((each, zero_load))
+    }
+
+    fn run(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {
+        self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
+    }
+
+    fn profile_record(&mut self, scene: &CheckedScene) -> Result<ProfileRecord, RunError> {
+        let (heights, stiffness) = (self.plan.records(Needs::Heights), self.plan.records(Needs::Stiffness));
+        if !heights && !stiffness {
+            return Ok(ProfileRecord::default());
+        }
+        let amplitude = self.simulation.make_line(scene)?.2.amplitude;
+        let nonadhesive = scene.with(|scene| {
+            (scene.adhesion, scene.loading) = (None, vec![Move::ToTouch]);
+            if let (Some(Roughness::SelfAffine { rms_height, rms_gradient, .. }), Some(amplitude)) =
+                (&mut scene.roughness, amplitude)
+            {
+                // The amplitude may depend on the adhesion.
+                (*rms_height, *rms_gradient) = (Some(amplitude.rms_height), None);
+            }
+        })?;
+        if let Some((known, record)) = &self.profile
+            && *known == nonadhesive
+        {
+            return Ok(*record);
+        }
+        let mut record = ProfileRecord::default();
+        if heights {
+            // Without the form, which is the same on all profiles.
+            let (line, ..) = self.simulation.make_line(&nonadhesive.with(|scene| scene.form = None)?)?;
+            record = ProfileRecord::of_gaps(&line.gaps, line.deepest);
+        }
+        if stiffness {
+            record.exponents = self.exponents(&nonadhesive)?;
+        }
+        self.profile = Some((nonadhesive, record));
+        Ok(record)
+    }
+
+    /// Exponents of the contact without adhesion, fitted in logarithms over the plan's range of forces. Without stretched
+    /// springs the stiffness is E* times the length in contact.
+    fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
+        let (_, _, governing) = self.simulation.make_line(scene)?;
+        let Some(unit) = governing.force_unit(scene.length) else { return Ok(None) };
+        let StiffnessRange { from, to, count } = self.plan.stiffness;
+        let step = (to / from).ln() / (count - 1) as f64;
+        let force = |index: u64| unit * from * (step * index as f64).exp();
+        let loading = (0..count).map(|index| Move::ToForce(force(index))).collect();
+        let outcome = self.run(&scene.with(|scene| scene.loading = loading)?)?;
+        let points = outcome.history.legs.iter().filter_map(|leg| leg.curve.last());
+        let points: Vec<_> = points.filter(|point| point.force > 0.0 && point.indentation > 0.0).collect();
+        let lengths: Vec<_> = points.iter().map(|at| (at.force.ln(), at.contact_length.ln())).collect();
+        let forces: Vec<_> = points.iter().map(|at| (at.indentation.ln(), at.force.ln())).collect();
+        Ok(slope(&lengths).zip(slope(&forces)))
+    }
+}
+
+/// Returns true for an error of the machine or of the user rather than of a cell.
+fn is_of_machine(error: &RunError) -> bool {
+    let is_short = matches!(
+        error,
+        RunError::OutOfMemory { .. }
+            | RunError::Surface(SurfaceError::OutOfMemory(_))
+            | RunError::Contact(ContactError::OutOfMemory(_))
+    );
+    is_short || error.is_interruption()
+}

@@ -1,0 +1,424 @@
+//! All records of a study: from its shard files, from its merged table, or computed in memory.
+
+use super::axis::Axis;
+use super::cells::Streak;
+use super::error::StudyError;
+use super::error::{FIXED_PROFILE, NO_PROFILES};
+use super::grid::{Cell, Grid, Layer};
+use super::plan::Plan;
+use super::quantity::{Quantity, regime_of};
+use super::recorder::{Recorded, Recorder, Records};
+use super::statistics::{RegimeCounts, Statistics};
+use super::store::{Folder, Record, ShardFile};
+use asperity_data::AxisScale;
+use asperity_data::on_threads;
+use asperity_scene::Regime;
+use asperity_scene::{RunError, Simulation};
+use asperity_scene::{Scene, Solver};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+const MOST_NAMED: usize = 8;
+
+/// The records of a study.
+#[derive(Clone)]
+pub struct Results {
+    pub(super) plan: Plan,
+    /// Values of each record, by cell, then by profile; NaN where there are none.
+    values: Vec<f64>,
+    done: Vec<bool>,
+    /// Reasons of the records that cannot be computed, by the same places.
+    failed: BTreeMap<u64, String>,
+}
+
+/// Contents of the shard files of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Merged {
+    /// Existing records, each counted once.
+    pub records: u64,
+    /// Records without values, since they cannot be computed.
+    pub failed: u64,
+    /// The first of these: cell, seed and reason.
+    pub first_failed: Vec<(u64, u64, String)>,
+    /// All records of the study.
+    pub total: u64,
+    /// Records that occurred more than once, bit for bit the same.
+    pub duplicates: u64,
+    /// Torn or damaged lines of shard files, left out.
+    pub damaged: u64,
+    /// Number of cells with missing profiles.
+    pub missing_cells: u64,
+    /// The first of these cells.
+    pub first_missing: Vec<u64>,
+    /// Number of files with records.
+    pub files: usize,
+    /// Versions of the program that wrote the records.
+    pub programs: Vec<String>,
+}
+
+impl PartialEq for Results {
+    /// Equal plans and values bit by bit, so that missing values are equal.
+    fn eq(&self, other: &Self) -> bool {
+        self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
+    }
+}
+
+impl std::fmt::Debug for Results {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} of {} records", self.count(), self.plan.records_in_all())
+    }
+}
+
+/// Returns true for equal bits, but for the kind of NaN.
+fn same(one: &[f64], other: &[f64]) -> bool {
+    let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+    one.len() == other.len() && one.iter().zip(other).all(equal)
+}
+
+fn same_record(one: &Recorded, other: &Recorded) -> bool {
+    match (one, other) {
+        (Ok(one), Ok(other)) => same(one, other),
+        _ => one.is_err() && one == other,
+    }
+}
+
+impl Results {
+    /// A study without records.
+    ///
+    /// # Errors
+    /// A table that is too large for the memory.
+    pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
+        let (records, mut values) = (plan.records_in_all(), Vec::new());
+        let count = records as usize * plan.record.len();
+        values.try_reserve_exact(count).map_err(|_| StudyError::TooManyRecords(records))?;
+        values.resize(count, f64::NAN);
+        Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
+    }
+
+    /// A study in memory of a checked scene on random profiles, at each of these preloads, N, if there are any; without
+    /// records.
+    ///
+    /// # Errors
+    /// A scene with a single profile if there are to be several, preloads without the exact solver, or a study that is
+    /// too large for the memory.
+    pub fn begin(
+        scene: &Scene,
+        record: &[Quantity],
+        lines: u64,
+        preloads: Option<&Axis>,
+    ) -> Result<Results, StudyError> {
+        if lines == 0 {
+            return Err(NO_PROFILES);
+        }
+        if lines > 1 && scene.seed().is_none() {
+            return Err(FIXED_PROFILE);
+        }
+        if preloads.is_some() && scene.numerics.solver != Solver::Exact {
+            return Err(StudyError::Run { place: String::new(), error: RunError::NeedsExactSolver });
+        }
+        let axes = preloads.into_iter().cloned().collect();
+        Results::empty(Plan { axes, ..Plan::of_scene(scene, lines, record) })
+    }
+
+    /// Computes a study as that of [`Results::begin`]. Files of the scene are relative to `folder`. `jobs` threads share
+    /// the profiles; no bit of a result depends on their number.
+    ///
+    /// # Errors
+    /// As [`Results::begin`], or the first profile that fails.
+    pub fn of_scene(
+        scene: &Scene,
+        folder: &Path,
+        record: &[Quantity],
+        lines: u64,
+        preloads: Option<&Axis>,
+        jobs: usize,
+    ) -> Result<Results, StudyError> {
+        let mut results = Results::begin(scene, record, lines, preloads)?;
+        let plan = &results.plan;
+        let solved = on_threads(lines, jobs, || {
+            let simulation = Simulation::new(folder.to_path_buf());
+            let simulation = if lines == 1 { simulation.for_one_scene() } else { simulation };
+            let mut recorder = Recorder::new(plan, simulation, &|| false);
+            move |line| {
+                let solved = recorder.record(&Streak { cells: 0..plan.cells(), line });
+                solved.map_err(|error| StudyError::of_profile(plan, line, error))
+            }
+        })?;
+        (0..).zip(&solved).for_each(|(line, records)| results.set_profile(line, records));
+        Ok(results)
+    }
+
+    /// Computes the missing profiles of a study as that of [`Results::begin`], one after the other. `report` receives the
+    /// results after each.
+    ///
+    /// # Errors
+    /// When a profile or its contact fails, or `stop` interrupts.
+    pub fn extend(
+        &mut self,
+        simulation: &mut Simulation,
+        stop: &dyn Fn() -> bool,
+        report: &mut dyn FnMut(&Results),
+    ) -> Result<(), RunError> {
+        let plan = self.plan.clone();
+        let mut recorder = Recorder::new(&plan, std::mem::take(simulation), stop);
+        let mut missing = (0..plan.lines).filter(|line| !self.has(0, *line)).collect::<Vec<_>>().into_iter();
+        let done = missing.try_for_each(|line| {
+            let records = recorder.record(&Streak { cells: 0..plan.cells(), line })?;
+            self.set_profile(line, &records);
+            report(self);
+            Ok(())
+        });
+        *simulation = recorder.simulation;
+        done
+    }
+
+    fn set_profile(&mut self, line: u64, records: &Records) {
+        for (cell, values) in (0..).zip(records) {
+            self.set(cell * self.plan.lines + line, values);
+        }
+    }
+
+    /// Reads all shard files of a study.
+    ///
+    /// # Errors
+    /// Files that cannot be read, or two records of one cell and profile that differ.
+    pub(super) fn of_shards(folder: &Folder) -> Result<(Results, Merged), StudyError> {
+        let mut results = Results::empty(folder.plan().clone())?;
+        let files = folder.files()?;
+        let (mut duplicates, mut damaged, mut with_records) = (0, 0, 0);
+        let mut programs = BTreeSet::new();
+        for file in &files {
+            let mut has_records = false;
+            for record in folder.records(file)? {
+                let Some((place, record)) = record? else {
+                    damaged += 1;
+                    continue;
+                };
+                has_records = true;
+                match results.recorded(place) {
+                    None => results.set_record(place, record),
+                    Some(known) if same_record(&known, &record) => duplicates += 1,
+                    Some(_) => return Err(results.conflict(folder, &files, place, file)),
+                }
+            }
+            if has_records {
+                with_records += 1;
+                programs.insert(file.header.program.clone());
+            }
+        }
+        let plan = &results.plan;
+        let failure = |(cell, line, reason): (u64, u64, &str)| (cell, plan.seed_of(line), reason.to_owned());
+        let missing: Vec<u64> = (0..plan.cells()).filter(|cell| !results.is_whole(*cell)).collect();
+        let merged = Merged {
+            records: results.count(),
+            failed: results.failed.len() as u64,
+            first_failed: results.failed().take(MOST_NAMED).map(failure).collect(),
+            total: plan.records_in_all(),
+            duplicates,
+            damaged,
+            missing_cells: missing.len() as u64,
+            first_missing: missing.into_iter().take(MOST_NAMED).collect(),
+            files: with_records,
+            programs: programs.into_iter().collect(),
+        };
+        Ok((results, merged))
+    }
+
+    /// Error for two records at a place that differ, the second one in this file.
+    fn conflict(&self, folder: &Folder, files: &[ShardFile], place: u64, other: &ShardFile) -> StudyError {
+        let is_there = |record: Result<Option<Record>, StudyError>| matches!(record, Ok(Some((found, _))) if found == place);
+        let has = |file: &&ShardFile| folder.records(file).is_ok_and(|mut records| records.any(is_there));
+        let one = files.iter().find(has).unwrap_or(other);
+        let (cell, seed) = (place / self.plan.lines, self.plan.seed_of(place % self.plan.lines));
+        let place = format!("cell {cell}, seed {seed} ({})", self.plan.coordinates(cell));
+        StudyError::Conflict { place, files: [one.path.clone(), other.path.clone()] }
+    }
+
+    fn count(&self) -> u64 {
+        self.done.iter().filter(|done| **done).count() as u64
+    }
+
+    /// Sets the record at a place, by cell, then by profile.
+    pub(super) fn set(&mut self, place: u64, values: &[f64]) {
+        let columns = self.plan.record.len();
+        self.values[place as usize * columns..][..columns].copy_from_slice(values);
+        self.done[place as usize] = true;
+    }
+
+    /// Sets the record at a place, of which a reason is kept in place of the values.
+    pub(super) fn set_record(&mut self, place: u64, record: Recorded) {
+        match record {
+            Ok(values) => self.set(place, &values),
+            Err(reason) => {
+                self.done[place as usize] = true;
+                self.failed.insert(place, reason);
+            }
+        }
+    }
+
+    /// The record at a place, if there is one.
+    fn recorded(&self, place: u64) -> Option<Recorded> {
+        match self.failed.get(&place) {
+            Some(reason) => Some(Err(reason.clone())),
+            None => self.at(place).map(|values| Ok(values.to_vec())),
+        }
+    }
+
+    /// The records that cannot be computed: cell, number of the profile and reason.
+    pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
+        let lines = self.plan.lines;
+        self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
+    }
+
+    /// Reason why a record has no values.
+    pub(super) fn reason(&self, cell: u64, line: u64) -> Option<&str> {
+        self.failed.get(&(cell * self.plan.lines + line)).map(String::as_str)
+    }
+
+    /// Reason why nothing of a cell is known, if it cannot be computed on any profile.
+    pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
+        let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
+        let reasons = || self.failed.range(places.clone()).map(|(_, reason)| reason.as_str());
+        (reasons().count() as u64 == self.plan.lines).then(|| reasons().next()).flatten()
+    }
+
+    /// The plan of the study.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Values of a cell on a profile, in the order of the recorded quantities, NaN for a quantity without a value. The
+    /// regimes are places in [`asperity_scene::Regime::ALL`]. `None` for a missing record.
+    pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
+        self.at(cell * self.plan.lines + line)
+    }
+
+    fn at(&self, place: u64) -> Option<&[f64]> {
+        let columns = self.plan.record.len();
+        let values = self.values.get(place as usize * columns..)?.get(..columns)?;
+        (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
+    }
+
+    /// A recorded quantity of a cell on a profile, if it has a value.
+    pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
+        let column = self.plan.column(quantity)?;
+        self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
+    }
+
+    /// A recorded regime of a cell on a profile.
+    pub fn regime(&self, cell: u64, line: u64, regime: Quantity) -> Option<Regime> {
+        regime_of(self.value(cell, line, regime)?)
+    }
+
+    /// Existing records of a cell: the number of the profile and the values.
+    pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
+        (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
+    }
+
+    pub(super) fn has(&self, cell: u64, line: u64) -> bool {
+        self.done[(cell * self.plan.lines + line) as usize]
+    }
+
+    /// Returns true for a cell with all records.
+    pub fn is_whole(&self, cell: u64) -> bool {
+        (0..self.plan.lines).all(|line| self.has(cell, line))
+    }
+
+    /// A recorded quantity on all profiles of a cell that have a value of it.
+    pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
+        let Some(column) = self.plan.column(quantity) else { return Vec::new() };
+        self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
+    }
+
+    /// A recorded quantity over the profiles of a cell; `None` without values.
+    pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
+        Statistics::of(self.values(cell, quantity), quantity.bounds())
+    }
+
+    /// Numbers of profiles of a cell in each regime of [`Quantity::REGIMES`].
+    pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
+        let regime = |line, of| self.regime(cell, line, of);
+        Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))
+    }
+
+    /// The recorded quantities but the regimes, on scales for the whole study.
+    pub(super) fn layers(&self) -> Vec<Layer> {
+        let recorded = self.plan.record.iter().filter(|quantity| !quantity.is_regime());
+        recorded.map(|quantity| self.layer(*quantity, None)).collect()
+    }
+
+    /// A recorded quantity on one scale for the whole study: that one, or by the range of all its means.
+    pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
+        let means = (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
+        Layer::new(quantity, scale, &means.collect::<Vec<_>>())
+    }
+
+    /// The cells over one axis or two, at these places on the others, with quantities on these scales.
+    pub(super) fn grid(
+        &self,
+        (across, up): (usize, Option<usize>),
+        mut places: Vec<usize>,
+        layers: Vec<Layer>,
+    ) -> Grid {
+        let axes = &self.plan.axes;
+        let quantities: Vec<Quantity> = layers.iter().map(|layer| layer.quantity).collect();
+        let mut cells = Vec::new();
+        for row in up.map_or(vec![0], |up| axes[up].order()) {
+            if let Some(up) = up {
+                places[up] = row;
+            }
+            for column in axes[across].order() {
+                places[across] = column;
+                let cell = self.plan.cell_at(&places);
+                let reason = || self.failure_of(cell).map(|reason| Err(reason.to_owned()));
+                cells.push(self.cell(cell, &quantities).map(Ok).or_else(reason));
+            }
+        }
+        let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up);
+        let fixed = others.map(|axis| axes[axis].at(places[axis])).collect();
+        Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), fixed, layers, cells)
+    }
+
+    /// A cell with these quantities; `None` without any record.
+    pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<Cell> {
+        let statistics = quantities.iter().map(|quantity| self.statistics(cell, *quantity)).collect();
+        let regimes = self.regimes(cell);
+        (regimes[0].profiles() > 0).then_some(Cell { statistics, regimes })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::open;
+
+    #[test]
+    fn profiles_do_not_depend_on_how_many_threads_share_them() {
+        let document = open("rough-sphere").unwrap();
+        let scene = document.scene().with_seed(u64::MAX - 2);
+        let scene = scene.with(|scene| scene.numerics.points = 1024).unwrap();
+        let record = [Quantity::AdhesionForce, Quantity::DissipatedEnergy];
+        let of = |jobs| Results::of_scene(&scene, &document.resolve(""), &record, 7, None, jobs).unwrap();
+        let alone = of(1);
+        assert_eq!((of(3), of(64)), (alone.clone(), alone.clone()));
+        assert_eq!([0, 3].map(|line| alone.plan().seed_of(line)), [u64::MAX - 2, 0]);
+        // Each record is that of the scene itself with that seed.
+        let mut simulation = Simulation::new(document.resolve(""));
+        let outcome = simulation.run(&scene.with_seed(0), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        for (quantity, expected) in
+            record.into_iter().zip([outcome.figures.adhesion_force, outcome.figures.dissipated_energy])
+        {
+            assert_eq!(alone.value(0, 3, quantity), expected);
+        }
+        assert_eq!(alone.statistics(0, record[0]).unwrap().count, 7);
+    }
+
+    #[test]
+    fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {
+        let other_nan = f64::from_bits(f64::NAN.to_bits() | 1);
+        assert!(same(&[1.0, f64::NAN], &[1.0, other_nan]));
+        for (one, other) in [(1.0, 1.0_f64.next_up()), (0.0, -0.0), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+            assert!(!same(&[2.0, one], &[2.0, other]), "{one} {other}");
+        }
+    }
+}

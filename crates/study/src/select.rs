@@ -1,0 +1,219 @@
+//! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
+
+use super::axis::Axis;
+use super::grid::{Grid, Layer, across_and_up, scale_of};
+use super::plan::Plan;
+use super::quantity::Quantity;
+use super::results::Results;
+use asperity_data::AxisScale;
+use asperity_data::parse_quantity;
+use asperity_data::round_to;
+
+/// Most values of a second axis that makes curves of a section rather than rows of a map.
+const MOST_CURVES: usize = 5;
+const MOST_NAMED: usize = 12;
+
+/// Selection by the user; an option of `asperity sweep plot` for each field.
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Quantity of each panel; default: F_a(0) and F_a/F_n
+    ///
+    /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first one.
+    #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME"))]
+    pub quantities: Vec<String>,
+    /// Axis across
+    #[cfg_attr(feature = "clap", arg(long = "x", value_name = "AXIS"))]
+    pub across: Option<String>,
+    /// Axis up
+    #[cfg_attr(feature = "clap", arg(long = "y", value_name = "AXIS"))]
+    pub up: Option<String>,
+    /// Fix an axis at one of its values, as often as needed
+    #[cfg_attr(feature = "clap", arg(long, value_name = "AXIS=VALUE", value_parser = axis_and_value))]
+    pub at: Vec<(String, String)>,
+    /// Scale of quantities
+    ///
+    /// Default: by the range of the values; small values have a second, logarithmic chart.
+    #[cfg_attr(feature = "clap", arg(long, value_enum))]
+    pub scale: Option<AxisScale>,
+}
+
+#[cfg(feature = "clap")]
+fn axis_and_value(text: &str) -> Result<(String, String), String> {
+    let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
+    let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
+    let owned = parts.map(|(axis, value)| (axis.to_owned(), value.to_owned()));
+    owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
+}
+
+/// A selected part of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Selected {
+    /// The cells.
+    pub grid: Grid,
+    /// The shown quantities.
+    pub quantities: Vec<Quantity>,
+    /// True if the rows of the grid are curves of a section.
+    pub curves: bool,
+}
+
+/// The axes that are named to go across and up, and for each axis of a study the place at which it is fixed.
+type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
+
+impl Selection {
+    /// Selects a part of a study.
+    ///
+    /// # Errors
+    /// Unknown quantity, axis or value, with those that the study has; more than two free axes.
+    pub fn of(&self, study: &Results) -> Result<Selected, String> {
+        let plan = study.plan();
+        let quantities = self.quantities(plan)?;
+        let (named, at) = self.axes(&plan.axes)?;
+        let (across, second) = self.free(&plan.axes, named, &at)?;
+        let curves = self.up.is_none() && second.is_some_and(|second| is_few(&plan.axes, second, across));
+        let places = at.iter().map(|place| place.unwrap_or(0)).collect();
+        let mut grid = study.grid((across, second), places, study.layers());
+        let is_map = second.is_some() && !curves;
+        let layer = |quantity, scale: Option<AxisScale>| match is_map {
+            true => study.layer(quantity, scale),
+            false => section_layer(&grid, quantity, scale),
+        };
+        // The same quantity by two protocols has one scale.
+        let is_share = |quantity: &Quantity| Quantity::ADHESION_SHARES.contains(quantity);
+        let is_logarithmic = |quantity: &Quantity| layer(*quantity, None).scale == AxisScale::Logarithmic;
+        let both = quantities.iter().all(is_share) && quantities.iter().any(is_logarithmic);
+        let scale = self.scale.or(both.then_some(AxisScale::Logarithmic));
+        grid.layers = grid.layers.iter().map(|one| layer(one.quantity, scale)).collect();
+        Ok(Selected { grid, quantities, curves })
+    }
+
+    fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, String> {
+        let drawn = plan.record.iter().copied().filter(|one| !one.is_regime());
+        let drawn: Vec<Quantity> = drawn.collect();
+        let named = |name: &str| {
+            drawn.iter().copied().find(|one| one.name() == name).ok_or_else(|| {
+                let allowed = drawn.iter().map(|one| one.name()).collect::<Vec<_>>().join(", ");
+                let allowed = if drawn.is_empty() { "none, only regimes were recorded" } else { &allowed };
+                format!("--quantity {name}: this study has no such quantity; allowed: {allowed}")
+            })
+        };
+        if !self.quantities.is_empty() {
+            return self.quantities.iter().map(|name| named(name)).collect();
+        }
+        let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
+        // Without a preload there is no coefficient, and both protocols are side by side.
+        let usual = if drawn.contains(&paper[1]) { paper } else { Quantity::ADHESION_SHARES };
+        let usual: Vec<_> = usual.into_iter().filter(|one| drawn.contains(one)).collect();
+        let first = || named(drawn.first().map_or("regime", |one| one.name()));
+        if usual.is_empty() { Ok(vec![first()?]) } else { Ok(usual) }
+    }
+
+    /// The named axes, which exist and are named once; an axis with one value is fixed.
+    fn axes(&self, axes: &[Axis]) -> Result<Chosen, String> {
+        let mut named: Vec<(usize, &str)> = Vec::new();
+        let mut name = |path: &str, option| {
+            let index = find(axes, path, option)?;
+            if let Some((_, other)) = named.iter().find(|(known, _)| *known == index) {
+                return Err(format!("{path}: named by {other} and by {option}; allowed: one of them"));
+            }
+            named.push((index, option));
+            Ok(index)
+        };
+        let across = self.across.as_ref().map(|path| name(path, "--x")).transpose()?;
+        let up = self.up.as_ref().map(|path| name(path, "--y")).transpose()?;
+        let mut fixed: Vec<_> = axes.iter().map(|axis| (axis.values.len() == 1).then_some(0)).collect();
+        for (path, value) in &self.at {
+            let index = name(path, "--at")?;
+            let axis = &axes[index];
+            let wanted = parse_quantity(value, axis.unit).ok();
+            // Messages have values of 4 digits: those may be typed, and mean the nearest value.
+            let off = |there: &f64| wanted.map_or(f64::NAN, |wanted| (there - wanted).abs());
+            let same = |there: &f64| off(there) <= 5e-4 * there.abs();
+            let none = || {
+                let allowed = values_of(axis);
+                format!("--at {path}={value}: the study has no such value; allowed: {allowed}")
+            };
+            let close = (0..axis.values.len()).filter(|place| same(&axis.values[*place]));
+            let nearest = close.min_by(|a, b| off(&axis.values[*a]).total_cmp(&off(&axis.values[*b])));
+            fixed[index] = Some(nearest.ok_or_else(none)?);
+        }
+        Ok(([across, up], fixed))
+    }
+
+    /// The axis across, and the second one if there is one: as named; else H across and κ or e_el/γ up, or curves along the
+    /// longer of two axes.
+    fn free(
+        &self,
+        axes: &[Axis],
+        named: [Option<usize>; 2],
+        fixed: &[Option<usize>],
+    ) -> Result<(usize, Option<usize>), String> {
+        let is_named = |index: &usize| named.contains(&Some(*index));
+        let rest: Vec<usize> =
+            (0..axes.len()).filter(|index| fixed[*index].is_none() && !is_named(index)).collect();
+        match (named, &rest[..]) {
+            ([Some(across), up], []) => Ok((across, up)),
+            ([Some(across), None], [second]) => Ok((across, Some(*second))),
+            ([None, Some(up)], [across]) => Ok((*across, Some(up))),
+            ([None, None], [_] | [_, _]) => {
+                let (across, up) = across_and_up(axes, &rest).ok_or("no axis is free")?;
+                let longer = up.filter(|up| is_few(axes, across, *up));
+                Ok(longer.map_or((across, up), |longer| (longer, Some(across))))
+            }
+            (_, []) => {
+                Err("no axis is left to go across; a curve needs an axis with two values at least".into())
+            }
+            _ => {
+                let all: Vec<String> = rest
+                    .iter()
+                    .map(|index| format!("{} ({})", axes[*index].path, values_of(&axes[*index])))
+                    .collect();
+                let example = &axes[rest[0]];
+                Err(format!(
+                    "too many axes are free for a figure: {}; allowed: two, named by --x and --y, and the others fixed, such as \
+                     --at {}={}",
+                    all.join(", "),
+                    example.path,
+                    example.values[0]
+                ))
+            }
+        }
+    }
+}
+
+/// Returns true if an axis has so few values, and the other so many, that these are curves over the other.
+fn is_few(axes: &[Axis], one: usize, other: usize) -> bool {
+    let few = |index: usize| axes[index].values.len() <= MOST_CURVES;
+    few(one) && !few(other)
+}
+
+/// A quantity of curves: a single one is linear, and logarithmic too for small values; of several the highest would hide
+/// the others.
+fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
+    let statistics = grid.statistics(quantity, false);
+    let mut curves = statistics.chunks(grid.size().0.max(1));
+    let first = curves.next();
+    let several = curves.any(|curve| Some(curve) != first);
+    let means: Vec<f64> = statistics.iter().flatten().map(|one| one.mean).collect();
+    let usual = || if several { scale_of(&means) } else { AxisScale::Linear };
+    Layer { quantity, scale: scale.unwrap_or_else(usual), range: None }
+}
+
+fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, String> {
+    axes.iter().position(|axis| axis.path == path).ok_or_else(|| {
+        let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
+        let allowed = if all.is_empty() { "none, it has one cell".into() } else { all.join(", ") };
+        format!("{option} {path}: this study has no such axis; allowed: {allowed}")
+    })
+}
+
+fn values_of(axis: &Axis) -> String {
+    let value = |value: &f64| round_to(*value, 4).to_string();
+    let shown = |values: &[f64]| values.iter().map(value).collect::<Vec<_>>().join(", ");
+    match &axis.values[..] {
+        [first @ .., last] if first.len() >= MOST_NAMED => {
+            format!("{}, … {}", shown(&first[..MOST_NAMED - 1]), value(last))
+        }
+        values => shown(values),
+    }
+}

@@ -1,0 +1,293 @@
+//! Numbers of random profiles: their mean, spread and quartiles, and how many are in each regime.
+
+use asperity_data::{format_range, format_rounded};
+use asperity_data::{mean, quantile, standard_deviation, student_quantile};
+use asperity_scene::Regime;
+use serde::Serialize;
+
+/// Share of samples whose confidence interval holds the true mean.
+pub(crate) const CONFIDENCE: f64 = 0.95;
+
+/// Smallest share of random profiles in one regime for which the profiles agree.
+const AGREEING_SHARE: f64 = 0.75;
+
+/// Largest share of one profile in a mean without a warning.
+const MOST_OF_ONE: f64 = 0.5;
+
+/// A quantity over random profiles.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Number of values; profiles without a value are left out.
+    pub count: usize,
+    /// Mean.
+    pub mean: f64,
+    /// Lower quartile, median and upper quartile, interpolated between neighbours.
+    pub quartiles: [f64; 3],
+    /// Smallest and largest value.
+    pub range: (f64, f64),
+    /// Spread of the values and confidence of the mean; `None` for one value, or too few to state a confidence.
+    #[serde(flatten)]
+    pub spread: Option<Spread>,
+}
+
+/// Spread of several values and confidence of their mean.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// Standard deviation, with n − 1.
+    pub standard_deviation: f64,
+    /// Standard error of the mean.
+    pub standard_error: f64,
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t on a scale on which the quantity has
+    /// no bounds.
+    pub confidence_interval: (f64, f64),
+}
+
+/// Value of a column of a table of statistics, if it is known.
+pub type Column = fn(&Statistics) -> Option<f64>;
+
+impl Statistics {
+    /// Statistics of values of a quantity between these bounds, (−∞, ∞) without any. A value that is not a finite number is
+    /// left out as a missing one; `None` without values.
+    pub fn of(mut values: Vec<f64>, bounds: (f64, f64)) -> Option<Self> {
+        values.retain(|value| value.is_finite());
+        let mut sorted = values.clone();
+        sorted.sort_by(f64::total_cmp);
+        let range = (*sorted.first()?, *sorted.last()?);
+        let count = values.len() as f64;
+        // Divided by the largest value, so that no square overflows or underflows.
+        let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        values.iter_mut().for_each(|value| *value /= unit);
+        let mean = mean(&values);
+        let standard_deviation = standard_deviation(&values, mean) * unit;
+        let mean = mean * unit;
+        let spread = (values.len() > 1).then(|| {
+            let standard_error = standard_deviation / count.sqrt();
+            let half = student_quantile(values.len() as u32 - 1) * standard_error;
+            let confidence_interval = interval(mean, half, bounds);
+            Spread { standard_deviation, standard_error, confidence_interval }
+        });
+        let quartiles = [0.25, 0.5, 0.75].map(|share| quantile(&sorted, share));
+        Some(Statistics { count: values.len(), mean, quartiles, range, spread })
+    }
+
+    /// Columns of tables of statistics: endings of their names, and values.
+    pub const COLUMNS: [(&str, Column); 9] = [
+        ("mean", |all| Some(all.mean)),
+        ("sd", |all| Some(all.spread?.standard_deviation)),
+        ("low", |all| Some(all.spread?.confidence_interval.0)),
+        ("high", |all| Some(all.spread?.confidence_interval.1)),
+        ("min", |all| Some(all.range.0)),
+        ("q1", |all| Some(all.quartiles[0])),
+        ("median", |all| Some(all.quartiles[1])),
+        ("q3", |all| Some(all.quartiles[2])),
+        ("max", |all| Some(all.range.1)),
+    ];
+
+    /// Median, quartiles and range of several values in words, or the only value.
+    pub fn words(&self, unit: &str) -> String {
+        let ([lower, median, upper], (least, most)) = (self.quartiles, self.range);
+        let median = format_rounded(median, 2, unit);
+        if self.count < 2 {
+            return median;
+        }
+        let [quartiles, range] = [(lower, upper), (least, most)].map(|ends| format_range(ends, 2, unit));
+        format!("median {median} (quartiles {quartiles}, range {range})")
+    }
+
+    /// A warning where one of at least three profiles makes more than half of the mean of `what`.
+    pub fn warning(&self, what: &str) -> Option<String> {
+        let share = self.share_of_largest().filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
+        let percent = format_rounded(100.0 * share, 2, "1");
+        Some(format!("One profile makes {percent} % of the mean of {what}: the median is the better guide."))
+    }
+
+    /// Share of the largest value in the sum of values of which none is below zero.
+    pub fn share_of_largest(&self) -> Option<f64> {
+        let share = self.range.1 / (self.mean * self.count as f64);
+        Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
+    }
+
+    /// Both ends of the confidence interval of the mean, or the mean twice.
+    pub fn ends(&self) -> (f64, f64) {
+        self.confidence_interval().unwrap_or((self.mean, self.mean))
+    }
+
+    /// The confidence interval of the mean, if it is known.
+    pub fn confidence_interval(&self) -> Option<(f64, f64)> {
+        self.spread.map(|spread| spread.confidence_interval)
+    }
+}
+
+/// The mean with `half` the width of its interval added at both ends: plainly for a quantity without bounds, to the
+/// logarithm of the distance from one bound, and to the logarithm of the ratio of the distances from two. The interval
+/// never reaches a bound, and is the plain one where it is narrow.
+fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
+    let (above, below) = (mean - least, most - mean);
+    // Rounding may have carried the mean itself across a bound.
+    if above <= 0.0 || below <= 0.0 {
+        return (mean, mean);
+    }
+    let end = |half: f64| match (above.is_finite(), below.is_finite()) {
+        (true, true) => {
+            let odds = above / below * (half / above + half / below).exp();
+            most - (most - least) / (1.0 + odds)
+        }
+        (true, false) => least + above * (half / above).exp(),
+        _ => mean + half,
+    };
+    (end(-half), end(half))
+}
+
+/// Number of profiles in each regime.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct RegimeCounts {
+    /// Pressure-insensitive adhesion.
+    pub pressure_insensitive: usize,
+    /// Pressure-sensitive adhesion.
+    pub pressure_sensitive: usize,
+    /// No adhesion.
+    pub non_adhesive: usize,
+    /// Regime unknown: no tensile force.
+    pub none: usize,
+}
+
+impl RegimeCounts {
+    /// Counts the regimes of profiles.
+    pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
+        let mut counts = [0; 4];
+        regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
+        let [pressure_insensitive, pressure_sensitive, non_adhesive, none] = counts;
+        RegimeCounts { pressure_insensitive, pressure_sensitive, non_adhesive, none }
+    }
+
+    /// Numbers of profiles in the order of [`Regime::ALL`].
+    fn known(self) -> [usize; 3] {
+        [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
+    }
+
+    /// Number of profiles.
+    pub fn profiles(self) -> usize {
+        self.known().iter().sum::<usize>() + self.none
+    }
+
+    /// Regime of most profiles, with their number; of two with equal numbers the one with more adhesion.
+    pub fn most(self) -> Option<(Regime, usize)> {
+        self.ordered()[0]
+    }
+
+    /// Regime of the second largest number of profiles, if too few are in the first.
+    pub fn split(self) -> Option<Regime> {
+        let [most, second, _] = self.ordered();
+        let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
+        second.filter(|_| !agree).map(|(regime, _)| regime)
+    }
+
+    /// Regimes that occur with their numbers of profiles, the largest first.
+    fn ordered(self) -> [Option<(Regime, usize)>; 3] {
+        let mut counts = [0, 1, 2].map(|place| (Regime::ALL[place], self.known()[place]));
+        // Stable: of equal numbers the one with more adhesion remains first.
+        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
+    }
+
+    /// Regimes that occur, by name, with their numbers of profiles.
+    pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
+        let counts = self.known().into_iter().chain([self.none]);
+        let names = Regime::ALL.map(Regime::name).into_iter().chain(["not known"]);
+        names.zip(counts).filter(|(_, count)| *count > 0)
+    }
+
+    /// Shares of the profiles of known regime, in the order of [`Regime::ALL`]; `None` where no regime is known.
+    pub fn shares(self) -> Option<[f64; 3]> {
+        let all: usize = self.known().iter().sum();
+        (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_is_missing() {
+        let all = Statistics::of(vec![f64::NAN, 2.0, f64::INFINITY, 4.0], (0.0, 100.0)).unwrap();
+        assert_eq!((all.count, all.mean, all.range), (2, 3.0, (2.0, 4.0)));
+        assert_eq!(Statistics::of(vec![f64::NAN], (0.0, 100.0)), None);
+    }
+
+    #[test]
+    fn quartiles_lie_between_neighbours() {
+        for (values, quartiles) in [
+            (vec![4.0, 1.0, 2.0, 3.0, 100.0], [2.0, 3.0, 4.0]),
+            (vec![2.0, 1.0], [1.25, 1.5, 1.75]),
+            (vec![7.0], [7.0; 3]),
+        ] {
+            assert_eq!(Statistics::of(values, (0.0, 100.0)).unwrap().quartiles, quartiles);
+        }
+    }
+
+    #[test]
+    fn a_cell_has_the_regime_of_most_of_its_profiles() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        for (counts, most, split) in [
+            ([0, 0, 0, 2], None, None),
+            ([0, 5, 0, 1], Some((sensitive, 5)), None),
+            ([0, 3, 1, 0], Some((sensitive, 3)), None),
+            ([3, 0, 7, 0], Some((non_adhesive, 7)), Some(insensitive)),
+            ([0, 1, 1, 0], Some((sensitive, 1)), Some(non_adhesive)),
+            ([2, 0, 2, 1], Some((insensitive, 2)), Some(non_adhesive)),
+        ] {
+            let all = Regime::ALL.map(Some).into_iter().chain([None]).zip(counts);
+            let counts = RegimeCounts::of(all.flat_map(|(regime, count)| std::iter::repeat_n(regime, count)));
+            assert_eq!((counts.most(), counts.split()), (most, split), "{counts:?}");
+        }
+    }
+
+    #[test]
+    fn a_small_sample() {
+        let of = |values: &[f64], bounds| Statistics::of(values.to_vec(), bounds);
+        let all = of(&[5e-200, 1e-200, 3e-200], (f64::NEG_INFINITY, f64::INFINITY)).unwrap();
+        let near = |value: f64, expected: f64| (value / expected - 1.0).abs() < 1e-9;
+        let Spread { standard_deviation, standard_error, confidence_interval } = all.spread.unwrap();
+        assert!(near(all.mean, 3e-200) && near(standard_deviation, 2e-200), "{all:?}");
+        assert_eq!((all.count, all.range), (3, (1e-200, 5e-200)));
+        assert!(near(standard_error, 2e-200 / 3.0_f64.sqrt()));
+        assert!(near(confidence_interval.1, 3e-200 + 4.302_652_730 * 2e-200 / 3.0_f64.sqrt()));
+        assert_eq!(all.words("1"), "median 3e-200 (quartiles 2e-200 to 4e-200, range 1e-200 to 5e-200)");
+        let one = of(&[0.3], (0.0, 1.0)).unwrap();
+        assert_eq!((one.count, one.mean, one.range, one.spread), (1, 0.3, (0.3, 0.3), None));
+        assert_eq!(of(&[], (0.0, 1.0)), None);
+        let zeros = of(&[0.0; 4], (0.0, 1.0)).unwrap();
+        assert_eq!((zeros.mean, zeros.confidence_interval()), (0.0, Some((0.0, 0.0))));
+    }
+
+    #[test]
+    fn intervals_keep_off_the_bounds_and_are_plain_where_they_are_narrow() {
+        let (share, force, any) = ((0.0, 1.0), (0.0, f64::INFINITY), (f64::NEG_INFINITY, f64::INFINITY));
+        let wide = [0.0, 1e-9, 0.0, 0.9];
+        for (values, bounds) in [(wide, share), (wide, force), ([1.0, 1.0, 1.0, 0.2], share)] {
+            let all = Statistics::of(values.to_vec(), bounds).unwrap();
+            let (low, high) = all.confidence_interval().unwrap();
+            assert!(bounds.0 < low && low < all.mean && all.mean < high && high < bounds.1, "{all:?}");
+        }
+        // The logarithm of a force: one factor to both sides.
+        let all = Statistics::of(wide.to_vec(), force).unwrap();
+        let (low, high) = all.confidence_interval().unwrap();
+        assert!((all.mean / low / (high / all.mean) - 1.0).abs() < 1e-9, "{all:?}");
+        let narrow = vec![0.5001, 0.4999, 0.5002, 0.4998];
+        let ends = [share, force, any].map(|bounds| Statistics::of(narrow.clone(), bounds).unwrap().ends());
+        assert!(ends.iter().all(|end| (end.0 - ends[2].0).abs() < 1e-7 && (end.1 - ends[2].1).abs() < 1e-7));
+        assert_eq!(Statistics::of(vec![0.0; 3], share).unwrap().ends(), (0.0, 0.0));
+    }
+
+    #[test]
+    fn one_profile_may_make_the_mean() {
+        let of = |values: &[f64]| Statistics::of(values.to_vec(), (0.0, 100.0)).unwrap().warning("F_a");
+        let warning = "One profile makes 90 % of the mean of F_a: the median is the better guide.";
+        assert_eq!(of(&[1.0, 0.0, 9.0]).as_deref(), Some(warning));
+        for values in [&[1.0, 8.0, 7.0][..], &[0.0, 9.0], &[0.0; 4], &[-1.0, 0.0, 9.0]] {
+            assert_eq!(of(values), None);
+        }
+    }
+}

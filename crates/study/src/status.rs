@@ -1,0 +1,118 @@
+//! Progress of a study and of the processes that work on it.
+
+use super::cells::{Cells, Streak};
+use super::error::StudyError;
+use super::shard::Shard;
+use super::store::{Folder, ShardFile};
+use asperity_data::{path_name, printable};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Progress of a study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Status {
+    /// Existing records.
+    pub done: u64,
+    /// All records of the study.
+    pub total: u64,
+    /// Records that are missing.
+    pub missing: u64,
+    /// Records without values, since they cannot be computed.
+    pub failed: u64,
+    /// Lines of shard files that are torn or damaged.
+    pub damaged: u64,
+    /// The parts assigned to processes.
+    pub shards: Vec<ShardStatus>,
+}
+
+/// Progress of one part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ShardStatus {
+    /// Part, as `3/8`.
+    pub shard: String,
+    /// All records of the part.
+    pub total: u64,
+    /// Existing records of the part, by any process.
+    pub done: u64,
+    /// The processes assigned to the part.
+    pub attempts: Vec<Attempt>,
+}
+
+/// One process and its file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Attempt {
+    /// Name of the file.
+    pub file: String,
+    /// Name of the machine.
+    pub host: String,
+    /// Process id on that machine.
+    pub process: u32,
+    /// Time of the beginning, s since 1970.
+    pub started: u64,
+    /// Time of the last write, s since 1970.
+    pub written: f64,
+    /// Records written by the process.
+    pub records: u64,
+    /// Records per second, from the beginning to the last write.
+    pub rate: Option<f64>,
+}
+
+impl Status {
+    /// Status of the present content of the folder.
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn of(folder: &Folder) -> Result<Status, StudyError> {
+        let total = folder.plan().records_in_all();
+        let (mut done, mut damaged, mut failed) = (vec![false; total as usize], 0, 0);
+        let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
+        for file in folder.files()? {
+            let mut records = 0;
+            for record in folder.records(&file)? {
+                match record? {
+                    Some((place, record)) => {
+                        records += 1;
+                        failed += u64::from(record.is_err() && !done[place as usize]);
+                        done[place as usize] = true;
+                    }
+                    None => damaged += 1,
+                }
+            }
+            let ShardFile { path, header, written } = file;
+            attempts.entry(header.shard).or_default().push(Attempt {
+                file: path.file_name().map_or_else(String::new, |name| path_name(Path::new(name))),
+                host: printable(&header.host).into_owned(),
+                process: header.process,
+                started: header.begun as u64,
+                written,
+                records,
+                rate: rate(records, written - header.begun),
+            });
+        }
+        let cells = Cells::of(folder.plan());
+        let of_shard = |(shard, attempts): (Shard, Vec<Attempt>)| {
+            let (total, there) = count(folder, &cells, &done, shard);
+            ShardStatus { shard: shard.to_string(), total, done: there, attempts }
+        };
+        let shards = attempts.into_iter().map(of_shard).collect();
+        let found = done.iter().filter(|done| **done).count() as u64;
+        Ok(Status { done: found, total, missing: total - found, failed, damaged, shards })
+    }
+}
+
+/// Records per second over this time, s, from the beginning to the last write; `None` for zero time.
+pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
+    (seconds > 0.0).then(|| records as f64 / seconds)
+}
+
+/// Number of all records of a part of a study, and of the existing ones. Counting all parts of a division takes as long
+/// as counting the whole study.
+pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
+    let (mut total, mut there) = (0, 0);
+    for Streak { cells, line } in shard.units(cells.units()).flat_map(|unit| cells.streaks(unit)) {
+        total += cells.end - cells.start;
+        there += cells.filter(|cell| done[(cell * folder.plan().lines + line) as usize]).count() as u64;
+    }
+    (total, there)
+}

@@ -1,0 +1,429 @@
+//! The folder of a study: its plan, and one file for each process that has worked on it.
+//!
+//! A shard file is only ever appended to, by the process that made it; each record is a line with a checksum. After
+//! any end of a process its written records stay, and a torn line is left out. After a crash of the machine the
+//! records not yet on the disk, those of a moment, are lost and computed again.
+
+use super::error::StudyError;
+use super::measured::{changed, file_of, with_hash};
+use super::plan::{PLAN_FILE, Plan};
+use super::plan_text::Changes;
+use super::recorder::Recorded;
+use super::shard::Shard;
+use asperity_data::{WriteError, open_regular, read_regular_text, sync_folder, write_new};
+use asperity_data::{path_name, printable};
+use asperity_scene::LONGEST_TEXT;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write as _;
+use std::fs;
+use std::fs::{File, OpenOptions};
+use std::hash::{BuildHasher, RandomState};
+use std::io;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Version of the shard files.
+pub const STORE_VERSION: u32 = 1;
+/// Longest line of a shard file or of a table; records are much shorter.
+const LONGEST_LINE: u64 = 1 << 16;
+
+const SHARDS: &str = "shards";
+const ENDING: &str = "shard";
+
+/// Begins the reason of a record without values, after cell and seed.
+const FAILED: &str = ",:";
+
+/// Characters of the checksum and the comma behind it.
+const CHECKSUM: usize = 9;
+
+/// The folder of a study.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+    plan: Plan,
+}
+
+/// Header of a shard file: its first line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    /// [`STORE_VERSION`].
+    pub format: u32,
+    /// Checksum of the plan.
+    pub plan: String,
+    /// The part of the plan assigned to the process.
+    pub shard: Shard,
+    /// Name of the machine.
+    pub host: String,
+    /// Process id on that machine.
+    pub process: u32,
+    /// Time of the beginning, s since 1970.
+    pub begun: f64,
+    /// Version of the program.
+    pub program: String,
+}
+
+/// A shard file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShardFile {
+    /// Path.
+    pub path: PathBuf,
+    /// Header.
+    pub header: Header,
+    /// Time of the last write, s since 1970.
+    pub written: f64,
+}
+
+/// A record: its place among all records of a study, by cell, then by seed, and one value for each quantity of the
+/// plan, NaN for missing ones, or the reason why there are none.
+pub(super) type Record = (u64, Recorded);
+
+impl Folder {
+    /// Makes the folder of a plan, or opens one that holds the same plan.
+    ///
+    /// # Errors
+    /// A folder with another plan, a measured file that has changed or cannot be read, or a
+    /// folder that cannot be written.
+    pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
+        let plan = with_hash(plan)?;
+        let shards = path.join(SHARDS);
+        if path.exists() && !path.is_dir() {
+            return Err(StudyError::folder(
+                path,
+                "this is not a folder; allowed: a new one, or that of this study",
+            ));
+        }
+        for folder in [path, &shards] {
+            fs::create_dir_all(folder).map_err(StudyError::unwritable(folder))?;
+        }
+        let file = path.join(PLAN_FILE);
+        let text = plan.to_ron();
+        if !file.exists() {
+            match write_new(&file, false, |out| out.write_all(text.as_bytes())) {
+                // Another process was faster.
+                Ok(()) | Err(WriteError::Exists { .. }) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+        let there = text_of(&file)?;
+        if there != text {
+            return Err(refusal(path, &there, &plan));
+        }
+        for folder in [path.parent().unwrap_or(path), path] {
+            sync_folder(folder).map_err(StudyError::unwritable(folder))?;
+        }
+        Ok(Folder { path: path.to_path_buf(), plan })
+    }
+
+    /// Returns true for the folder of a study, valid or not.
+    pub fn is_at(path: &Path) -> bool {
+        path.join(PLAN_FILE).is_file()
+    }
+
+    /// Opens the folder of a study, whose plan was checked when the study began.
+    ///
+    /// # Errors
+    /// No study, or an unreadable plan.
+    pub fn open(path: &Path) -> Result<Folder, StudyError> {
+        let file = path.join(PLAN_FILE);
+        if !file.is_file() {
+            let reason = format!("this is not the folder of a study: there is no {PLAN_FILE} in it");
+            return Err(StudyError::folder(path, reason));
+        }
+        let plan = Plan::read(&text_of(&file)?, &file.display().to_string(), &Changes::default())?;
+        Ok(Folder { path: path.to_path_buf(), plan })
+    }
+
+    /// Path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Plan of the study.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    fn checksum(&self) -> String {
+        format!("{:08x}", crc32fast::hash(self.plan.to_ron().as_bytes()))
+    }
+
+    pub(super) fn new_file(&self, shard: Shard) -> Result<(PathBuf, File), StudyError> {
+        let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        let started = begun.as_secs();
+        let (host, process) = (host(), std::process::id());
+        let header = Header {
+            format: STORE_VERSION,
+            plan: self.checksum(),
+            shard,
+            host: host.clone(),
+            process,
+            begun: begun.as_secs_f64(),
+            program: env!("CARGO_PKG_VERSION").into(),
+        };
+        let random = RandomState::new().hash_one(started) as u32;
+        let Shard { number, count } = shard;
+        let name = format!("{number}-of-{count}-{host}-{process}-{started}-{random:08x}.{ENDING}");
+        let path = self.path.join(SHARDS).join(name);
+        let write = || -> io::Result<File> {
+            let mut text = String::new();
+            seal(&serde_json::to_string(&header)?, &mut text);
+            let mut file = File::create_new(&path)?;
+            file.write_all(text.as_bytes())?;
+            file.sync_all()?;
+            // The name in the folder has to be durable as well.
+            sync_folder(&self.path.join(SHARDS))?;
+            Ok(file)
+        };
+        let file = write().map_err(StudyError::unwritable(&path))?;
+        Ok((path, file))
+    }
+
+    /// All shard files with a header, by name; a process that ended before it had written one has no records.
+    ///
+    /// # Errors
+    /// Files that cannot be read, or that belong to another plan or another version.
+    pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
+        let shards = self.path.join(SHARDS);
+        let listed =
+            fs::read_dir(&shards).and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
+        let mut paths: Vec<PathBuf> = match listed {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            listed => listed.map_err(StudyError::unreadable(&shards))?,
+        };
+        paths.retain(|path| path.extension().is_some_and(|ending| ending == ENDING));
+        paths.sort();
+        let checksum = self.checksum();
+        paths.into_iter().filter_map(|path| file_of_plan(path, &checksum).transpose()).collect()
+    }
+
+    /// The records of a file in the order of writing; `None` for a line that is torn, was changed since, or is no record
+    /// of this plan.
+    pub(super) fn records<'f>(
+        &'f self,
+        file: &'f ShardFile,
+    ) -> Result<impl Iterator<Item = Result<Option<Record>, StudyError>> + 'f, StudyError> {
+        let opened = open_regular(&file.path).map_err(|error| StudyError::folder(&file.path, error))?;
+        // Most of many files are small.
+        let size = opened.metadata().map_err(StudyError::unreadable(&file.path))?.len();
+        let lines = lines(BufReader::with_capacity(size.clamp(1 << 10, 1 << 18) as usize, opened));
+        let record = |line: &str| {
+            let (cell, seed, record) = decode(unseal(line)?, self.plan.record.len())?;
+            let profile = seed.wrapping_sub(self.plan.seed);
+            let is_of_plan = cell < self.plan.cells() && profile < self.plan.lines;
+            is_of_plan.then_some((cell * self.plan.lines + profile, record))
+        };
+        Ok(lines.skip(1).map(move |line| {
+            let line = line.map_err(StudyError::unreadable(&file.path))?;
+            Ok(line.and_then(|line| record(&line)))
+        }))
+    }
+
+    /// The existing records, true at their places, which survive a power cut: records that a killed process left unsynced
+    /// would be counted and lost.
+    pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
+        let mut done = vec![false; self.plan.records_in_all() as usize];
+        for file in self.files()? {
+            for record in self.records(&file)? {
+                record?.into_iter().for_each(|(place, _)| done[place as usize] = true);
+            }
+            // Windows requires write access.
+            let open = OpenOptions::new().read(true).write(cfg!(windows)).open(&file.path);
+            open.and_then(|file| file.sync_all()).map_err(StudyError::unwritable(&file.path))?;
+        }
+        let shards = self.path.join(SHARDS);
+        sync_folder(&shards).map_err(StudyError::unwritable(&shards))?;
+        Ok(done)
+    }
+}
+
+/// A shard file of the plan with this checksum; `None` without a header.
+fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, StudyError> {
+    let file = open_regular(&path).map_err(|error| StudyError::folder(&path, error))?;
+    let written =
+        file.metadata().and_then(|found| found.modified()).map_err(StudyError::unreadable(&path))?;
+    let written = written.duration_since(UNIX_EPOCH).unwrap_or_default().as_secs_f64();
+    // Of thousands of files, only the first lines are read here.
+    let first = lines(BufReader::with_capacity(1 << 10, file)).next().transpose();
+    let first = first.map_err(StudyError::unreadable(&path))?.flatten();
+    let Some(payload) = first.as_deref().and_then(unseal) else { return Ok(None) };
+    let header = header_of(payload, checksum).map_err(|reason| StudyError::folder(&path, reason))?;
+    Ok(Some(ShardFile { header, written, path }))
+}
+
+/// Reads a whole header, which no crash can have made: an error in it was written so.
+fn header_of(payload: &str, checksum: &str) -> Result<Header, String> {
+    let header: Header = serde_json::from_str(payload).map_err(|error| {
+        format!(
+            "its first line is not the header of a shard file ({error}); remove the file or bring back another"
+        )
+    })?;
+    if header.format != STORE_VERSION {
+        return Err(format!("its format is {}; this program reads {STORE_VERSION}", header.format));
+    }
+    if header.plan != checksum {
+        return Err("this file belongs to another plan".into());
+    }
+    Ok(Header { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
+}
+
+/// Appends a line with its checksum in front; the payload holds no line break.
+pub(super) fn seal(payload: &str, into: &mut String) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(into, "{:08x},{payload}", crc32fast::hash(payload.as_bytes()));
+}
+
+/// The payload of a line without its break; `None` if the line was changed.
+pub(super) fn unseal(line: &str) -> Option<&str> {
+    let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
+    let checksum = checksum.strip_suffix(',')?;
+    // One way of writing, so that equal records are equal text.
+    let is_ours = checksum == format!("{:08x}", crc32fast::hash(payload.as_bytes()));
+    is_ours.then_some(payload)
+}
+
+/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column; a reason follows a colon.
+pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String) {
+    let mut payload = format!("{cell},{seed}");
+    if let Err(reason) = record {
+        payload.push_str(FAILED);
+        payload.push_str(reason);
+    }
+    for value in record.iter().flatten() {
+        payload.push(',');
+        if !value.is_nan() {
+            // The shortest text that is read back bit for bit.
+            let _ = write!(payload, "{value:?}");
+        }
+    }
+    seal(&payload, into);
+}
+
+/// Cell, seed and values of a payload, NaN for empty columns; `None` unless it has `count` values or a reason.
+pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)> {
+    if let Some((place, reason)) = payload.split_once(FAILED) {
+        let (cell, seed) = place.split_once(',')?;
+        return Some((cell.parse().ok()?, seed.parse().ok()?, Err(reason.to_owned())));
+    }
+    let mut columns = payload.split(',');
+    let (cell, seed) = (columns.next()?.parse().ok()?, columns.next()?.parse().ok()?);
+    let value = |text: &str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+    let values: Vec<f64> = columns.map(value).collect::<Option<_>>()?;
+    (values.len() == count).then_some((cell, seed, Ok(values)))
+}
+
+/// Lines of a text without their breaks; `None` for a line that is too long, torn or not text.
+pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<Option<String>>> {
+    std::iter::from_fn(move || {
+        let mut line = Vec::new();
+        let read = text.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
+        let whole = |mut line: Vec<u8>| line.pop().filter(|last| *last == b'\n').map(|_| line);
+        match read {
+            Ok(0) => None,
+            read => Some(read.map(|_| String::from_utf8(whole(line)?).ok())),
+        }
+    })
+}
+
+fn text_of(file: &Path) -> Result<String, StudyError> {
+    read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
+}
+
+/// Error for a folder that holds the text `there` of another plan than `plan`.
+fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
+    let file = path.join(PLAN_FILE);
+    // If only the content of the measured file differs, the error is specific.
+    let of_folder = Plan::read(there, PLAN_FILE, &Changes::default());
+    if let (Ok(of_folder), Some(measured), Some(found)) = (of_folder, file_of(plan), &plan.measured_sha256)
+        && let Some(expected) = of_folder.measured_sha256.clone()
+        && (Plan { measured_sha256: plan.measured_sha256.clone(), ..of_folder }) == *plan
+    {
+        return changed(&measured, found, &path_name(&file), &expected);
+    }
+    let difference = difference(there, &plan.to_ron());
+    let other = "this folder holds a study of another plan; choose another folder, or the plan it began with";
+    StudyError::folder(path, format!("{other}\n{difference}"))
+}
+
+fn difference(there: &str, asked: &str) -> String {
+    let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
+    let asked = asked.lines().map(Some).chain(std::iter::repeat(None));
+    let first = pairs.zip(asked).take_while(|pair| *pair != (None, None)).find(|(a, b)| a != b);
+    let shown = |line: Option<&str>| {
+        line.map_or_else(|| "nothing".into(), |line| printable(line.trim()).into_owned())
+    };
+    first.map_or_else(String::new, |(a, b)| format!("there: {}\nhere:  {}", shown(a), shown(b)))
+}
+
+/// Name of this machine, in letters allowed in a file name.
+fn host() -> String {
+    #[cfg(unix)]
+    let name = rustix::system::uname().nodename().to_string_lossy().into_owned();
+    #[cfg(not(unix))]
+    let name = std::env::var("COMPUTERNAME").unwrap_or_default();
+    in_letters_for_files(&name)
+}
+
+fn in_letters_for_files(name: &str) -> String {
+    let name: String = name.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '_').take(40).collect();
+    if name.is_empty() { "host".into() } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn records_read_back_bit_for_bit(
+            cell: u64,
+            seed: u64,
+            values in prop::collection::vec(prop::option::of(any::<f64>()), 1..6),
+        ) {
+            let values: Vec<f64> = values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+            let mut text = String::new();
+            encode(cell, seed, &Ok(values.clone()), &mut text);
+            let line = text.trim_end_matches('\n');
+            let payload = unseal(line).unwrap();
+            let (of_cell, of_seed, read) = decode(payload, values.len()).unwrap();
+            prop_assert_eq!((of_cell, of_seed), (cell, seed));
+            prop_assert!(decode(payload, values.len() + 1).is_none());
+            prop_assert!(decode(payload, values.len() - 1).is_none());
+            for (read, value) in read.unwrap().iter().zip(&values) {
+                prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
+            }
+            // Every cut or change is noticed.
+            for end in 0..line.len() {
+                prop_assert_eq!(unseal(&line[..end]), None);
+            }
+            for place in 0..line.len() {
+                let mut changed = line.as_bytes().to_vec();
+                changed[place] ^= 1;
+                prop_assert_eq!(unseal(std::str::from_utf8(&changed).unwrap()), None);
+            }
+        }
+    }
+
+    #[test]
+    fn names_of_machines_keep_letters_for_files() {
+        let long = "n".repeat(64);
+        for (name, kept) in [
+            ("node_7", "node_7"),
+            ("login-1.example.org", "login1exampleorg"),
+            ("../Rechner ä\u{1b}", "Rechner"),
+            ("-.-", "host"),
+            ("", "host"),
+            (&long, &long[..40]),
+        ] {
+            assert_eq!(in_letters_for_files(name), kept);
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_host_is_this_machine() {
+        let uname = std::process::Command::new("uname").arg("-n").output().unwrap();
+        assert_eq!(host(), in_letters_for_files(String::from_utf8_lossy(&uname.stdout).trim()));
+    }
+}

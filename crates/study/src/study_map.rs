@@ -1,0 +1,286 @@
+//! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
+
+use super::axis::Axis;
+use super::error::StudyError;
+use super::grid::{Grid, Layer, across_and_up};
+use super::live_plan::live_plan;
+use super::place::{governing, moved, press, scene_with};
+use super::plan::{PRELOAD, Plan};
+use super::results::Results;
+use asperity_scene::FEW_SAMPLES;
+use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
+use std::path::{Path, PathBuf};
+
+/// Map of a finished study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyMap {
+    folder: PathBuf,
+    study: Results,
+    /// Places among the axes: that across, that up, and the others.
+    across: usize,
+    up: Option<usize>,
+    others: Vec<usize>,
+    /// Quantities on scales for all maps.
+    layers: Vec<Layer>,
+}
+
+impl StudyMap {
+    /// Opens the folder of a merged study.
+    ///
+    /// # Errors
+    /// The folder of no study, or of a study of one cell.
+    pub fn open(folder: &Path) -> Result<StudyMap, StudyError> {
+        StudyMap::of(Results::open(folder)?, folder)
+    }
+
+    /// The maps of a study that was read from a folder.
+    ///
+    /// # Errors
+    /// A study of one cell.
+    pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyError> {
+        let axes = &study.plan().axes;
+        let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
+        let Some((across, up)) = across_and_up(axes, &free) else {
+            let reason = "this study has one cell and no map; a curve needs an axis with two values at least";
+            return Err(StudyError::folder(folder, reason));
+        };
+        let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up).collect();
+        // Without a separator at its end.
+        let folder = folder.components().collect();
+        Ok(StudyMap { folder, across, up, others, layers: study.layers(), study })
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Name of the folder without its parents.
+    pub fn name(&self) -> String {
+        let whole = std::path::absolute(&self.folder).unwrap_or_else(|_| self.folder.clone());
+        whole.file_name().unwrap_or(self.folder.as_os_str()).to_string_lossy().into_owned()
+    }
+
+    /// The plan of the study.
+    pub fn plan(&self) -> &Plan {
+        self.study.plan()
+    }
+
+    /// Number of maps.
+    pub fn slices(&self) -> u64 {
+        self.others.iter().map(|&other| self.plan().axes[other].count()).product()
+    }
+
+    /// Places of a map on all axes, 0 on its own.
+    fn places(&self, slice: u64) -> Vec<usize> {
+        self.plan().places_on(self.others.iter().copied(), slice)
+    }
+
+    /// The axes outside the maps, each with the place of a map on it.
+    fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
+        let places = self.places(slice);
+        self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
+    }
+
+    /// Map of this number.
+    pub fn grid(&self, slice: u64) -> Grid {
+        self.study.grid((self.across, self.up), self.places(slice), self.layers.clone())
+    }
+
+    fn over(&self) -> impl Iterator<Item = &Axis> {
+        [Some(self.across), self.up].into_iter().flatten().map(|axis| &self.plan().axes[axis])
+    }
+
+    /// The scene of a map on the first profile of the study, with these values on the axes of the maps; axes
+    /// without a value here keep that of the plan's scene.
+    fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
+        let plan = self.plan();
+        let mut scene = plan.scene.clone();
+        if scene.title.is_empty() {
+            (scene.title, scene.notice) = (plan.title.clone(), plan.notice.clone());
+        }
+        if let (None, Some(axis)) =
+            (scene.adhesion, self.over().find(|axis| axis.target.parameter().is_some()))
+        {
+            let parameter = axis.target.parameter().unwrap_or(RoughnessParameter::Kappa);
+            scene.adhesion = Some(Adhesion::by_parameter(parameter, axis.values[axis.values.len() / 2]));
+        }
+        scene.set_seed(plan.seed);
+        let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
+        let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
+        scene = scene_with(&scene, values.iter().copied())?;
+        let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
+        if let Some(preload) = preload.or_else(|| Some(plan.preloads()?.values[0])) {
+            press(&mut scene, preload);
+        }
+        Ok(scene)
+    }
+
+    /// The scene of the study for the explorer, named by its folder.
+    ///
+    /// # Errors
+    /// An invalid scene.
+    pub fn document(&self) -> Result<Document, SceneErrors> {
+        // As typed, so that this name in a command opens the study again.
+        Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
+    }
+
+    /// Returns true for the scene of a map, but for the axes that the map is over and the resolution of its curve.
+    pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
+        let known: Vec<_> =
+            self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
+        let Ok(mut of_map) = self.scene(slice, &known) else { return false };
+        let mut scene = scene.clone();
+        match [&of_map, &scene].map(|scene| live_plan(scene, RoughnessParameter::Kappa)) {
+            [Ok(one), Ok(other)] => one == other && is_close(place(&of_map), place(&scene)),
+            _ => {
+                of_map.strip(FEW_SAMPLES);
+                scene.strip(FEW_SAMPLES);
+                of_map == scene
+            }
+        }
+    }
+
+    /// Document with the scene of a map, but for the axes of the map.
+    ///
+    /// # Errors
+    /// Values that are invalid in the scene.
+    pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
+        let values: Vec<_> = self.at(slice).map(|(axis, place)| (axis, axis.values[place])).collect();
+        moved(document, &values)
+    }
+}
+
+/// κ and H of a scene, if stated by the scene itself. Those of a measured profile follow only from its file.
+fn place(scene: &Scene) -> Option<(f64, f64)> {
+    let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
+    Some((governing(scene)?.kappa?, hurst))
+}
+
+/// Returns true if κ and H are equal but for rounding; unknown values are not compared.
+fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
+    let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
+    one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan_text::Changes;
+    use crate::quantity::Quantity;
+    use crate::store::Folder;
+    use asperity_contact::Move;
+    use asperity_data::AxisScale;
+    use asperity_scene::Regime;
+
+    /// κ not in the order of its values and before H, two preloads, another axis, five profiles.
+    const PLAN: &str = r#"(
+        version: 1,
+        title: "A study",
+        scene: (
+            version: 1,
+            material: (effective_modulus: 2.0e6),
+            length: 1.0e-4,
+            roughness: SelfAffine(hurst: 0.5, rms_height: 1.0e-7, modes: (1, 32), seed: 1),
+            numerics: (points: 128),
+        ),
+        axes: [
+            List(path: "adhesion.kappa", values: [4.0, 1.0, 2.0]),
+            List(path: "roughness.modes.1", values: [16, 32]),
+            Linear(path: "roughness.hurst", from: 0.25, to: 0.75, count: 2),
+        ],
+        preloads: [0.5, 2.0],
+        lines: 5,
+        seed: 7,
+        record: [adhesion_coefficient, regime, preload_force],
+    )"#;
+
+    /// Maps of a plan: the coefficient of a cell is its number, the preload its number in µN, and the profiles are in the
+    /// regimes of `REGIMES`. Cell 5 is missing.
+    fn study_map(plan: &str) -> StudyMap {
+        let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        Folder::create(folder.path(), &plan).unwrap();
+        let mut study = Results::empty(plan.clone()).unwrap();
+        for place in (0..plan.records_in_all()).filter(|place| place / plan.lines != 5) {
+            let cell = place / plan.lines;
+            let regime = REGIMES[cell as usize % 3][place as usize % 5];
+            study.set(place, &[cell as f64, regime, 1e-6 * cell as f64][..plan.record.len()]);
+        }
+        StudyMap::of(study, folder.path()).unwrap()
+    }
+
+    const REGIMES: [[f64; 5]; 3] =
+        [[0.0, 0.0, 0.0, 0.0, 1.0], [0.0, 1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 2.0, 2.0, 2.0]];
+
+    #[test]
+    fn maps_have_the_cells_of_the_study() {
+        let study_map = study_map(PLAN);
+        assert_eq!(study_map.slices(), 4);
+        assert_eq!(study_map.grid(0).fixed, ["k_max = 16", "F_n/(E* h L) = 0.5"]);
+        assert_eq!(study_map.grid(1).fixed, ["k_max = 16", "F_n/(E* h L) = 2"]);
+        assert_eq!(study_map.grid(2).fixed, ["k_max = 32", "F_n/(E* h L) = 0.5"]);
+        for (slice, modes, preload) in [(0, 0, 0), (1, 0, 1), (2, 1, 0), (3, 1, 1)] {
+            let grid = study_map.grid(slice);
+            assert_eq!(grid.across.values, [0.25, 0.75], "H across");
+            assert_eq!(grid.up.as_ref().unwrap().values, [1.0, 2.0, 4.0], "κ ascends");
+            let quantities = [Quantity::Regime, Quantity::AdhesionCoefficient, Quantity::PreloadForce];
+            assert_eq!(grid.quantities(), quantities);
+            // From 0 to 23 µN over all maps.
+            let force = grid.layer(Quantity::PreloadForce).unwrap();
+            assert_eq!((force.scale, force.range), (AxisScale::Linear, Some((0.0, 1e-6 * 23.0))));
+            for (row, kappa) in [1, 2, 0].into_iter().enumerate() {
+                for hurst in 0..2 {
+                    let number = ((kappa * 2 + modes) * 2 + hurst) * 2 + preload;
+                    let Some((cell, column, up)) = grid.shown(hurst, row) else {
+                        assert_eq!(number, 5);
+                        continue;
+                    };
+                    let cell = cell.as_ref().unwrap();
+                    let coefficient = cell.statistics[0].unwrap();
+                    assert_eq!((column, up, coefficient.mean), (hurst, row, number as f64));
+                    let (regime, split, agreeing) = [
+                        (Regime::PressureInsensitive, None, 4),
+                        (Regime::PressureSensitive, None, 4),
+                        (Regime::NonAdhesive, Some(Regime::PressureSensitive), 3),
+                    ][number % 3];
+                    assert_eq!(cell.regimes[0].most(), Some((regime, agreeing)));
+                    assert_eq!((cell.regimes[0].split(), cell.regimes[0].profiles()), (split, 5));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_scene_is_that_of_a_cell_on_the_first_profile() {
+        let study_map = study_map(PLAN);
+        let document = study_map.document().unwrap();
+        let scene = document.scene();
+        assert_eq!(scene.title, "A study");
+        assert_eq!(
+            scene.adhesion,
+            Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0)),
+            "the plan's scene has none"
+        );
+        let Some(Roughness::SelfAffine { seed, modes, hurst, .. }) = scene.roughness else { panic!() };
+        assert_eq!((seed, modes, hurst), (7, Some((1, 16)), 0.5));
+        // 0.5 E* h L.
+        let Move::ToForce(force) = scene.loading[0] else { panic!("{:?}", scene.loading) };
+        assert!((force / (0.5 * 2.0e6 * 1.0e-7 * 1.0e-4) - 1.0).abs() < 1e-12, "{force}");
+        let axes: Vec<&Axis> = study_map.over().collect();
+        for slice in 0..4 {
+            assert_eq!(study_map.is_of(slice, scene), slice == 0);
+            let moved = moved(&document, &[(axes[1], 3.0), (axes[0], 0.25)]).unwrap();
+            assert_eq!(study_map.is_of(slice, moved.scene()), slice == 0, "κ and H are the mark's");
+            let followed = study_map.follow(slice, &moved).unwrap();
+            assert!(study_map.is_of(slice, followed.scene()), "{}", followed.text());
+            assert_eq!(place(followed.scene()), Some((3.0, 0.25)));
+        }
+        let unpressed = self::study_map(&PLAN.replace("preloads: [0.5, 2.0],", ""));
+        let legs = unpressed.document().unwrap().scene().loading.clone();
+        assert_eq!(legs, unpressed.plan().scene.loading, "that of the plan");
+        let other = document.set("material.effective_modulus", "3.0e6").unwrap();
+        assert!(!study_map.is_of(0, other.scene()));
+        assert!(!study_map.is_of(0, asperity_scene::open("jkr-sphere").unwrap().scene()));
+    }
+}

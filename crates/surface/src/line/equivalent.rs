@@ -1,0 +1,186 @@
+//! The equivalent line of measured surfaces: its waves, their amplitudes and its moments.
+
+use super::SurfaceError;
+use super::measured::{Face, MeasuredOptions, MeasuredProfile};
+use super::spectrum::Amplitude;
+use crate::spectrum::isotropic::{IsotropicSpectrum, LineMoments, line_moments};
+use std::f64::consts::TAU;
+
+/// Relative excess of a wavelength over the scan that counts as rounding.
+const ROUNDING: f64 = 1.0e-9;
+
+/// Equivalent line of the measured surfaces of one or both faces: the spectra of the faces add.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquivalentLine {
+    /// Spectra of the measured faces.
+    pub faces: Vec<IsotropicSpectrum>,
+}
+
+impl EquivalentLine {
+    /// Analyses the surfaces in the files of all faces.
+    ///
+    /// # Errors
+    /// [`SurfaceError::File`] for a face without a file, and for a file that holds no surface or has no spectrum.
+    pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+        let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
+        Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
+    }
+
+    /// Equivalent line of spectra moved by a share of steps drawn from the uncertainty of their fits; equal numbers
+    /// have equal steps.
+    pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
+        let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
+            // Faces are independent of each other.
+            spectrum.drawn(number ^ face.rotate_right(1), share)
+        };
+        EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
+    }
+
+    /// Moments of the line, over the waves known of all faces, with their standard errors.
+    pub fn moments(&self) -> LineMoments {
+        line_moments(&self.faces)
+    }
+
+    /// PSD of the line, m³, at a wave number, rad/m: the sum of the PSDs of the faces.
+    pub fn power(&self, wave_number: f64) -> f64 {
+        self.faces.iter().map(|face| face.line(wave_number)).sum()
+    }
+
+    /// First and last wave number, rad/m, known of all faces. Each spectrum ends at its own limit.
+    pub fn range(&self) -> [f64; 2] {
+        let ranges = self.faces.iter().map(IsotropicSpectrum::range);
+        ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
+    }
+
+    /// First and last mode k, q = 2πk/L, of a line of a length (m) on `points` springs: the waves of the spectrum
+    /// that fit the line and are resolved by the springs. Waves longer than the scan are unknown and omitted.
+    pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
+        let [low, high] = self.range();
+        let waves = length / TAU;
+        let first = (low * waves * (1.0 - ROUNDING)).ceil().max(1.0);
+        let last = (high * waves * (1.0 + ROUNDING)).floor().min((points / 2) as f64);
+        if first > last {
+            return Err(format!(
+                "no wave of the spectrum, from {:e} to {:e} m, fits on length = {length:e} m with numerics.points = \
+                 {points}; allowed: at least 2 springs for each of at least one wave",
+                TAU / high,
+                TAU / low
+            ));
+        }
+        Ok((first as u64, last as u64))
+    }
+
+    /// Amplitude A_k, m, of a mode of a line of a length (m): A_k² = 4 C_line(q_k)/L.
+    pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
+        let wave_number = TAU * mode as f64 / length;
+        let power = |face: &IsotropicSpectrum| {
+            // A wave may exceed the end by rounding.
+            let end = face.range()[1];
+            face.line(if wave_number <= end * (1.0 + ROUNDING) { wave_number.min(end) } else { wave_number })
+        };
+        2.0 * (self.faces.iter().map(power).sum::<f64>() / length).sqrt()
+    }
+
+    /// Amplitude of the modes from a first to a last one on a length (m).
+    pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
+        let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
+        // Starts with the smallest amplitudes.
+        Amplitude::from_modes((first..=last).rev().map(squares), length)
+    }
+}
+
+/// A measured surface as the roughness of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeasuredRoughness {
+    /// The profile itself.
+    Profile(MeasuredProfile),
+    /// The equivalent line.
+    Equivalent(EquivalentLine),
+}
+
+impl MeasuredRoughness {
+    /// Analyses the files of one or two faces.
+    ///
+    /// # Errors
+    /// A file that cannot be read or has no spectrum.
+    pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
+        match faces {
+            [face] if options.as_line.is_some() && face.len() == 1 => {
+                let (path, content) = &face[0];
+                let profile = MeasuredProfile::new(content, options);
+                let profile = profile.map_err(|error| SurfaceError::measured(path, &error))?;
+                Ok(MeasuredRoughness::Profile(profile))
+            }
+            _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::analysis::Options;
+    use crate::spectrum::isotropic::{End, Moment};
+    use std::path::PathBuf;
+
+    fn face() -> Face {
+        let height =
+            |i: u32| (0..120).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(1 + k)).sum::<f64>();
+        let text: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
+        vec![(PathBuf::new(), format!("x [um] z [nm]\n{text}").into_bytes())]
+    }
+
+    fn continued() -> MeasuredOptions {
+        let spectrum = Options { end: End::Continues(TAU / 0.5e-6), ..Options::default() };
+        MeasuredOptions { spectrum, ..MeasuredOptions::default() }
+    }
+
+    fn line_with(options: &MeasuredOptions) -> EquivalentLine {
+        EquivalentLine::new(&[face()], options).unwrap()
+    }
+
+    #[test]
+    fn the_line_has_the_waves_that_scan_and_springs_resolve() {
+        let line = line_with(&MeasuredOptions::default());
+        let scan = 256e-6;
+        assert_eq!(line.modes(scan, 1024).unwrap(), (1, 127));
+        assert_eq!(line.modes(scan, 64).unwrap(), (1, 32));
+        assert_eq!(line.modes(4.0 * scan, 4096).unwrap().0, 4);
+        assert!(line.modes(scan, 1).unwrap_err().contains("allowed: at least 2 springs"));
+        assert!(line.modes(1e-6, 64).unwrap_err().contains("no wave of the spectrum"));
+        let further = continued();
+        let longer = line_with(&further);
+        assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));
+    }
+
+    #[test]
+    fn spectra_of_two_faces_add() {
+        let further = continued();
+        let one = line_with(&MeasuredOptions::default());
+        let other = line_with(&further);
+        let faces = |one: &EquivalentLine, other: &EquivalentLine| EquivalentLine {
+            faces: [one.faces.as_slice(), &other.faces].concat(),
+        };
+        let both = faces(&one, &other);
+        let length = 256e-6;
+        assert_eq!(both.modes(length, 4096).unwrap(), (1, 512));
+        for mode in [1, 127, 128, 512] {
+            let [a, b, sum] = [&one, &other, &both].map(|line| line.amplitude(mode, length).powi(2));
+            assert!((sum - a - b).abs() <= 1e-12 * sum && sum > 0.0, "{mode}: {a} {b} {sum}");
+            assert_eq!(a == 0.0, mode > 127, "{mode}");
+        }
+        // Also moments, over the waves common to both scans.
+        let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
+        let squares = |a: Moment, b: Moment, sum: Moment| {
+            assert!((sum.value.powi(2) / (a.value.powi(2) + b.value.powi(2)) - 1.0).abs() < 1e-12, "{sum:?}");
+            let error = (a.value * a.error).hypot(b.value * b.error) / sum.value;
+            assert!((sum.error / error - 1.0).abs() < 1e-9, "{sum:?} {error}");
+        };
+        squares(one.rms_height, other.rms_height, both.rms_height);
+        squares(one.rms_gradient, other.rms_gradient, both.rms_gradient);
+        let energies = [one, other, both].map(|moments| moments.energy_per_modulus);
+        assert!((energies[2].value / (energies[0].value + energies[1].value) - 1.0).abs() < 1e-12);
+        assert!((energies[2].error / energies[0].error.hypot(energies[1].error) - 1.0).abs() < 1e-9);
+        assert!(EquivalentLine::new(&[Vec::new()], &further).is_err());
+    }
+}

@@ -1,0 +1,327 @@
+//! Macroscopic forms, and their MDR transforms g(x) of profiles f(r): waves become a Struve function.
+
+use super::SurfaceError;
+use super::table::{FormTable, Rows};
+use crate::topography::UnitError;
+use asperity_data::gauss_nodes_on_quarter_circle;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::LazyLock;
+use strum::IntoStaticStr;
+
+/// Macroscopic form of the rigid body; its axis is on the spring ⌊N/2⌋ ([`Form::spring_on_axis`]).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
+#[serde(deny_unknown_fields)]
+pub enum Form {
+    /// Paraboloid r²/2R, the sphere of Hertz and JKR.
+    Paraboloid {
+        /// Radius of curvature R, m.
+        radius: f64,
+    },
+    /// Cone r tan θ.
+    Cone {
+        /// Angle θ between flank and surface plane, rad.
+        angle: f64,
+    },
+    /// Power law b rⁿ.
+    Power {
+        /// Coefficient b, m^(1−n).
+        coefficient: f64,
+        /// Exponent n.
+        exponent: f64,
+    },
+    /// Sphere r²/2R with concentric waves A (1 − cos 2πr/λ).
+    WavySphere {
+        /// Radius of curvature R, m.
+        radius: f64,
+        /// Amplitude A of the waves, m; their height is twice that.
+        amplitude: f64,
+        /// Wavelength λ, m.
+        wavelength: f64,
+    },
+    /// Flat-ended cylinder; nothing outside its radius touches.
+    Punch {
+        /// Radius a, m.
+        radius: f64,
+    },
+    /// Body of revolution from a file of radii and depths.
+    Table {
+        /// The file, relative to the scene file.
+        file: String,
+        /// Unit where the file states none; empty: m.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        unit: String,
+        /// Its rows; see [`Form::load`].
+        #[serde(skip)]
+        rows: Rows,
+    },
+}
+
+impl Form {
+    /// Reads the table of a form from a folder, unless it is known, for a profile of this length, m. All copies of the form
+    /// then have the table; other forms have none. Without its table a form is flat.
+    pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
+        let Form::Table { file, unit, rows } = self else { return Ok(()) };
+        let refused = |reason: &dyn ToString| SurfaceError::File {
+            field: "form.file",
+            file: folder.join(file).display().to_string(),
+            reason: reason.to_string(),
+        };
+        if rows.0.get().is_none() {
+            let unit = Some(unit.as_str()).filter(|unit| !unit.is_empty()).map(str::parse).transpose();
+            let unit = unit.map_err(|error: UnitError| refused(&error))?;
+            let table = FormTable::read(&folder.join(file), unit).map_err(|error| refused(&error))?;
+            rows.0.get_or_init(|| table);
+        }
+        let reach = self.table().map_or(0.0, FormTable::reach);
+        if 0.5 * length <= reach * (1.0 + 1e-9) {
+            return Ok(());
+        }
+        let allowed = 2.0 * reach;
+        Err(refused(&format!("the table ends at r = {reach:e} m; allowed: length at most {allowed:e} m")))
+    }
+
+    /// The table of a form, if it has one that is read.
+    pub fn table(&self) -> Option<&FormTable> {
+        if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
+    }
+
+    /// Index of the spring on the axis of every form, ⌊N/2⌋ of N = `points` springs. With the axis between two
+    /// springs a form would be blunt by half a cell, an error of first order in force, indentation and energy.
+    pub fn spring_on_axis(points: u64) -> u64 {
+        points / 2
+    }
+
+    /// Displacement of the body along the foundation, in cells, that puts its axis from L/2 onto a spring: ½ for an even
+    /// number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position
+    /// does not depend on the number of springs. A punch has no tip and is not displaced.
+    pub fn shift(&self, points: u64) -> f64 {
+        if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
+    }
+
+    /// Indices of the springs under the form, of `points` springs on `length` m: all of them, except under a punch.
+    /// A punch covers its diameter rounded to whole cells, centred on the axis to half a cell; below half a cell none.
+    pub fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
+        let Some(radius) = self.flat_end() else { return 0..points };
+        let cells = (2.0 * radius / (length / points as f64)).round() as u64;
+        let cells = cells.min(points);
+        let first = Form::spring_on_axis(points) - cells / 2;
+        first..first + cells
+    }
+
+    /// Radius of the flat end, m, outside of which there are no springs; `None` for all forms but a punch.
+    pub fn flat_end(&self) -> Option<f64> {
+        match *self {
+            Form::Punch { radius } => Some(radius),
+            _ => None,
+        }
+    }
+
+    /// The form without its waves.
+    pub fn without_waves(&self) -> Form {
+        match self {
+            &Form::WavySphere { radius, .. } => Form::Paraboloid { radius },
+            form => form.clone(),
+        }
+    }
+
+    /// Radius that scales the form, m; `None` for all but spheres and punches.
+    pub fn radius_mut(&mut self) -> Option<&mut f64> {
+        match self {
+            Form::Paraboloid { radius } | Form::WavySphere { radius, .. } | Form::Punch { radius } => {
+                Some(radius)
+            }
+            _ => None,
+        }
+    }
+
+    /// Radius of a smooth sphere, m; `None` for other forms.
+    pub fn sphere_radius(&self) -> Option<f64> {
+        if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
+    }
+
+    /// Curvature at the summit, 1/m; `None` for cones and power laws, and for tables alike, which have none or none at their
+    /// tip.
+    pub fn summit_curvature(&self) -> Option<f64> {
+        match *self {
+            Form::Paraboloid { radius } => Some(1.0 / radius),
+            Form::WavySphere { radius, amplitude, wavelength } => {
+                Some(1.0 / radius + amplitude * (TAU / wavelength).powi(2))
+            }
+            Form::Punch { .. } => Some(0.0),
+            Form::Cone { .. } | Form::Power { .. } => None,
+            Form::Table { .. } => self.table()?.summit_curvature(),
+        }
+    }
+
+    /// Depth g(|x|), m, of the equivalent profile below its apex, at a distance, m, from the axis; for a punch that under
+    /// its flat face ([`Form::springs_under`]).
+    ///
+    /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr: a paraboloid r²/2R becomes x²/R, a cone r tan θ becomes
+    /// (π/2)|x| tan θ, a power law b rⁿ becomes κₙ b |x|ⁿ ([`power_law_factor`]), and waves A (1 − cos 2πr/λ) become
+    /// (π²A/λ)|x| H₀(2π|x|/λ) with a Struve function.
+    pub fn mdr_profile(&self, distance: f64) -> f64 {
+        let x = distance.abs();
+        match *self {
+            Form::Paraboloid { radius } => x * x / radius,
+            Form::Cone { angle } => FRAC_PI_2 * x * angle.tan(),
+            Form::Power { coefficient, exponent } => {
+                power_law_factor(exponent) * coefficient * x.powf(exponent)
+            }
+            Form::WavySphere { radius, amplitude, wavelength } => {
+                x * x / radius + PI * PI * amplitude / wavelength * x * struve_0(2.0 * PI * x / wavelength)
+            }
+            Form::Punch { .. } => 0.0,
+            Form::Table { .. } => self.table().map_or(0.0, |table| table.mdr_profile(x)),
+        }
+    }
+
+    /// Coefficient c, m^(1−n), and exponent n of a form with the profile g(x) = c |x|ⁿ; `None` for a punch, waves and tables.
+    pub fn power_law(&self) -> Option<(f64, f64)> {
+        match *self {
+            Form::Paraboloid { radius } => Some((radius.recip(), 2.0)),
+            Form::Cone { angle } => Some((FRAC_PI_2 * angle.tan(), 1.0)),
+            Form::Power { coefficient, exponent } => {
+                Some((power_law_factor(exponent) * coefficient, exponent))
+            }
+            Form::WavySphere { .. } | Form::Punch { .. } | Form::Table { .. } => None,
+        }
+    }
+
+    /// Bound of the waves in the profile at a distance from the axis, m: π A √(r/λ).
+    pub fn wave_depth(&self, distance: f64) -> f64 {
+        match *self {
+            Form::WavySphere { amplitude, wavelength, .. } => {
+                PI * amplitude * (distance / wavelength).max(1.0).sqrt()
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor of a power law rⁿ on the equivalent profile.
+pub fn power_law_factor(exponent: f64) -> f64 {
+    // Logarithms of Γ: the quotient remains finite where its parts would overflow.
+    let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
+    PI.sqrt() / 2.0 * exponent * quotient
+}
+
+/// Argument from which on the asymptotic series is fully accurate: its smallest term is about e^−z.
+const LARGE: f64 = 40.0;
+/// Nodes of the integral below: enough for the waves of its integrand up to `LARGE`.
+const NODES: usize = 56;
+
+/// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature.
+static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarter_circle);
+
+/// Struve function H₀(z), z ≥ 0.
+pub fn struve_0(z: f64) -> f64 {
+    if z < LARGE {
+        let terms = RULE.iter().map(|&(angle, weight)| weight * (z * angle.cos()).sin());
+        return FRAC_2_PI * terms.sum::<f64>();
+    }
+    // H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1), down to rounding.
+    let (mut sum, mut term) = (0.0, z.recip());
+    for k in 0..LARGE as u32 {
+        sum += term;
+        let next = -term * ((2.0 * f64::from(k) + 1.0) / z).powi(2);
+        if next.abs() >= term.abs() || next.abs() < f64::EPSILON * f64::abs(sum) {
+            break;
+        }
+        term = next;
+    }
+    libm::y0(z) + FRAC_2_PI * sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// g by its definition: with r = x sin t the integral is x ∫₀^{π/2} f′(x sin t) dt.
+    fn by_definition(slope: impl Fn(f64) -> f64, x: f64) -> f64 {
+        let steps = 20_000;
+        let width = std::f64::consts::FRAC_PI_2 / f64::from(steps);
+        (0..steps).map(|k| slope(x * ((f64::from(k) + 0.5) * width).sin())).sum::<f64>() * width * x
+    }
+
+    #[test]
+    fn transforms_follow_their_definition() {
+        let x = 0.7;
+        let (radius, angle) = (2.5, 0.3_f64);
+        type Slope = Box<dyn Fn(f64) -> f64>;
+        let wavy = Form::WavySphere { radius, amplitude: 0.02, wavelength: 0.3 };
+        let wave = 2.0 * PI / 0.3;
+        let cases: [(Form, Slope); 5] = [
+            (Form::Paraboloid { radius }, Box::new(move |r| r / radius)),
+            (Form::Cone { angle }, Box::new(move |_| angle.tan())),
+            (wavy, Box::new(move |r| r / radius + 0.02 * wave * (wave * r).sin())),
+            (Form::Power { coefficient: 0.4, exponent: 3.7 }, Box::new(|r: f64| 0.4 * 3.7 * r.powf(2.7))),
+            (Form::Power { coefficient: 0.4, exponent: 60.0 }, Box::new(|r: f64| 24.0 * r.powf(59.0))),
+        ];
+        for (form, slope) in cases {
+            let expected = by_definition(slope, x);
+            let found = form.mdr_profile(-x);
+            assert!((found - expected).abs() < 1e-7 * expected, "{form:?}: {found} against {expected}");
+        }
+        // The special cases of the power law: n = 1 is the cone, n = 2 doubles.
+        assert!((power_law_factor(1.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
+        assert!((power_law_factor(2.0) - 2.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_punch_covers_the_nearest_number_of_whole_cells() {
+        let under = |radius, points| Form::Punch { radius }.springs_under(1.0, points);
+        // Whole cells, also numbers that the axis cannot halve.
+        assert_eq!((under(0.2, 10), under(0.25, 10), under(0.3, 10)), (3..7, 3..8, 2..8));
+        assert_eq!((under(0.2, 5), under(0.3, 5)), (1..3, 1..4));
+        // The minimum is a quarter of a cell on either side of the axis.
+        assert_eq!((under(0.026, 10).count(), under(0.024, 10).count()), (1, 0));
+        for points in 1..20 {
+            assert_eq!(under(0.5, points), 0..points);
+            assert_eq!(under(9.0, points), 0..points);
+            let sphere = Form::Paraboloid { radius: 1.0 };
+            assert_eq!(sphere.springs_under(1.0, points), 0..points);
+            for cells in 1..=points {
+                let springs = under(0.5 * cells as f64 / points as f64, points);
+                assert_eq!(springs.end - springs.start, cells);
+                assert!(
+                    springs.contains(&Form::spring_on_axis(points)) || cells == 0,
+                    "{springs:?} of {points}"
+                );
+            }
+        }
+    }
+
+    /// Power series, accurate for small arguments.
+    fn series(z: f64) -> f64 {
+        let (mut term, mut sum) = (z, 0.0);
+        for k in 1..60 {
+            sum += term;
+            term *= -z * z / (2.0 * f64::from(k) + 1.0).powi(2);
+        }
+        FRAC_2_PI * sum
+    }
+
+    #[test]
+    fn small_arguments_are_those_of_the_power_series() {
+        for k in 0..100 {
+            let z = 0.05 * f64::from(k);
+            let (found, expected) = (struve_0(z), series(z));
+            assert!((found - expected).abs() <= 1e-14 * expected.abs().max(0.1), "{z}: {found} {expected}");
+        }
+    }
+
+    #[test]
+    fn both_ways_agree_where_they_meet_and_solve_the_equation_of_struve() {
+        assert!((struve_0(LARGE.next_down()) - struve_0(LARGE)).abs() < 4e-14);
+        // z H₀″ + H₀′ + z H₀ = 2/π
+        for z in [0.3, 3.0, 20.0, 39.9, 40.1, 300.0] {
+            let step = 1e-3;
+            let [below, at, above] = [-step, 0.0, step].map(|by| struve_0(z + by));
+            let (slope, bend) = ((above - below) / (2.0 * step), (above - 2.0 * at + below) / (step * step));
+            assert!((z * (bend + at) + slope - FRAC_2_PI).abs() < 2e-7 * z.max(1.0), "{z}: {slope} {bend}");
+        }
+    }
+}

@@ -1,0 +1,340 @@
+//! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
+
+use super::SurfaceError;
+use super::spectrum::Amplitude;
+use crate::spectrum::analysis::{Analysis, Options, analyse};
+use crate::topography::TopographyError;
+use crate::topography::open::{content, parse, parse_all};
+use crate::topography::reading::ReadOptions;
+use crate::topography::surface::Detrend;
+use crate::topography::surface::{UNEVEN, first_uneven, interpolated};
+use asperity_data::{OutOfMemory, check_room, gathered};
+use realfft::RealFftPlanner;
+use std::path::{Path, PathBuf};
+
+/// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
+const TRANSFORM_BYTES: u64 = 96;
+
+/// Options of a scene for its measured surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeasuredOptions {
+    /// Part removed from the profile if it is the line itself; `None` for an equivalent line.
+    pub as_line: Option<Detrend>,
+    /// Options of the readers.
+    pub reading: ReadOptions,
+    /// Options of the spectrum.
+    pub spectrum: Options,
+}
+
+/// A measured profile.
+///
+/// Points at x = Δx/2, 3Δx/2, …, as written by `asperity line`, are centres of cells: N points cover N Δx from x =
+/// 0 on, the first and the last half cell at the height of the nearest point. Any other profile covers the distance
+/// from its first to its last point, and on request, if equally spaced, half a distance more at both ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredProfile {
+    /// Positions x, m, ascending; at least two.
+    pub positions: Vec<f64>,
+    /// Heights z, m, as measured: one for each position.
+    pub heights: Vec<f64>,
+}
+
+impl MeasuredProfile {
+    /// Reads a profile, or a row or column of a map, from the content of a file. Detrending requires equally spaced
+    /// points.
+    pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
+        let mut surface = parse(content, &options.reading)?;
+        if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
+            surface.spacing()?;
+            detrend.remove(&mut surface.heights, surface.columns);
+        }
+        let (positions, heights) = surface.into_profile()?;
+        Ok(MeasuredProfile { positions, heights })
+    }
+
+    /// Length covered, m.
+    pub fn length(&self) -> f64 {
+        self.cell().map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
+    }
+
+    fn span(&self) -> f64 {
+        self.positions[self.positions.len() - 1] - self.positions[0]
+    }
+
+    /// Distance between points, m, if these are the centres of cells that begin at x = 0.
+    fn cell(&self) -> Option<f64> {
+        let cell = self.span() / (self.positions.len() - 1) as f64;
+        first_uneven(&self.positions, 0.5 * cell, cell).is_none().then_some(cell)
+    }
+
+    /// Root mean square height about the mean and root mean square gradient of the straight pieces
+    /// between the measured points.
+    fn rms_height_and_gradient(&self) -> (f64, f64) {
+        let length = self.span();
+        // Differences of heights, not heights: an offset may be far larger than the roughness.
+        let level = self.heights[0];
+        let pieces = || {
+            let heights = self.heights.windows(2).map(|z| (z[0] - level, z[1] - level));
+            self.positions.windows(2).zip(heights).map(|(x, (a, b))| (x[1] - x[0], a, b))
+        };
+        let mean = pieces().map(|(dx, a, b)| dx * (a + b) / 2.0).sum::<f64>() / length;
+        let square = pieces()
+            .map(|(dx, a, b)| (a - mean, b - mean, dx))
+            .map(|(a, b, dx)| dx * (a * a + a * b + b * b) / 3.0)
+            .sum::<f64>();
+        let gradient = pieces().map(|(dx, a, b)| (b - a) * (b - a) / dx).sum::<f64>();
+        ((square / length).sqrt(), (gradient / length).sqrt())
+    }
+
+    /// Amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the profile on its own
+    /// length with its end joined to its beginning: if the ends do not meet, the straight line between them is
+    /// subtracted first, because a step has energy in every wave and a tilt has none.
+    pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
+        let (rms_height, rms_gradient) = self.rms_height_and_gradient();
+        let points = self.positions.len();
+        check_room(TRANSFORM_BYTES * points as u64)?;
+        let begins = self.begins(self.length()).unwrap_or(self.positions[0]);
+        let mut heights = self.heights_from(begins, self.length() / points as f64, points, 0.0)?;
+        let curvature = rms_curvature(&heights, self.length() / points as f64);
+        join_ends(&mut heights);
+        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+        let mut modes = plan.make_output_vec();
+        plan.process(&mut heights, &mut modes).map_err(|error| SurfaceError::Transform(error.to_string()))?;
+        let squares = (1_u64..).zip(&modes[1..]).map(|(mode, coefficient)| {
+            // For a wave of two points both exponentials are in one coefficient.
+            let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
+            (mode, exponentials * (coefficient / points as f64).norm_sqr())
+        });
+        let of_modes = Amplitude::from_modes(squares, self.length());
+        let mean = of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2);
+        let mean_wave_number = if mean.is_finite() { mean } else { 0.0 };
+        Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
+    }
+
+    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a
+    /// measured point its own height, bit for bit. If all heights of the profile are from half to twice the first,
+    /// the first is subtracted: the differences are then exact, and roughness with a large offset keeps its digits.
+    ///
+    /// # Errors
+    /// A profile shorter than `length` m.
+    pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, String> {
+        let begins = self.begins(length).map_err(|covers| {
+            format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
+        })?;
+        let heights = self.heights_from(begins, length / points as f64, points, shift);
+        heights.map_err(|error| error.to_string())
+    }
+
+    /// Heights, m, at the centres of cells of this width from a position on, m, displaced by `shift` cells.
+    fn heights_from(
+        &self,
+        begins: f64,
+        cell: f64,
+        points: usize,
+        shift: f64,
+    ) -> Result<Vec<f64>, OutOfMemory> {
+        let places = (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * cell);
+        gathered(points, interpolated(&self.positions, &self.heights, self.level(), places))
+    }
+
+    /// Position, m, of the beginning of a line of a length, m; the error is the covered length, m.
+    fn begins(&self, length: f64) -> Result<f64, f64> {
+        let points = self.positions.len() as f64;
+        let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
+        let is_even_from = |first: f64| first_uneven(&self.positions, first, distance).is_none();
+        let begins = if is_even_from(0.5 * distance) {
+            0.0
+        } else if length <= self.span() {
+            return Ok(first);
+        } else if is_even_from(first) {
+            first - 0.5 * distance
+        } else {
+            return Err(self.span());
+        };
+        // The last half cell may be displaced as far as points may.
+        let covers = points * distance;
+        if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
+    }
+
+    /// Height, m, subtracted from all others: the first one, if all differences are exact, else 0.
+    fn level(&self) -> f64 {
+        let first = self.heights[0];
+        let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());
+        // By Sterbenz' lemma.
+        let is_exact = |height: &f64| (low..=high).contains(&(height * first.signum()));
+        if self.heights.iter().all(is_exact) { first } else { 0.0 }
+    }
+}
+
+/// Root mean square curvature, 1/m, of heights at this distance, m, by second differences.
+fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
+    let squares = heights.windows(3).map(|z| ((z[0] - z[1]) + (z[2] - z[1])).powi(2)).sum::<f64>();
+    let count = heights.len().saturating_sub(2).max(1);
+    (squares / count as f64).sqrt() / spacing.powi(2)
+}
+
+/// Subtracts a straight line that makes the step from the last height to the first the mean of the steps beside it.
+fn join_ends(heights: &mut [f64]) {
+    let last = heights.len() - 1;
+    let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
+    let slope = (beside - (heights[0] - heights[last])) / heights.len() as f64;
+    (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
+}
+
+/// Files of a face with their content: samples of one roughness.
+pub type Face = Vec<(PathBuf, Vec<u8>)>;
+
+/// Reads the files of one or both faces.
+pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
+    let read = |path: &PathBuf| match content(path) {
+        Ok(content) => Ok((path.clone(), content)),
+        Err(error) => Err(SurfaceError::measured(path, &error)),
+    };
+    faces.iter().map(|face| face.iter().map(read).collect()).collect()
+}
+
+impl MeasuredOptions {
+    /// Analyses the files of one face.
+    ///
+    /// # Errors
+    /// A file that cannot be read or has no spectrum.
+    pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
+        let (mut surfaces, mut files) = (Vec::new(), Vec::new());
+        for (path, content) in face {
+            let read =
+                parse_all(content, &self.reading).map_err(|error| SurfaceError::measured(path, &error))?;
+            files.resize(files.len() + read.len(), path);
+            surfaces.extend(read);
+        }
+        analyse(&surfaces, &self.spectrum).map_err(|error| {
+            let file = files.get(error.surface());
+            SurfaceError::measured(file.map_or(Path::new(""), |path| path), &error)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::topography::Unit;
+    use crate::topography::reading::ReadOptions;
+    use std::f64::consts::TAU;
+
+    fn parsed(text: &str) -> Result<MeasuredProfile, TopographyError> {
+        let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
+        MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
+    }
+
+    #[test]
+    fn points_that_begin_at_half_their_distance_are_middles_of_cells() {
+        let profile = parsed("0.5 3\n1.5 4\n2.5 -1").unwrap();
+        assert_eq!(profile.length(), 3.0);
+        assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
+        // Before the first and behind the last point at its height, halfway between points at their mean.
+        assert_eq!(profile.sample(3.0, 6, 0.5).unwrap(), [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]);
+        assert_eq!(profile.sample(3.0, 12, 0.0).unwrap()[11], -1.0);
+        assert_eq!(profile.sample(1.0, 1, 0.0).unwrap(), [3.0]);
+        assert!(profile.sample(3.01, 3, 0.0).unwrap_err().contains("covers 3e0 m"));
+        // With the digits of a file.
+        let rounded = parsed("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
+        assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
+        // Any other profile covers the distance between its points.
+        for (text, length) in
+            [("0 3\n1 4\n2 -1", 2.0), ("0.5 3\n1.5 4\n2.4 -1", 1.9), ("1 3\n2 4\n3 -1", 2.0)]
+        {
+            let profile = parsed(text).unwrap();
+            assert!((profile.length() - length).abs() < 1e-15);
+            assert!(profile.sample(length, 3, 0.0).is_ok());
+            // If equally spaced, half a distance beyond each end.
+            let longest = if length == 1.9 { length } else { 3.0 };
+            assert!(
+                profile.sample(longest, 3, 0.0).is_ok() && profile.sample(1.01 * longest, 3, 0.0).is_err()
+            );
+        }
+        let even = parsed("1 3\n2 4\n3 -1").unwrap();
+        assert_eq!(even.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
+        assert_eq!(even.sample(2.0, 2, 0.0).unwrap(), [3.5, 1.5]);
+    }
+
+    #[test]
+    fn an_offset_is_taken_out_where_that_is_exact() {
+        let heights = |text: &str| parsed(text).unwrap().sample(2.0, 2, 0.0).unwrap();
+        assert_eq!(heights("0.5 1e8\n1.5 100000001"), [0.0, 1.0]);
+        assert_eq!(heights("0.5 -3\n1.5 -5"), [0.0, -2.0]);
+        assert_eq!(heights("0.5 3\n1.5 7"), [3.0, 7.0]);
+        assert_eq!(heights("0.5 -3\n1.5 3"), [-3.0, 3.0]);
+        assert_eq!(heights("0.5 0\n1.5 0"), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn what_a_length_or_a_mean_square_cannot_hold_is_refused() {
+        let wrong = |text: &str| parsed(text).unwrap_err().to_string();
+        assert!(wrong("0 1").contains("1 points; allowed: from 2 to"));
+        let long = wrong(&format!("0 1\n1 {}", "κ".repeat(1000)));
+        assert!(long.chars().count() < 120, "{long}");
+        assert_eq!(wrong("-1e308 0\n1e308 0"), "line 1: \"-1e308\"; allowed: a number from -1e9 to 1e9");
+        assert!(
+            wrong("-1e10 0\n1 0").contains("point 1: a position of -1e10 m; allowed: from -1e9 to 1e9 m")
+        );
+        assert!(wrong("0 0\n1 -1.1e9").contains("point 2: a height of -1.1e9 m"));
+        assert_eq!(
+            wrong("0 0\n0.5 1e9\n1 0"),
+            "point 2: a slope of 2e9 from the point before; allowed: at most 1e9"
+        );
+        let steepest = parsed("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
+        let (height, gradient) = steepest.rms_height_and_gradient();
+        assert!(height.is_finite() && gradient.is_finite() && steepest.length() == 2e9);
+    }
+
+    #[test]
+    fn samples_lie_on_the_straight_pieces() {
+        let profile = parsed("-2 7\n0 3\n1 6\n4 0").unwrap();
+        // At −1.5, −0.5 … 3.5.
+        assert_eq!(profile.sample(6.0, 6, 0.0).unwrap(), [6.0, 4.0, 4.5, 5.0, 3.0, 1.0]);
+        // From the first point on.
+        assert_eq!(profile.sample(2.0, 4, 0.0).unwrap(), [6.5, 5.5, 4.5, 3.5]);
+        assert_eq!(
+            (&profile.positions[..], &profile.heights[..]),
+            (&[-2.0, 0.0, 1.0, 4.0][..], &[7.0, 3.0, 6.0, 0.0][..])
+        );
+    }
+
+    #[test]
+    fn a_wave_has_its_own_wave_number_on_any_grid_and_under_a_tilt() {
+        let text = |points: u32, middles: f64, tilt: f64| -> String {
+            let place = |i: u32| (f64::from(i) + middles) / f64::from(points);
+            let height = |x: f64| tilt * x + 2e-3 * (15.0 * TAU * x + 0.3).cos();
+            (0..points).map(|i| format!("{:e} {:e}\n", place(i), height(place(i)))).collect()
+        };
+        for (points, middles) in [(1000, 0.5), (1001, 0.5), (1000, 0.0)] {
+            let level = parsed(&text(points, middles, 0.0)).unwrap().amplitude().unwrap();
+            assert!((level.mean_wave_number / (15.0 * TAU) - 1.0).abs() < 0.01, "{level:?}");
+            let curvature = 2e-3 * 0.5_f64.sqrt() * (15.0 * TAU).powi(2);
+            assert!((level.rms_curvature / curvature - 1.0).abs() < 0.01, "{level:?}");
+            // A tilt has no energy.
+            let tilted = parsed(&text(points, middles, 0.1)).unwrap().amplitude().unwrap();
+            assert!(tilted.rms_height > 10.0 * level.rms_height);
+            let change = tilted.elastic_energy(1.0) / level.elastic_energy(1.0) - 1.0;
+            assert!(change.abs() < 0.01, "{change}");
+        }
+        let flat = parsed("0 1\n1 1\n2 1").unwrap().amplitude().unwrap();
+        assert_eq!((flat.mean_wave_number, flat.elastic_energy(1e6)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn statistics_are_those_of_the_straight_pieces() {
+        // A triangle of height 1 over length 2: mean 1/2, variance 1/12, slope 1. Uneven pieces: mean 1/2; ∫ (z − 1/2)² dx
+        // is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2. A constant height is no roughness.
+        for (text, square, slope) in [
+            ("5 0\n6 1\n7 0", 1.0 / 12.0, 1.0),
+            ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),
+            ("6e-5 5\n1 5\n3 5", 0.0, 0.0),
+        ] {
+            let (height, gradient) = parsed(text).unwrap().rms_height_and_gradient();
+            assert!((height - f64::sqrt(square)).abs() < 1e-15 && (gradient - slope).abs() < 1e-15, "{text}");
+            assert!(square > 0.0 || (height, gradient) == (0.0, 0.0), "{text}");
+        }
+        let level = parsed("0 1e9\n1 1e9").unwrap();
+        assert_eq!((&level.heights[..], level.length()), (&[1e9, 1e9][..], 1.0));
+    }
+}

@@ -1,0 +1,298 @@
+//! Random phases of modes, independent of the grid, the number of modes and the platform; and Fourier coefficients of a
+//! self-affine profile, 64 modes at a time: loops over them have no branch, so the compiler computes several modes in one
+//! instruction.
+
+use super::spectrum::SelfAffine;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rustfft::num_complex::Complex64;
+
+/// Modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, independent of the first drawn mode: no result
+/// depends on the number of threads.
+const BLOCK: usize = 64;
+
+/// Most terms of the series (1 + x)^p − 1. With |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term is below 1e-18, and
+/// with |x| ≤ 1/1024 already after 6 terms.
+const TERMS: usize = 10;
+
+/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first.
+/// Minimax approximations: errors of sine and cosine at most 4e-18 in addition to rounding.
+const SINE: [f64; 6] = [
+    -0.166_666_666_666_666_32,
+    0.008_333_333_333_322_418,
+    -0.000_198_412_698_298_123_78,
+    2.755_731_369_357_179_7e-6,
+    -2.505_075_838_419_456_7e-8,
+    1.589_681_178_661_149_6e-10,
+];
+const COSINE: [f64; 6] = [
+    0.041_666_666_666_666_6,
+    -0.001_388_888_888_887_413_1,
+    2.480_158_728_948_701e-5,
+    -2.755_731_435_378_765_5e-7,
+    2.087_572_347_883_230_7e-9,
+    -1.135_965_883_378_375_8e-11,
+];
+
+/// Coefficients of the inverse transform that returns the profile on a grid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Modes {
+    spectrum: SelfAffine,
+    seed: u64,
+    /// Half the amplitude of mode 1: each cosine is a pair of exponentials.
+    half_amplitude: f64,
+    /// Turns by which the first point of the grid advances the phase of mode 1.
+    advance: f64,
+    /// Coefficients of the series (1 + x)^exponent, without the leading 1.
+    series: [f64; TERMS],
+}
+
+impl Modes {
+    /// The modes of a spectrum and a seed for a profile of rms height 1, on `points` points, the first of them
+    /// `start` cells along the profile.
+    pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
+        let exponent = spectrum.amplitude_exponent();
+        let mut binomial = 1.0;
+        let series = std::array::from_fn(|index| {
+            binomial *= (exponent - index as f64) / (index + 1) as f64;
+            binomial
+        });
+        Modes {
+            spectrum,
+            seed,
+            half_amplitude: 0.5 / spectrum.relative_rms(),
+            advance: start / points as f64,
+            series,
+        }
+    }
+
+    /// Fills the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the phases φ at the first
+    /// point of the grid.
+    pub fn draw(&self, first: u64, mut coefficients: &mut [Complex64]) {
+        let mut generator = phase_words(self.seed, first);
+        let mut words = [0; BLOCK];
+        let mut block = [Complex64::ZERO; BLOCK];
+        let mut index = first - 1;
+        while !coefficients.is_empty() {
+            let lane = (index % BLOCK as u64) as usize;
+            let lanes = lane..BLOCK.min(lane + coefficients.len());
+            let (now, later) = coefficients.split_at_mut(lanes.len());
+            words[lanes.clone()].fill_with(|| generator.next_u64());
+            self.fill(index - lane as u64, &words, &mut block);
+            now.copy_from_slice(&block[lanes.clone()]);
+            index += lanes.len() as u64;
+            coefficients = later;
+        }
+    }
+
+    /// Coefficients of the block of modes after mode `before`, from a random word for each.
+    fn fill(&self, before: u64, words: &[u64; BLOCK], block: &mut [Complex64; BLOCK]) {
+        let amplitudes = self.half_amplitudes(before);
+        let before = before as f64;
+        for (((coefficient, word), amplitude), count) in
+            block.iter_mut().zip(words).zip(amplitudes).zip(COUNTS)
+        {
+            let (sine, cosine) = sine_and_cosine(fraction(*word) + self.advance * (before + count));
+            *coefficient = Complex64::new(amplitude * cosine, amplitude * sine);
+        }
+    }
+
+    /// Half the amplitudes of the block of modes after mode `before`.
+    fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
+        // Below a roll-off each mode is computed by itself.
+        match if (before as f64) < self.spectrum.roll_off_mode { 0 } else { before } {
+            0..512 => std::array::from_fn(|lane| self.half_amplitude(before + 1 + lane as u64)),
+            512..2048 => self.half_amplitudes_in_series::<16, TERMS>(before),
+            2048..32_768 => self.half_amplitudes_in_series::<64, TERMS>(before),
+            _ => self.half_amplitudes_in_series::<64, 6>(before),
+        }
+    }
+
+    /// The same, each from the middle of its `SPAN` modes by the first `COUNT` terms of the series.
+    #[inline(always)]
+    fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(&self, before: u64) -> [f64; BLOCK] {
+        let mut amplitudes = [0.0; BLOCK];
+        let mut middle = before + SPAN as u64 / 2;
+        for span in amplitudes.as_chunks_mut::<SPAN>().0 {
+            let (at_middle, inverse) = (self.half_amplitude(middle), (middle as f64).recip());
+            for (amplitude, count) in span.iter_mut().zip(COUNTS) {
+                let x = (count - (SPAN / 2) as f64) * inverse;
+                *amplitude = at_middle + at_middle * (x * polynomial(&self.series[..COUNT], x));
+            }
+            middle += SPAN as u64;
+        }
+        amplitudes
+    }
+
+    fn half_amplitude(&self, mode: u64) -> f64 {
+        self.half_amplitude * self.spectrum.relative_amplitude(mode)
+    }
+}
+
+/// Sine and cosine of `turns` times 2π, for `turns` from 0 to 2.
+#[inline(always)]
+fn sine_and_cosine(turns: f64) -> (f64, f64) {
+    // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits. So the nearest
+    // quarter is found to 2⁻¹⁰ in any rounding of the sum.
+    const ALIGN: f64 = 6_597_069_766_656.0;
+    let aligned = (4.0 * turns + (ALIGN + 0.5)).to_bits();
+    let nearest = f64::from_bits(aligned & !0x3ff) - ALIGN;
+    let quarters = aligned >> 10;
+    let y = std::f64::consts::TAU * (turns - 0.25 * nearest);
+    let z = y * y;
+    let sine = (y + y * (z * polynomial(&SINE, z))).to_bits();
+    let cosine = (1.0 - (0.5 * z - z * z * polynomial(&COSINE, z))).to_bits();
+    // An odd number of quarters swaps both; the signs follow from the quadrant.
+    let swap = 0_u64.wrapping_sub(quarters & 1);
+    let sine_sign = (quarters & 2) << 62;
+    let cosine_sign = (quarters.wrapping_add(1) & 2) << 62;
+    let chosen = |one: u64, other: u64| (one & !swap) | (other & swap);
+    (f64::from_bits(chosen(sine, cosine) ^ sine_sign), f64::from_bits(chosen(cosine, sine) ^ cosine_sign))
+}
+
+/// Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the steps of
+/// both are independent.
+#[inline(always)]
+fn polynomial(coefficients: &[f64], x: f64) -> f64 {
+    let square = x * x;
+    let mut pairs = coefficients.as_chunks::<2>().0.iter().rev();
+    let [mut even, mut odd] = pairs.next().copied().unwrap_or_default();
+    for &[next_even, next_odd] in pairs {
+        even = next_even + square * even;
+        odd = next_odd + square * odd;
+    }
+    even + x * odd
+}
+
+/// 1, 2, … as numbers, since conversions would not be vectorised.
+const COUNTS: [f64; BLOCK] = {
+    let mut counts = [0.0; BLOCK];
+    let mut lane = 0;
+    while lane < BLOCK {
+        counts[lane] = (lane + 1) as f64;
+        lane += 1;
+    }
+    counts
+};
+
+/// Separates this use of the generator from others; a change of the drawing of phases changes this text.
+const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
+
+/// Phases φ_k of the modes k = `first`, `first` + 1, … of a seed, rad, uniform in [0, 2π).
+///
+/// The generator is ChaCha with 8 rounds. Its 32-byte key is the seed, little-endian, followed by the
+/// 24 ASCII bytes `asperity-line-phases-v1` and a zero; φ_k is the k-th 64-bit word of its stream,
+/// counted from k = 1, of which the upper 53 bits are the fraction of 2π. So mode k of a seed has one
+/// phase, bit for bit, for every number of springs and of modes and on every platform.
+pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
+    let mut generator = phase_words(seed, first);
+    std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
+}
+
+/// Generator whose next 64-bit words belong to the modes `first`, `first` + 1, … of a seed.
+pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    key[8..].copy_from_slice(PURPOSE);
+    let mut generator = ChaCha8Rng::from_seed(key);
+    // Two 32-bit words for each phase.
+    generator.set_word_pos(2 * u128::from(first.saturating_sub(1)));
+    generator
+}
+
+/// Phase of a mode over 2π, from 0 to below 1: the upper 53 bits of its word.
+///
+/// 52 bits become the digits of a number from 1 to 2, the last bit adds half a digit. Any processor computes this
+/// for several words in one instruction; few have such an instruction for the conversion of integers.
+#[inline(always)]
+pub(super) fn fraction(word: u64) -> f64 {
+    const ONE: u64 = 1.0_f64.to_bits();
+    const HALF_A_DIGIT: u64 = (f64::EPSILON / 2.0).to_bits();
+    let upper = f64::from_bits(ONE | (word >> 12)) - 1.0;
+    let last = 0_u64.wrapping_sub((word >> 11) & 1);
+    upper + f64::from_bits(HALF_A_DIGIT & last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::line::modes::phases;
+    use std::f64::consts::{PI, TAU};
+
+    #[test]
+    fn sine_and_cosine_are_within_two_roundings() {
+        let mut worst = 0.0_f64;
+        for word in (0..200_000_u64).map(|index| index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) {
+            let turns = fraction(word) + (word & 1) as f64 * 0.75;
+            let (sine, cosine) = sine_and_cosine(turns);
+            // Within an eighth of a turn the angle is as exact as its turns.
+            let quarters = (4.0 * turns).round();
+            let (s, c) = (TAU * (turns - 0.25 * quarters)).sin_cos();
+            let expected = [(s, c), (c, -s), (-s, -c), (-c, s)][quarters as usize % 4];
+            worst = worst.max((sine - expected.0).abs()).max((cosine - expected.1).abs());
+        }
+        assert!(worst <= 2.3e-16, "{worst:e}");
+        for quarter in 0..8 {
+            let expected = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarter % 4];
+            assert_eq!(sine_and_cosine(0.25 * quarter as f64), expected);
+        }
+    }
+
+    #[test]
+    fn amplitudes_are_their_powers_to_rounding() {
+        for hurst in [1e-300, 0.3, 0.7, 1.0_f64.next_down()] {
+            let spectrum = SelfAffine { hurst, first: 1, last: 1, roll_off_mode: 0.0 };
+            let modes = Modes::new(spectrum, 1, 10, 0.5);
+            for before in [0, 448, 512, 1984, 2048, 32_704, 32_768, 1 << 20, (1 << 27) - 64] {
+                for (mode, amplitude) in (before + 1..).zip(modes.half_amplitudes(before)) {
+                    // A spectrum of mode 1 alone has the rms height √½.
+                    let error = amplitude / (0.5_f64.sqrt() * spectrum.relative_amplitude(mode)) - 1.0;
+                    assert!(error.abs() <= 1e-15, "H = {hurst}, mode {mode}: {error:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn modes_are_the_same_wherever_drawing_begins_and_on_any_number_of_threads() {
+        let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 5000, roll_off_mode: 0.0 };
+        let modes = Modes::new(spectrum, 3, 10_000, 0.5);
+        let mut all = vec![Complex64::ZERO; 5000];
+        modes.draw(1, &mut all);
+        for (mode, (coefficient, phase)) in (1..).zip(all.iter().zip(phases(3, 1))) {
+            let amplitude = spectrum.relative_amplitude(mode) / spectrum.relative_rms();
+            let expected = Complex64::from_polar(0.5 * amplitude, phase + PI * mode as f64 / 10_000.0);
+            assert!((coefficient - expected).norm() <= 4e-15 * expected.norm(), "mode {mode}");
+        }
+        for threads in [1, 2, 3, 8] {
+            let mut shared = vec![Complex64::ZERO; all.len()];
+            let share = all.len().div_ceil(threads);
+            std::thread::scope(|scope| {
+                for (index, share_of_one) in shared.chunks_mut(share).enumerate() {
+                    scope.spawn(move || modes.draw((1 + index * share) as u64, share_of_one));
+                }
+            });
+            assert_eq!(shared, all, "{threads} threads");
+        }
+        for (first, count) in [(1, 0), (1, 1), (2, 63), (64, 1), (64, 2), (65, 64), (100, 4000), (4999, 2)] {
+            let mut some = vec![Complex64::ZERO; count];
+            modes.draw(first as u64, &mut some);
+            assert_eq!(some, all[first - 1..][..count], "{count} modes from {first} on");
+        }
+    }
+
+    #[test]
+    fn phases_are_these_for_ever() {
+        let bits: Vec<u64> = phases(1, 1).take(4).map(f64::to_bits).collect();
+        insta::assert_debug_snapshot!(bits);
+    }
+
+    #[test]
+    fn fractions_are_the_upper_53_bits() {
+        let words = [0, 1, (1 << 11) - 1, 1 << 11, 1 << 12, (1 << 63) - 1, 1 << 63, u64::MAX];
+        let many = (1..10_000_u64).map(|index| index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        for word in words.into_iter().chain(many) {
+            assert_eq!(fraction(word), (word >> 11) as f64 / (1_u64 << 53) as f64, "{word:#x}");
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! The rigid profile as the input of the contact: gaps below its highest point.
+
+use super::SurfaceError;
+use super::form::Form;
+use asperity_data::{gathered, resized};
+use std::sync::Arc;
+
+/// The rigid profile above springs at x = (i + ½)Δx.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Gaps c_i = max z − z_i ≥ 0, m, of the springs under the body.
+    pub gaps: Arc<Vec<f64>>,
+    /// Index of the first of these springs on the foundation: above zero only under a punch.
+    pub first: usize,
+    /// Springs N of the whole foundation.
+    pub points: usize,
+    /// Length L of the whole foundation, m.
+    pub length: f64,
+    /// Distance Δx = L/N between springs, m.
+    pub spacing: f64,
+    /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
+    pub summit: f64,
+    /// Largest gap, m.
+    pub deepest: f64,
+}
+
+impl Line {
+    /// The profile of a form (`None`: flat) plus heights of roughness: one for each point, times `scale` m, or none
+    /// for a smooth profile. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 if N is odd and half a cell
+    /// further if N is even; roughness has to be sampled with the same [`Form::shift`]. See [`Form::springs_under`]
+    /// for a punch.
+    ///
+    /// # Errors
+    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
+    pub fn new(
+        length: f64,
+        points: usize,
+        form: Option<&Form>,
+        roughness: Option<&[f64]>,
+        scale: f64,
+    ) -> Result<Self, SurfaceError> {
+        let heights = match roughness {
+            Some(rough) => gathered(points, rough.iter().copied())?,
+            None => resized(Vec::new(), points, 0.0)?,
+        };
+        Line::from_roughness(heights, length, form, scale)
+    }
+
+    /// The same for a form and roughness, whose memory becomes the memory of the gaps.
+    pub fn from_roughness(
+        mut gaps: Vec<f64>,
+        length: f64,
+        form: Option<&Form>,
+        scale: f64,
+    ) -> Result<Self, SurfaceError> {
+        let (points, spacing) = (gaps.len(), length / gaps.len() as f64);
+        let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
+        if under.is_empty() {
+            return Err(SurfaceError::NoSprings(spacing / 4.0));
+        }
+        let first = under.start as usize;
+        gaps.truncate(under.end as usize);
+        gaps.drain(..first);
+        match form {
+            None => gaps.iter_mut().for_each(|z| *z *= scale),
+            Some(form) => {
+                // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
+                let axis = Form::spring_on_axis(points as u64) as f64;
+                let depths = form.table().map(|table| table.depths(spacing, points / 2 + 1)).transpose()?;
+                let depth = |index: usize| match &depths {
+                    Some(depths) => depths[index.abs_diff(points / 2)],
+                    None => form.mdr_profile((index as f64 - axis) * spacing),
+                };
+                (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
+            }
+        }
+        let not_finite = |index| SurfaceError::NotFinite(first + index);
+        let summit = largest(&gaps).map_err(not_finite)?;
+        gaps.iter_mut().for_each(|height| *height = summit - *height);
+        let deepest = largest(&gaps).map_err(not_finite)?;
+        Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
+    }
+
+    /// Heights z, m, of the points under the body; summit − z is their gap, bit for bit.
+    pub fn heights(&self) -> impl Iterator<Item = f64> {
+        self.gaps.iter().map(|gap| self.height(*gap))
+    }
+
+    /// Height, m, of a point with this gap.
+    fn height(&self, gap: f64) -> f64 {
+        let height = self.summit - gap;
+        // The gap of the rounded height may be one digit off; then that of a neighbouring number is exact.
+        let nearby = [height, height.next_up(), height.next_down()];
+        nearby.into_iter().find(|height| self.summit - height == gap).unwrap_or(height)
+    }
+
+    /// Position x, m, of the `index`-th spring under the body.
+    pub fn position(&self, index: usize) -> f64 {
+        ((self.first + index) as f64 + 0.5) * self.spacing
+    }
+
+    /// Height of the lowest point, m.
+    pub fn lowest(&self) -> f64 {
+        self.height(self.deepest)
+    }
+}
+
+/// Largest value; `Err(index)` of the first non-finite value.
+fn largest(values: &[f64]) -> Result<f64, usize> {
+    // In parallel: a sequence of comparisons would wait for each one.
+    let mut largest = [f64::NEG_INFINITY; 8];
+    let mut all_finite = true;
+    let mut take = |values: &[f64]| {
+        for (largest, &value) in largest.iter_mut().zip(values) {
+            *largest = if value > *largest { value } else { *largest };
+            all_finite &= value.is_finite();
+        }
+    };
+    let (whole, rest) = values.as_chunks::<8>();
+    whole.iter().for_each(|eight| take(eight));
+    take(rest);
+    if !all_finite {
+        return Err(values.iter().position(|value| !value.is_finite()).unwrap_or(0));
+    }
+    Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
+}
+
+/// Counts of heights in equal bins from the lowest to the highest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Histogram {
+    /// Lower end of the first bin, m.
+    pub low: f64,
+    /// Upper end of the last bin, m.
+    pub high: f64,
+    /// Number of heights in each bin.
+    pub counts: Vec<u64>,
+}
+
+impl Histogram {
+    /// Counts `heights` (m, finite) into `bins` bins between `low` and `high`, ends included; heights outside are
+    /// omitted. For a range of zero width all are in the first bin.
+    pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {
+        let mut counts = vec![0; bins.max(1)];
+        let last = counts.len() - 1;
+        let scale = counts.len() as f64 / (high - low);
+        for height in heights.filter(|height| (low..=high).contains(height)) {
+            // The conversion to an integer maps NaN, 0/0 here, to zero.
+            counts[(((height - low) * scale) as usize).min(last)] += 1;
+        }
+        Histogram { low, high, counts }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::line::modes::phases;
+
+    #[test]
+    fn a_spring_is_on_the_axis_and_forms_are_symmetric_about_it() {
+        for form in [
+            Form::Cone { angle: 0.2 },
+            Form::Paraboloid { radius: 3.0 },
+            Form::Power { coefficient: 0.4, exponent: 1.5 },
+        ] {
+            for points in 1..30 {
+                let line = Line::new(1.0, points, Some(&form), None, 0.0).unwrap();
+                let axis = points / 2;
+                assert_eq!((line.gaps[axis], line.summit), (0.0, 0.0));
+                let middle = line.position(axis) - 0.5;
+                assert!((0.0..=0.5 * line.spacing + 1e-15).contains(&middle.abs()));
+                let left = line.gaps[..axis].iter().rev();
+                assert!(left.zip(&line.gaps[axis + 1..]).all(|(left, right)| left == right));
+            }
+        }
+    }
+
+    #[test]
+    fn only_springs_under_a_punch_belong_to_the_line() {
+        let line = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.2 }), None, 0.0).unwrap();
+        assert_eq!((line.first, line.gaps.len()), (3, 4));
+        let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.02 }), None, 0.0);
+        assert_eq!(none, Err(SurfaceError::NoSprings(0.025)));
+    }
+
+    #[test]
+    fn form_and_roughness_add() {
+        let rough = [0.0, 3.0, -1.0, 2.0];
+        let form = Form::Paraboloid { radius: 1.0 };
+        let line = Line::new(4.0, 4, Some(&form), Some(&rough), 2.0).unwrap();
+        // z = 2·rough − x² with x = −2, −1, 0, 1: −4, 5, −2, 3.
+        assert_eq!(line.summit, 5.0);
+        assert_eq!(*line.gaps, [9.0, 0.0, 7.0, 2.0]);
+        assert_eq!(line.heights().collect::<Vec<_>>(), [-4.0, 5.0, -2.0, 3.0]);
+    }
+
+    #[test]
+    fn roughness_becomes_the_same_gaps_in_its_own_memory() {
+        let rough: Vec<f64> = phases(7, 1).take(40).collect();
+        let forms =
+            [Form::Paraboloid { radius: 3.0 }, Form::Cone { angle: 0.2 }, Form::Punch { radius: 0.2 }];
+        for form in forms.iter().map(Some).chain([None]) {
+            let expected = Line::new(1.0, 40, form, Some(&rough), 0.3).unwrap();
+            let own = rough.clone();
+            let memory = own.as_ptr();
+            let line = Line::from_roughness(own, 1.0, form, 0.3).unwrap();
+            assert_eq!((&line, line.gaps.as_ptr()), (&expected, memory));
+        }
+        let thin = Form::Punch { radius: 0.002 };
+        let error = Line::new(1.0, 40, Some(&thin), Some(&rough), 0.3);
+        assert_eq!(Line::from_roughness(rough, 1.0, Some(&thin), 0.3), error);
+        let not_finite = Line::from_roughness(vec![0.0, f64::INFINITY], 1.0, None, 1.0);
+        assert_eq!(not_finite, Err(SurfaceError::NotFinite(1)));
+    }
+
+    #[test]
+    fn gaps_follow_from_heights_bit_for_bit() {
+        let written = |line: &Line| line.heights().collect::<Vec<f64>>();
+        let digit = f64::EPSILON;
+        // The gap is 1, and summit − 1 = −1 would have a gap of 1 − ε/2.
+        let line = Line::new(1.0, 2, None, Some(&[-0.5 * digit, -1.0 - digit]), 1.0).unwrap();
+        assert_eq!((line.gaps[1], line.summit - (line.summit - 1.0)), (1.0, 1.0 - 0.5 * digit));
+        assert_eq!(Line::new(1.0, 2, None, Some(&written(&line)), 1.0).unwrap(), line);
+        for seed in 0..200 {
+            let rough: Vec<f64> = phases(seed, 1).take(64).map(|phase| phase - 0.1 * seed as f64).collect();
+            let form = Form::Paraboloid { radius: 3.0 };
+            let line = Line::new(1.0, 64, Some(&form), Some(&rough), 0.3).unwrap();
+            assert_eq!(Line::new(1.0, 64, None, Some(&written(&line)), 1.0).unwrap(), line);
+            assert_eq!(line.lowest(), written(&line).into_iter().fold(f64::INFINITY, f64::min));
+        }
+    }
+
+    #[test]
+    fn heights_that_are_not_finite_are_refused() {
+        let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
+        assert_eq!(result, Err(SurfaceError::NotFinite(1)));
+        // The first spring under the punch is the second of the foundation.
+        let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
+        let result = Line::new(1.0, 6, Some(&Form::Punch { radius: 0.3 }), Some(&rough), 1.0);
+        assert_eq!(result, Err(SurfaceError::NotFinite(4)));
+        for points in 1..40 {
+            for bad in 0..points {
+                let mut rough: Vec<f64> = (0..points).map(|i| (i * i % 7) as f64).collect();
+                let expected = rough.iter().copied().fold(0.0, f64::max);
+                let line = Line::new(1.0, points, None, Some(&rough), 1.0).unwrap();
+                assert_eq!((line.summit, line.gaps[bad]), (expected, expected - rough[bad]));
+                assert_eq!(line.deepest, line.gaps.iter().copied().fold(0.0, f64::max));
+                rough[bad..].fill(f64::NAN);
+                let result = Line::new(1.0, points, None, Some(&rough), 1.0);
+                assert_eq!(result, Err(SurfaceError::NotFinite(bad)));
+            }
+        }
+    }
+
+    #[test]
+    fn counts_every_height_once() {
+        let heights = [0.0, 0.1, 0.49, 0.5, 0.99, 1.0];
+        let histogram = Histogram::new(heights.into_iter(), 0.0, 1.0, 2);
+        assert_eq!(histogram.counts, [3, 3]);
+        assert_eq!(Histogram::new([2.0; 5].into_iter(), 2.0, 2.0, 3).counts, [5, 0, 0]);
+        assert_eq!(Histogram::new([f64::NAN, -1.0].into_iter(), 0.0, 1.0, 3).counts, [0; 3]);
+    }
+}

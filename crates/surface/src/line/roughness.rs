@@ -1,0 +1,208 @@
+//! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse real Fourier transform.
+
+use super::SurfaceError;
+use super::modes::{Modes, phases};
+use super::spectrum::SelfAffine;
+use asperity_data::in_parallel;
+use asperity_data::memory;
+use realfft::{ComplexToReal, RealFftPlanner};
+use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Number of modes below which another thread takes longer to start than it saves.
+const MANY_MODES: usize = 1 << 16;
+
+/// Largest number of springs whose transform is kept for the next profile. A kept transform takes 20 bytes per
+/// spring, which on longer profiles are worth more than the time saved.
+const LONGEST_KEPT: usize = 1 << 22;
+
+/// Synthesises profiles in sequence, and keeps the planned transform and its memory between them.
+#[derive(Default)]
+pub struct Synthesizer {
+    transform: Option<Transform>,
+}
+
+/// A planned inverse transform with its memory.
+struct Transform {
+    points: usize,
+    plan: Arc<dyn ComplexToReal<f64>>,
+    coefficients: Vec<Complex64>,
+    scratch: Vec<Complex64>,
+}
+
+impl Transform {
+    fn planned(points: usize) -> Result<Self, SurfaceError> {
+        let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
+        let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
+        let coefficients = zeros(points / 2 + 1)?;
+        let scratch = zeros(plan.get_scratch_len())?;
+        Ok(Transform { points, plan, coefficients, scratch })
+    }
+}
+
+impl Synthesizer {
+    /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs, in `memory`:
+    /// heights at x = (i + ½ − `shift`)L/N.
+    pub fn synthesize(
+        &mut self,
+        spectrum: SelfAffine,
+        seed: u64,
+        points: usize,
+        shift: f64,
+        memory: Vec<f64>,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
+        let draw = |first: usize, drawn: &mut [Complex64]| {
+            // Another thread draws the modes from the middle on.
+            let middle = drawn.len() / 2;
+            let (lower, upper) = drawn.split_at_mut(middle);
+            in_parallel(
+                lower.len() + upper.len() >= MANY_MODES,
+                || modes.draw((first + middle) as u64, upper),
+                || modes.draw(first as u64, lower),
+            );
+        };
+        self.transform((spectrum.first, spectrum.last), points, memory, draw)
+    }
+
+    /// Sum of cosines with these amplitudes of the modes from a first to a last one, at most `points`/2, and the phases of
+    /// the seed; places as in [`Self::synthesize`].
+    pub fn synthesize_waves(
+        &mut self,
+        amplitude: &dyn Fn(u64) -> f64,
+        (first, last): (u64, u64),
+        seed: u64,
+        points: usize,
+        shift: f64,
+        memory: Vec<f64>,
+    ) -> Result<Vec<f64>, SurfaceError> {
+        // Phase advance of mode 1 at the first point of the grid.
+        let advance = TAU * (0.5 - shift) / points as f64;
+        self.transform((first, last), points, memory, |_, drawn| {
+            for ((mode, phase), coefficient) in (first..).zip(phases(seed, first)).zip(drawn) {
+                *coefficient = Complex64::from_polar(0.5 * amplitude(mode), phase + advance * mode as f64);
+            }
+        })
+    }
+
+    /// Heights of the modes from a first to a last one; `draw` fills their coefficients ½ A_k e^(iφ), from the
+    /// first mode on.
+    fn transform(
+        &mut self,
+        (first, last): (u64, u64),
+        points: usize,
+        memory: Vec<f64>,
+        draw: impl FnOnce(usize, &mut [Complex64]),
+    ) -> Result<Vec<f64>, SurfaceError> {
+        let kept = self.transform.take().filter(|kept| kept.points == points);
+        let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
+        let mut heights = memory::resized(memory, points, 0.0)?;
+
+        let coefficients = transform.coefficients.as_mut_slice();
+        let nyquist = 2 * last == points as u64;
+        let (first, end) = (first as usize, (last as usize).saturating_add(1));
+        let end = end.min(coefficients.len());
+        let first = first.min(end);
+        coefficients[..first].fill(Complex64::ZERO);
+        coefficients[end..].fill(Complex64::ZERO);
+        draw(first, &mut coefficients[first..end]);
+        if nyquist {
+            // At the grid's Nyquist wave vector both exponentials of the cosine coincide.
+            coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
+        }
+
+        transform
+            .plan
+            .process_with_scratch(&mut transform.coefficients, &mut heights, &mut transform.scratch)
+            .map_err(|error| SurfaceError::Transform(error.to_string()))?;
+        if points <= LONGEST_KEPT {
+            self.transform = Some(transform);
+        }
+        Ok(heights)
+    }
+}
+
+impl SelfAffine {
+    /// Synthesises heights in units of the rms height, eqs. (8) and (9), on `points` springs at x = (i + ½)L/N, at least
+    /// twice the last mode. Length and rms height scale the heights; they depend only on spectrum, seed, number and
+    /// position of the points.
+    ///
+    /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile, to
+    /// the rounding of the transform.
+    pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {
+        Synthesizer::default().synthesize(self, seed, points, 0.0, Vec::new())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::line::modes::phases;
+    use asperity_data::on_this_thread;
+
+    fn direct(spectrum: SelfAffine, seed: u64, position: f64) -> f64 {
+        let sum: f64 = (spectrum.first..=spectrum.last)
+            .zip(phases(seed, spectrum.first))
+            .map(|(k, phase)| {
+                spectrum.relative_amplitude(k) * (std::f64::consts::TAU * k as f64 * position + phase).cos()
+            })
+            .sum();
+        sum / spectrum.relative_rms()
+    }
+
+    #[test]
+    fn is_the_sum_of_cosines_on_every_grid() {
+        for (points, first, last, roll_off) in [
+            (64, 1, 32, 0.0),
+            (100, 3, 50, 0.0),
+            (101, 1, 50, 11.5),
+            (97, 2, 40, 0.0),
+            (2, 1, 1, 0.0),
+            (1400, 2, 700, 600.0),
+        ] {
+            let spectrum = SelfAffine { hurst: 0.6, first, last, roll_off_mode: roll_off };
+            for shift in [0.0, 0.5] {
+                let line =
+                    Synthesizer::default().synthesize(spectrum, 42, points, shift, Vec::new()).unwrap();
+                for (i, &height) in line.iter().enumerate() {
+                    let expected = direct(spectrum, 42, (i as f64 + 0.5 - shift) / points as f64);
+                    assert!(
+                        (height - expected).abs() < 1e-14 * last.max(100) as f64,
+                        "N = {points}, i = {i}: {height} {expected}"
+                    );
+                }
+            }
+        }
+        // The rms height is 1.
+        let heights =
+            SelfAffine { hurst: 0.8, first: 1, last: 100, roll_off_mode: 0.0 }.heights(3, 1000).unwrap();
+        let rms = (heights.iter().map(|z| z * z).sum::<f64>() / 1000.0).sqrt();
+        assert!((rms - 1.0).abs() < 1e-12, "{rms}");
+    }
+
+    #[test]
+    fn what_is_kept_changes_no_bit() {
+        let mut synthesizer = Synthesizer::default();
+        let mut memory = Vec::new();
+        let many = 2 * MANY_MODES as u64 + 3;
+        for (points, hurst, first, last, seed) in [
+            (100, 0.6, 3, 50, 1),
+            (100, 0.6, 3, 50, 2),
+            (100, 0.6, 3, 20, 2),
+            (101, 0.6, 5, 20, 2),
+            (300_000, 0.7, 2, many, 3),
+            (300_000, 0.8, 2, many, 3),
+            (2 * many as usize, 0.8, 1, many, 3),
+            (64, 0.8, 1, 32, 3),
+        ] {
+            let spectrum = SelfAffine { hurst, first, last, roll_off_mode: 0.0 };
+            let kept = synthesizer.synthesize(spectrum, seed, points, 0.0, memory).unwrap();
+            assert_eq!(kept, spectrum.heights(seed, points).unwrap());
+            // The same as on one thread and by another plan.
+            let alone = on_this_thread(|| spectrum.heights(seed, points).unwrap());
+            assert_eq!(kept, alone);
+            memory = kept;
+        }
+    }
+}

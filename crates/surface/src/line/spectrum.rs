@@ -1,0 +1,337 @@
+//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), its mean squares, and amplitudes of profiles.
+
+use asperity_data::CompensatedSum;
+use std::f64::consts::TAU;
+
+/// Terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the others.
+const DIRECT_TERMS: u64 = 64;
+
+/// B₂/2!, B₄/4!, …: after 64 terms the first omitted one is below 1e-18 of the sum.
+const EULER_MACLAURIN: [f64; 5] =
+    [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
+
+/// A self-affine spectrum over the modes k = `first` … `last`, wave vectors q_k = 2πk/L:
+/// A_k ∝ k^(−H−1/2), and below the roll-off, where the spectrum of the surface C₂D is flat, A_k ∝ √k by eq. (8).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SelfAffine {
+    /// Hurst exponent H, 0 < H < 1.
+    pub hurst: f64,
+    /// First mode, at least 1.
+    pub first: u64,
+    /// Last mode, at least `first`.
+    pub last: u64,
+    /// Mode of the roll-off, in waves per length: L over the wavelength of the roll-off, a whole number or not. 0 or any
+    /// value up to `first`: no roll-off.
+    pub roll_off_mode: f64,
+}
+
+impl SelfAffine {
+    /// Amplitude of mode k over the amplitude of mode 1 of the same spectrum without a roll-off.
+    #[inline]
+    pub fn relative_amplitude(&self, mode: u64) -> f64 {
+        let mode = mode as f64;
+        let decay = mode.max(self.roll_off_mode).powf(self.amplitude_exponent());
+        if mode < self.roll_off_mode { decay * (mode / self.roll_off_mode).sqrt() } else { decay }
+    }
+
+    /// Exponent −H − 1/2 of the amplitudes.
+    #[inline]
+    pub(super) fn amplitude_exponent(&self) -> f64 {
+        -self.hurst - 0.5
+    }
+
+    /// Root mean square of the sum of cosines with these relative amplitudes: √(Σ A_k²/2).
+    pub fn relative_rms(&self) -> f64 {
+        (self.moment(0) / 2.0).sqrt()
+    }
+
+    /// Rms gradient over rms height, 1/m, of a profile of length L in m: ⟨∇z⟩/h = √(Σ A_k² q_k² / Σ
+    /// A_k²), the sums over the modes of the profile.
+    ///
+    /// Finite sums of positive terms: H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
+    pub fn gradient_per_height(&self, length: f64) -> f64 {
+        std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
+    }
+
+    /// Amplitude of a profile of rms height 1 on a length L in m: sums as in [`Self::gradient_per_height`].
+    pub fn unit_amplitude(&self, length: f64) -> Amplitude {
+        let (unit, height) = (std::f64::consts::TAU / length, self.moment(0));
+        Amplitude {
+            rms_height: 1.0,
+            rms_gradient: self.gradient_per_height(length),
+            rms_curvature: unit.powi(2) * (self.moment(4) / height).sqrt(),
+            mean_wave_number: unit * (self.moment(1) / height),
+        }
+    }
+
+    /// The same ratio as [`Self::gradient_per_height`] by the integrals of eqs. (5)–(7) and (12) over a continuum
+    /// of modes: ⟨∇z⟩²/h² = ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
+    ///
+    /// Differs from [`Self::gradient_per_height`] of the discrete modes because the first modes carry most of the
+    /// height. Zero for a single mode.
+    pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
+        let (low, high) = (self.first as f64, self.last as f64);
+        let between = self.roll_off_mode.max(low).min(high);
+        let integral = |power: i32| {
+            let decays = integral_of_power(self.exponent(power), between, high);
+            if between == low {
+                return decays;
+            }
+            decays + self.flat_level() * integral_of_power(f64::from(power) + 1.0, low, between)
+        };
+        let height = integral(0);
+        if height == 0.0 {
+            return 0.0;
+        }
+        std::f64::consts::TAU / length * (integral(2) / height).sqrt()
+    }
+
+    /// Σ k^power A_k² over the modes with the relative amplitudes, relative error a few units in the last place.
+    fn moment(&self, power: i32) -> f64 {
+        let begins = (self.roll_off_mode.ceil() as u64).max(self.first).min(self.last.saturating_add(1));
+        let decays = sum_of_powers(self.exponent(power), begins, self.last);
+        if begins == self.first {
+            return decays;
+        }
+        decays + self.flat_level() * sum_of_powers(f64::from(power) + 1.0, self.first, begins - 1)
+    }
+
+    /// Exponent of k^power A_k² above the roll-off.
+    fn exponent(&self, power: i32) -> f64 {
+        f64::from(power) - 1.0 - 2.0 * self.hurst
+    }
+
+    /// A_k²/k below the roll-off.
+    fn flat_level(&self) -> f64 {
+        self.roll_off_mode.powf(-2.0 - 2.0 * self.hurst)
+    }
+}
+
+/// Σ k^exponent for k = `first` … `last`, 0 without terms, relative error a few units in the last place, in a time independent of
+/// the number of terms.
+fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
+    let end = last.min(first.saturating_add(DIRECT_TERMS - 1));
+    let mut sum = CompensatedSum::default();
+    (first..=end).for_each(|k| sum.add((k as f64).powf(exponent)));
+    if end == last {
+        return sum.total();
+    }
+    // Σ_{k=m}^{n} f(k) = ∫ f dk + (f(m) + f(n))/2 + Σ B_2j/(2j)! (f^(2j−1)(n) − f^(2j−1)(m)).
+    let (low, high) = ((end + 1) as f64, last as f64);
+    let (mut at_low, mut at_high) = (low.powf(exponent), high.powf(exponent));
+    sum.add(integral_of_power(exponent, low, high));
+    sum.add(0.5 * at_low);
+    sum.add(0.5 * at_high);
+    let mut falling = exponent;
+    let mut differentiate = || {
+        at_low *= falling / low;
+        at_high *= falling / high;
+        falling -= 1.0;
+        at_high - at_low
+    };
+    for (index, coefficient) in EULER_MACLAURIN.into_iter().enumerate() {
+        if index > 0 {
+            differentiate();
+        }
+        sum.add(coefficient * differentiate());
+    }
+    sum.total()
+}
+
+/// ∫ q^power dq from `low` to `high`, accurate also where power → −1, eqs. (12) and (13).
+///
+/// With s = power + 1 it is (high^s − low^s)/s, or low^s (e^(s ln(high/low)) − 1)/s: the difference where the powers
+/// differ much and `expm1` where they do not, with the logarithm as the limit at s = 0.
+fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
+    let s = power + 1.0;
+    // For neighbouring ends their quotient would lose significant digits.
+    let ratio = ((high - low) / low).ln_1p();
+    if (s * ratio).abs() > 1.0 {
+        return (high.powf(s) - low.powf(s)) / s;
+    }
+    let growth = if s == 0.0 { ratio } else { (s * ratio).exp_m1() / s };
+    low.powf(s) * growth
+}
+
+/// Roughness amplitude of a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amplitude {
+    /// Root mean square height h, m.
+    pub rms_height: f64,
+    /// Root mean square gradient ⟨∇z⟩.
+    pub rms_gradient: f64,
+    /// Root mean square curvature, 1/m.
+    pub rms_curvature: f64,
+    /// Mean wave number Σ q_k A_k²/Σ A_k², rad/m; 0 for a flat profile.
+    pub mean_wave_number: f64,
+}
+
+impl Amplitude {
+    /// Amplitude of heights times a factor.
+    pub fn scaled(self, factor: f64) -> Self {
+        Amplitude {
+            rms_height: factor * self.rms_height,
+            rms_gradient: factor * self.rms_gradient,
+            rms_curvature: factor * self.rms_curvature,
+            ..self
+        }
+    }
+
+    /// Amplitude of the same modes on a length `times` as large.
+    pub fn stretched(self, times: f64) -> Self {
+        Amplitude {
+            rms_height: self.rms_height,
+            rms_gradient: self.rms_gradient / times,
+            rms_curvature: self.rms_curvature / times.powi(2),
+            mean_wave_number: self.mean_wave_number / times,
+        }
+    }
+
+    /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); smallest first for accuracy.
+    pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
+        let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
+        for (mode, square) in squares {
+            let wave_number = TAU * mode as f64 / length;
+            height += square;
+            slope += square * wave_number;
+            gradient += square * wave_number.powi(2);
+            curvature += square * wave_number.powi(4);
+        }
+        let mean_wave_number = if height > 0.0 { slope / height } else { 0.0 };
+        Amplitude {
+            rms_height: height.sqrt(),
+            rms_gradient: gradient.sqrt(),
+            rms_curvature: curvature.sqrt(),
+            mean_wave_number,
+        }
+    }
+
+    /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of
+    /// effective modulus E* (Pa) in full contact with an isotropic surface with the rms height, rms gradient and
+    /// mean wave number of the profile (Persson and Tosatti, 2001).
+    pub fn elastic_energy(&self, effective_modulus: f64) -> f64 {
+        effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integrals_stay_accurate_as_hurst_goes_to_one() {
+        let spectrum = |hurst| SelfAffine { hurst, first: 1, last: 4096, roll_off_mode: 0.0 };
+        let limit = spectrum(1.0).continuum_gradient_per_height(1.0);
+        // At H = 1: ∫dq/q = ln 4096 over ∫q⁻³dq = (1 − 4096⁻²)/2.
+        let exact = std::f64::consts::TAU * (4096_f64.ln() * 2.0 / (1.0 - 4096_f64.powi(-2))).sqrt();
+        assert!((limit - exact).abs() < 4.0 * f64::EPSILON * exact);
+        for distance in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
+            let found = spectrum(1.0 - distance).continuum_gradient_per_height(1.0);
+            // The logarithm of the ratio changes by about ln 4096 for a unit change of H.
+            assert!((found / limit - 1.0).abs() < 10.0 * distance + 1e-14, "{distance}: {found}");
+        }
+    }
+
+    #[test]
+    fn the_elastic_energy_of_the_modes_is_that_of_the_spectrum() {
+        let (modulus, height, length) = (2.0e6, 3.0e-7, 1.0e-3);
+        for hurst in [0.1, 0.5, 0.9] {
+            let spectrum = SelfAffine { hurst, first: 10_000, last: 400_000, roll_off_mode: 0.0 };
+            let modes = spectrum.unit_amplitude(length).scaled(height).elastic_energy(modulus);
+            // (E*/4) ∫ q C2D d²q over the surface with ⟨h²⟩ = ∫ C2D d²q: C2D ∝ q^(−2−2H).
+            let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
+            let (low, high) = (q(spectrum.first), q(spectrum.last));
+            let power = |exponent: f64| (high.powf(exponent) - low.powf(exponent)) / exponent;
+            let expected =
+                0.25 * modulus * height.powi(2) * power(1.0 - 2.0 * hurst + 1e-9) / power(-2.0 * hurst);
+            assert!((modes / expected - 1.0).abs() < 2e-4, "H = {hurst}: {modes} against {expected}");
+            // e_el/γ = (κ²/4) S₁/√(S₀S₂) with S_j = Σ k^(j−1−2H).
+            let sum = |j: i32| spectrum.moment(j);
+            let kappa_squared = modulus * height.powi(2) * spectrum.gradient_per_height(length);
+            let by_kappa = 0.25 * kappa_squared * sum(1) / (sum(0) * sum(2)).sqrt();
+            assert!((modes / by_kappa - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn sums_are_those_of_their_terms() {
+        let direct = |exponent: f64, first: u64, last: u64| {
+            let mut sum = CompensatedSum::default();
+            (first..=last).rev().for_each(|k| sum.add((k as f64).powf(exponent)));
+            sum.total()
+        };
+        let ranges = [
+            (1, 1),
+            (1, 64),
+            (1, 65),
+            (1, 66),
+            (1, 1000),
+            (7, 70_001),
+            (64, 129),
+            (1000, 1064),
+            (1_000_000, 1_000_065),
+            (1, 1 << 20),
+        ];
+        for exponent in [-3.0, -2.4, -1.0 - 1e-300, -1.0, -1.0 + 1e-12, -0.4, 0.0, 0.8, 1.0] {
+            for (first, last) in ranges {
+                let (found, expected) = (sum_of_powers(exponent, first, last), direct(exponent, first, last));
+                let error = (found / expected - 1.0).abs();
+                assert!(error <= 9e-16, "Σ k^{exponent} from {first} to {last}: error {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn below_the_roll_off_the_spectrum_of_the_surface_is_flat() {
+        let (length, height) = (2e-4, 3e-7);
+        for (hurst, first, last, roll_off) in
+            [(0.3, 1, 500, 40.5), (0.8, 3, 4096, 700.0), (0.8, 3, 90, 90.0), (0.5, 7, 7, 7.4)]
+        {
+            let spectrum = SelfAffine { hurst, first, last, roll_off_mode: roll_off };
+            // C1D = π q C2D with C2D flat up to q_r and ∝ q^(−2−2H) above; A² ∝ C1D.
+            let squares = (first..=last).rev().map(|mode| {
+                let power = (mode as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
+                (mode, mode as f64 * power)
+            });
+            let summed = Amplitude::from_modes(squares.clone(), length);
+            let (expected, found) =
+                (summed.scaled(height / summed.rms_height), spectrum.unit_amplitude(length).scaled(height));
+            let energies = [expected, found].map(|amplitude| amplitude.elastic_energy(2e6));
+            for (one, other) in [
+                (found.rms_gradient, expected.rms_gradient),
+                (found.rms_curvature, expected.rms_curvature),
+                (energies[1], energies[0]),
+            ] {
+                assert!((one / other - 1.0).abs() < 1e-12, "{spectrum:?}: {one} {other}");
+            }
+            let level = spectrum.relative_amplitude(first).powi(2) / (first as f64);
+            for (mode, square) in squares.map(|(mode, square)| (mode, square * level)) {
+                let found = spectrum.relative_amplitude(mode).powi(2);
+                let first_square = (first as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
+                assert!((found * first_square / square - 1.0).abs() < 1e-12, "{spectrum:?}, mode {mode}");
+            }
+            // Integrals over the continuum, by the rule of midpoints.
+            let integral = |power: i32| -> f64 {
+                let (low, step) = ((first as f64).ln(), (last as f64 / first as f64).ln() / 4e5);
+                let values = (0..400_000).map(|index| (low + (f64::from(index) + 0.5) * step).exp());
+                values.map(|q| q.powi(power + 2) * (q / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst)).sum()
+            };
+            let expected = std::f64::consts::TAU / length * (integral(2) / integral(0)).sqrt();
+            let found = spectrum.continuum_gradient_per_height(length);
+            assert!(
+                first == last || (found / expected - 1.0).abs() < 1e-7,
+                "{spectrum:?}: {found} {expected}"
+            );
+        }
+        let flat = SelfAffine { hurst: 0.7, first: 4, last: 512, roll_off_mode: 4.0 };
+        assert_eq!(flat.unit_amplitude(1.0), SelfAffine { roll_off_mode: 0.0, ..flat }.unit_amplitude(1.0));
+    }
+
+    #[test]
+    fn one_mode_is_a_cosine() {
+        let spectrum = SelfAffine { hurst: 0.3, first: 5, last: 5, roll_off_mode: 0.0 };
+        let expected = std::f64::consts::TAU * 5.0 / 2.0;
+        assert!((spectrum.gradient_per_height(2.0) / expected - 1.0).abs() < 1e-15);
+        assert_eq!(spectrum.continuum_gradient_per_height(2.0), 0.0);
+    }
+}

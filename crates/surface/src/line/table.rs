@@ -1,0 +1,231 @@
+//! A body of revolution from a table of radii and depths, and its MDR transform.
+//!
+//! Between two rows the depth is a cubic, with limited slopes at the rows, so that f′ is a + b s + c s² at the distance s
+//! from a row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr a sum over the gaps between rows.
+
+use crate::topography::open::{content, parse};
+use crate::topography::reading::ReadOptions;
+use crate::topography::{Place, TopographyError, Unit, refused};
+use asperity_data::gauss_nodes_on_quarter_circle;
+use asperity_data::{OutOfMemory, emptied};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::{Arc, LazyLock, OnceLock};
+
+/// Points of the interpolation of the rows far inside, of an error of 1e-15.
+const NODES: usize = 20;
+/// Points of the equivalent profile for its figures.
+const STEPS: usize = 1024;
+/// Smallest distance of rows over the reach of a table: the digits of a file do not resolve a smaller one.
+const CLOSEST: f64 = 1e-9;
+
+/// Sine of the angle of a gap below which the power series below are accurate to rounding.
+const NARROW: f64 = 0.05;
+/// Coefficients of ascending powers of δ²: arcsin s over s, in powers of s².
+const ARCSINE: [f64; 6] = [1.0, 1.0 / 6.0, 3.0 / 40.0, 15.0 / 336.0, 105.0 / 3456.0, 945.0 / 42240.0];
+/// (1 − cos δ)/δ².
+const VERSINE: [f64; 4] = [0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0];
+/// (δ − sin δ)/δ³.
+const ANGLE_LESS_SINE: [f64; 4] = [1.0 / 6.0, -1.0 / 120.0, 1.0 / 5040.0, -1.0 / 362880.0];
+/// ∫ sin² over δ³.
+const SQUARED_SINE: [f64; 4] = [1.0 / 3.0, -1.0 / 15.0, 2.0 / 315.0, -1.0 / 2835.0];
+/// ∫ (1 − cos)² over δ⁵.
+const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0 / 1330560.0];
+/// Quadrature over the angle of a wider gap: f′ is a polynomial of its sine.
+static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
+
+/// A form f(r) of rows (r, f), r ascending from 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FormTable {
+    radii: Vec<f64>,
+    /// Coefficients of f′ between each row and the next, in powers of the distance from the row.
+    slopes: Vec<[f64; 3]>,
+}
+
+/// The rows of a form, once they are read. Forms whose rows are not known are equal.
+#[derive(Clone, Debug, Default)]
+pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
+
+impl PartialEq for Rows {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.get().zip(other.0.get()).is_none_or(|(one, other)| one == other)
+    }
+}
+
+impl FormTable {
+    /// Reads a table of two columns, in m unless the file states a unit, or this one.
+    pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, TopographyError> {
+        let convention = Some(Unit::METRE);
+        let options = ReadOptions { unit, convention, interpolate: true, ..ReadOptions::default() };
+        let surface = parse(&content(path)?, &options)?;
+        if let Some(row) = surface.first_missing() {
+            return Err(refused(Place::Point(row + 1), "the depth is missing", "a number in each row"));
+        }
+        let (radii, depths) = surface.into_profile()?;
+        FormTable::new(radii, &depths)
+    }
+
+    /// A form of depths, m, at two or more radii, m, ascending from 0.
+    ///
+    /// # Errors
+    /// Names the row and the allowed values.
+    pub fn new(radii: Vec<f64>, depths: &[f64]) -> Result<Self, TopographyError> {
+        let (rows, reach) = (radii.len(), radii.last().copied().unwrap_or(0.0));
+        let row = |index: usize| Place::Point(index + 1);
+        if rows < 2 || depths.len() != rows {
+            let fault = format!("{rows} radii and {} depths", depths.len());
+            return Err(refused(Place::File, fault, "two or more rows of a radius and a depth"));
+        }
+        let is_finite = |index: &usize| radii[*index].is_finite() && depths[*index].is_finite();
+        if let Some(index) = (0..rows).find(|index| !is_finite(index)) {
+            return Err(refused(row(index), "a number that is not finite", "finite numbers"));
+        }
+        if radii[0] != 0.0 {
+            let fault = format!("r = {:e} m", radii[0]);
+            return Err(refused(row(0), fault, "r = 0, the axis of the body, in the first row"));
+        }
+        let widths: Vec<f64> = radii.windows(2).map(|r| r[1] - r[0]).collect();
+        let least = CLOSEST * reach;
+        if let Some(index) = widths.iter().position(|&width| !(width >= least && width > 0.0)) {
+            let fault = format!("r = {:e} m after {:e} m", radii[index + 1], radii[index]);
+            let allowed = format!(
+                "ascending radii at least {least:e} m, a billionth of the last one, beyond each other"
+            );
+            return Err(refused(row(index + 1), fault, allowed));
+        }
+        let secants: Vec<f64> =
+            depths.windows(2).zip(&widths).map(|(f, width)| (f[1] - f[0]) / width).collect();
+        let slope = |row: usize| limited_slope(&radii, &secants, row);
+        let cubic = |row: usize| {
+            let (width, secant) = (widths[row], secants[row]);
+            let [from, to] = [slope(row), slope(row + 1)];
+            let bend = (6.0 * secant - 4.0 * from - 2.0 * to) / width;
+            [from, bend, 3.0 * (from + to - 2.0 * secant) / width / width]
+        };
+        let slopes = (0..widths.len()).map(cubic).collect();
+        Ok(FormTable { radii, slopes })
+    }
+
+    /// Radius of the last row, m.
+    pub fn reach(&self) -> f64 {
+        self.radii[self.radii.len() - 1]
+    }
+
+    /// Curvature at the summit, 1/m, where the form is round or flat there.
+    pub(super) fn summit_curvature(&self) -> Option<f64> {
+        let [slope, curvature, _] = self.slopes[0];
+        let is_round = slope.abs() <= 0.1 * (curvature * self.radii[1]).abs();
+        Some(curvature).filter(|curvature| is_round && *curvature >= 0.0)
+    }
+
+    /// Part of g(x)/x of the gap behind a row, up to a radius `end` in it, at most x, m: ∫ f′(r)/√(x² − r²) dr.
+    ///
+    /// With the angles arcsin(r/x), of the row and of r, apart by δ, r is u + c sin δ − u (1 − cos δ), where u is the radius
+    /// of the row and c = √(x² − u²): no term cancels, however close the rows.
+    fn part(&self, row: usize, x: f64, end: f64) -> f64 {
+        let (u, [a, b, c]) = (self.radii[row], self.slopes[row]);
+        // Of a point on the row, rounding may leave x below u.
+        if end <= u {
+            return 0.0;
+        }
+        let root = |r: f64| ((x - r).max(0.0) * (x + r)).sqrt();
+        let [from, to] = [root(u), root(end)];
+        let sine = (end - u) * (end + u) / (end * from + u * to);
+        if sine < NARROW {
+            let series = |terms: &[f64], z: f64| terms.iter().rev().fold(0.0, |sum, term| sum * z + term);
+            let angle = sine * series(&ARCSINE, sine * sine);
+            let z = angle * angle;
+            let versine = z * series(&VERSINE, z);
+            let along = from * versine - u * angle * z * series(&ANGLE_LESS_SINE, z);
+            let square = from * from * angle * z * series(&SQUARED_SINE, z) - from * u * versine * versine
+                + u * u * angle * z * z * series(&SQUARED_VERSINE, z);
+            return a * angle + b * along + c * square;
+        }
+        let cosine = (u * end + from * to) / (x * x);
+        let angle = if sine < cosine { sine.asin() } else { cosine.acos() };
+        let slope = |&(node, weight): &(f64, f64)| {
+            let (sin, cos) = (0.5 * node / FRAC_PI_2 * angle).sin_cos();
+            let beyond = 2.0 * sin * (from * cos - u * sin);
+            weight / FRAC_PI_2 * (a + (b + c * beyond) * beyond)
+        };
+        angle * RULE.iter().map(slope).sum::<f64>()
+    }
+
+    /// Sum of the parts of the gaps behind these rows, all of which end at x or below, m.
+    fn parts(&self, rows: Range<usize>, x: f64) -> f64 {
+        rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
+    }
+
+    /// Depth g, m, of the equivalent profile at a distance from the axis, m.
+    pub(super) fn mdr_profile(&self, x: f64) -> f64 {
+        let gap = self.radii[1..self.slopes.len()].partition_point(|&r| r <= x);
+        x * (self.parts(0..gap, x) + self.part(gap, x, x))
+    }
+
+    /// Depths g, m, at `count` multiples of a distance from the axis, m, from 0 on.
+    ///
+    /// One depth takes a root for each row below. Between two rows with many of the points, rows at least that gap
+    /// away are interpolated there by a polynomial.
+    pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
+        let mut depths = emptied(Vec::new(), count)?;
+        for gap in 0..self.slopes.len() {
+            let (low, high) = (self.radii[gap], self.radii[gap + 1]);
+            let is_last = gap + 1 == self.slopes.len();
+            let end = if is_last { count } else { ((high / spacing).ceil() as usize).min(count) };
+            let points = depths.len()..end.max(depths.len());
+            let mut near = 0;
+            let mut series = [0.0; NODES];
+            if points.len() > 2 * NODES {
+                near = self.radii[1..=gap].partition_point(|&r| r <= low - (high - low));
+                let angle = |node: usize| (node as f64 + 0.5) * PI / NODES as f64;
+                for node in 0..NODES {
+                    let x = 0.5 * (low + high) + 0.5 * (high - low) * angle(node).cos();
+                    let far = self.parts(0..near, x);
+                    let term = |(order, sum): (usize, &mut f64)| {
+                        *sum += 2.0 / NODES as f64 * far * (order as f64 * angle(node)).cos();
+                    };
+                    series.iter_mut().enumerate().for_each(term);
+                }
+            }
+            depths.extend(points.map(|point| {
+                let x = point as f64 * spacing;
+                let at = 2.0 * (2.0 * x - low - high) / (high - low);
+                // Clenshaw's sum of Chebyshev polynomials.
+                let (one, two) = series[1..]
+                    .iter()
+                    .rev()
+                    .fold((0.0, 0.0), |(one, two), term| (term + at * one - two, one));
+                let far = 0.5 * series[0] + 0.5 * at * one - two;
+                x * (far + self.parts(near..gap, x) + self.part(gap, x, x))
+            }));
+        }
+        Ok(depths)
+    }
+
+    /// Distance from the axis, m, from which on the equivalent profile falls, within a radius, m.
+    pub fn falls_from(&self, radius: f64) -> Option<f64> {
+        let step = radius / STEPS as f64;
+        let depths = self.depths(step, STEPS + 1).ok()?;
+        // Rounded numbers of a file.
+        let slack = 1e-9 * depths.iter().copied().fold(0.0, f64::max);
+        depths.windows(2).position(|pair| pair[1] < pair[0] - slack).map(|place| place as f64 * step)
+    }
+}
+
+/// Slope of the form at a row, from the secants between rows: the slope of the parabola through three rows, at most three times
+/// the smaller secant beside the row, and zero where the secants differ in sign. Between two rows the cubic then stays between
+/// their depths. Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
+fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {
+    let last = secants.len() - 1;
+    let one = row.saturating_sub(1).min(last.saturating_sub(1));
+    let other = (one + 1).min(last);
+    let middle = |secant: usize| 0.5 * (radii[secant] + radii[secant + 1]);
+    let apart = middle(other) - middle(one);
+    let rise = if apart > 0.0 { (secants[other] - secants[one]) / apart } else { 0.0 };
+    let parabola = secants[one] + rise * (radii[row] - middle(one));
+    let beside = [secants[row.saturating_sub(1)], secants[row.min(last)]];
+    let most = 3.0 * beside[0].abs().min(beside[1].abs());
+    let agree = beside.iter().all(|secant| (*secant > 0.0) == (parabola > 0.0));
+    if agree { parabola.clamp(-most, most) } else { 0.0 }
+}

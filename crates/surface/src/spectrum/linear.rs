@@ -1,0 +1,177 @@
+//! Least squares: straight lines, small symmetric systems of equations, and the removal of offset, tilt and curvature.
+
+use crate::topography::surface::Detrend;
+
+/// Cholesky factor of a symmetric positive definite matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Cholesky {
+    size: usize,
+    /// Lower triangle, row by row of the full matrix.
+    factor: Vec<f64>,
+}
+
+impl Cholesky {
+    /// Factor of a matrix of `size` rows, from its lower triangle. `None` unless the matrix is positive definite.
+    pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
+        for row in 0..size {
+            for column in 0..=row {
+                let sum: f64 = (0..column).map(|k| matrix[row * size + k] * matrix[column * size + k]).sum();
+                let rest = matrix[row * size + column] - sum;
+                matrix[row * size + column] = if row > column {
+                    rest / matrix[column * size + column]
+                } else if rest > 0.0 && rest.is_finite() {
+                    rest.sqrt()
+                } else {
+                    return None;
+                };
+            }
+        }
+        Some(Cholesky { size, factor: matrix })
+    }
+
+    pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
+        let at = |row: usize, column: usize| self.factor[row * self.size + column];
+        for row in 0..self.size {
+            let sum: f64 = (0..row).map(|k| at(row, k) * right[k]).sum();
+            right[row] = (right[row] - sum) / at(row, row);
+        }
+        self.solve_transposed(right)
+    }
+
+    /// Solution of Lᵀ x = b with the factor L. For independent normal b of variance 1 it has the covariance M⁻¹.
+    pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
+        let at = |row: usize, column: usize| self.factor[row * self.size + column];
+        for row in (0..self.size).rev() {
+            let sum: f64 = (row + 1..self.size).map(|k| at(k, row) * right[k]).sum();
+            right[row] = (right[row] - sum) / at(row, row);
+        }
+        right
+    }
+
+    /// √(M⁻¹)ᵢᵢ: the standard error of a parameter, if M is an information matrix.
+    pub fn standard_error(&self, index: usize) -> f64 {
+        let mut gradient = vec![0.0; self.size];
+        gradient[index] = 1.0;
+        self.variance(&gradient).sqrt()
+    }
+
+    /// vᵀ M⁻¹ v for a vector v: the variance of a quantity with the gradient v, if M is an information matrix.
+    pub fn variance(&self, gradient: &[f64]) -> f64 {
+        let solved = self.solve(gradient.to_vec());
+        gradient.iter().zip(solved).map(|(a, b)| a * b).sum()
+    }
+}
+
+impl Detrend {
+    /// Monomials (powers of x and y) removed from a profile or a map.
+    fn monomials(self, is_map: bool) -> Vec<[i32; 2]> {
+        let degrees = match self {
+            Detrend::None => 0..0,
+            Detrend::Mean => 0..1,
+            Detrend::Tilt => 0..2,
+            Detrend::Curvature => 0..3,
+        };
+        let of_degree = |degree: i32| (0..=degree).map(move |y| [degree - y, y]);
+        degrees.flat_map(of_degree).filter(|[_, y]| is_map || *y == 0).collect()
+    }
+
+    /// Removes the polynomial of least squares from the heights in rows of `columns` points.
+    pub(crate) fn remove(self, heights: &mut [f64], columns: usize) {
+        let rows = heights.len() / columns.max(1);
+        let monomials = self.monomials(rows > 1);
+        // From −1 to 1, and relative to the first height: powers and sums keep their digits.
+        let place = |index: usize, count: usize| 2.0 * index as f64 / (count.max(2) - 1) as f64 - 1.0;
+        let level = heights.first().copied().filter(|_| !monomials.is_empty()).unwrap_or_default();
+        heights.iter_mut().for_each(|height| *height -= level);
+        // Sums over the grid are products of sums along its axes.
+        let powers = |count: usize| -> [f64; 5] {
+            std::array::from_fn(|power| (0..count).map(|index| place(index, count).powi(power as i32)).sum())
+        };
+        let (along, between) = (powers(columns), powers(rows));
+        let size = monomials.len();
+        let mut matrix = vec![0.0; size * size];
+        for (row, a) in monomials.iter().enumerate() {
+            for (column, b) in monomials.iter().enumerate() {
+                let [x, y] = [0, 1].map(|axis| (a[axis] + b[axis]) as usize);
+                matrix[row * size + column] = along[x] * between[y];
+            }
+        }
+        let mut right = vec![0.0; size];
+        for (row, heights) in heights.chunks_exact(columns.max(1)).enumerate() {
+            let y = place(row, rows);
+            let sums: [f64; 3] = std::array::from_fn(|power| {
+                let terms = heights
+                    .iter()
+                    .enumerate()
+                    .map(|(column, z)| z * place(column, columns).powi(power as i32));
+                terms.sum()
+            });
+            for (value, [a, b]) in right.iter_mut().zip(&monomials) {
+                *value += sums[*a as usize] * y.powi(*b);
+            }
+        }
+        let Some(factor) = Cholesky::new(matrix, size) else { return };
+        let coefficients = factor.solve(right);
+        for (row, heights) in heights.chunks_exact_mut(columns.max(1)).enumerate() {
+            let y = place(row, rows);
+            for (column, height) in heights.iter_mut().enumerate() {
+                let x = place(column, columns);
+                let terms =
+                    coefficients.iter().zip(&monomials).map(|(c, [a, b])| c * x.powi(*a) * y.powi(*b));
+                *height -= terms.sum::<f64>();
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn systems_are_solved() {
+        let matrix = vec![4.0, 0.0, 0.0, 2.0, 5.0, 0.0, 1.0, 3.0, 6.0];
+        let factor = Cholesky::new(matrix, 3).unwrap();
+        // The matrix times (1, −2, 3).
+        let solution = factor.solve(vec![4.0 - 4.0 + 3.0, 2.0 - 10.0 + 9.0, 1.0 - 6.0 + 18.0]);
+        for (found, expected) in solution.iter().zip([1.0, -2.0, 3.0]) {
+            assert!((found - expected).abs() < 1e-14, "{solution:?}");
+        }
+        assert!((Cholesky::new(vec![4.0], 1).unwrap().variance(&[3.0]) - 9.0 / 4.0).abs() < 1e-15);
+        assert_eq!(Cholesky::new(vec![1.0, 0.0, 2.0, 1.0], 2), None);
+        assert_eq!(Cholesky::new(vec![f64::NAN], 1), None);
+    }
+
+    #[test]
+    fn polynomials_are_removed_and_nothing_else() {
+        let (columns, rows) = (20, 15);
+        let surface = |polynomial: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+            (0..columns * rows).map(|i| polynomial((i % columns) as f64, (i / columns) as f64)).collect()
+        };
+        for (detrend, polynomial) in [
+            (Detrend::Mean, &(|_, _| 1e6) as &dyn Fn(f64, f64) -> f64),
+            (Detrend::Tilt, &|x, y| 3.0 + 2.0 * x - y),
+            (Detrend::Curvature, &|x, y| 1.0 - x + 0.1 * x * x + 0.2 * x * y - 0.3 * y * y),
+        ] {
+            let mut heights = surface(polynomial);
+            detrend.remove(&mut heights, columns);
+            let largest = heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
+            assert!(largest < 1e-11, "{detrend:?}: {largest}");
+            let mut profile: Vec<f64> = (0..columns).map(|i| polynomial(i as f64, 0.0)).collect();
+            detrend.remove(&mut profile, columns);
+            assert!(profile.iter().all(|z| z.abs() < 1e-11), "{detrend:?}: {profile:?}");
+        }
+        let wave = surface(&|x, y| (0.7 * x + 0.3 * y).sin());
+        for detrend in [Detrend::Mean, Detrend::Tilt, Detrend::Curvature] {
+            let mut once = wave.clone();
+            detrend.remove(&mut once, columns);
+            let mut twice = once.clone();
+            detrend.remove(&mut twice, columns);
+            assert!(once.iter().zip(&twice).all(|(a, b)| (a - b).abs() < 1e-13), "{detrend:?}");
+            assert!(once.iter().map(|z| z * z).sum::<f64>() <= wave.iter().map(|z| z * z).sum());
+        }
+        let mut same = wave.clone();
+        Detrend::None.remove(&mut same, columns);
+        assert_eq!(same, wave);
+    }
+}

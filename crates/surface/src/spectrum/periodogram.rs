@@ -1,0 +1,319 @@
+//! Periodograms: power of each wave of a profile or a map.
+
+use super::SpectrumError;
+use asperity_data::{check_room, emptied};
+use realfft::RealFftPlanner;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex64;
+use serde::Serialize;
+use std::f64::consts::{PI, TAU};
+use std::ops::RangeInclusive;
+
+/// Bins per decade of wave numbers for display.
+const BINS_PER_DECADE: f64 = 10.0;
+
+/// Waves that a spectrum holds, by their direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// Along the rows of a map, or along a profile: C1D, m³.
+    X,
+    /// Between the rows of a map: C1D, m³.
+    Y,
+    /// All directions of a map: q C2D/π, m³.
+    Radial,
+}
+
+/// Mean power of the waves within a range of wave numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Bin {
+    /// Mean wave number of the waves, rad/m.
+    pub wave_number: f64,
+    /// Mean power, m³.
+    pub power: f64,
+    /// Number of waves in the bin.
+    pub waves: u64,
+}
+
+/// Power of the waves of profiles of one length, summed over the profiles.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ProfilePower {
+    pub points: usize,
+    pub spacing: f64,
+    pub windowed: bool,
+    /// Number of summed profiles.
+    pub profiles: u64,
+    /// Wave number of wave 1, rad/m.
+    pub step: f64,
+    /// Wave number and C1D, m³, summed, of the waves 1, 2, … below half the number of points.
+    pub waves: Vec<(f64, f64)>,
+}
+
+impl ProfilePower {
+    pub fn new(points: usize, spacing: f64, windowed: bool) -> Self {
+        let step = TAU / (points as f64 * spacing);
+        let waves = (1..=(points - 1) / 2).map(|wave| (wave as f64 * step, 0.0)).collect();
+        ProfilePower { points, spacing, windowed, profiles: 0, step, waves }
+    }
+
+    /// Adds the power of profiles of equal points: consecutive rows.
+    pub fn add(
+        &mut self,
+        rows: impl Iterator<Item = impl Iterator<Item = f64>>,
+    ) -> Result<(), SpectrumError> {
+        let scale = self.spacing / self.points as f64;
+        transform(rows, self.points, self.windowed, |coefficients| {
+            for ((_, sum), coefficient) in self.waves.iter_mut().zip(&coefficients[1..]) {
+                *sum += scale * coefficient.norm_sqr();
+            }
+            self.profiles += 1;
+        })
+    }
+}
+
+/// Spectrum of the heights (m) of a line in bins: C1D, m³. A line that is not periodic is windowed.
+pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SpectrumError> {
+    let mut power = ProfilePower::new(heights.len(), spacing, windowed);
+    // The mean of windowed heights would leak into the first waves.
+    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+    power.add(std::iter::once(heights.iter().map(|height| height - mean)))?;
+    Ok(bins(power.waves.into_iter().map(|(wave_number, power)| (wave_number, power, 1))))
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MapPower {
+    pub windowed: bool,
+    /// Wave numbers of wave 1 along and between rows, rad/m.
+    pub steps: [f64; 2],
+    /// Wave numbers of the sampling along and between rows, rad/m.
+    pub sampling: [f64; 2],
+    /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers,
+    /// sorted by wave number.
+    pub waves: Vec<(f64, f64)>,
+    /// True if waves along one axis alone are left out, because rows or columns are offset against each other, or were levelled
+    /// one by one.
+    pub offsets: bool,
+    /// Largest share of the squared gradient by which the waves along an axis, not left out, depart from their neighbours.
+    pub apart: f64,
+}
+
+/// Least number of waves along an axis that are compared with their neighbours, over the number of points.
+const COMPARED: f64 = 1.0 / 8.0;
+
+/// Least number of waves that may be left out, over the number of points: longer ones have more power than offsets.
+const LEFT_OUT: f64 = 1.0 / 32.0;
+
+/// Departure of the mean power of n waves along an axis from the mean power of their neighbours, relative and times √n, that is no
+/// chance: about four standard deviations under a window.
+const NO_CHANCE: f64 = 12.0;
+
+/// Periods x across the axis of the two groups of neighbouring waves. The power is an even function of x, also on an
+/// anisotropic surface, so that both groups extrapolate it to the axis as a + bx².
+const NEAR: [RangeInclusive<f64>; 2] = [3.0..=5.0, 6.0..=8.0];
+const EXTRAPOLATED: f64 = 0.486;
+
+/// Share of the squared gradient from which on the departure matters, and from which on it is taken for the surface itself.
+const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
+const LARGEST_OFFSETS: f64 = 0.25;
+
+/// Waves along one axis, beside which offsets of rows or columns have no power.
+#[derive(Default)]
+struct AxisPower {
+    waves: Vec<(f64, f64)>,
+    /// Squared gradient and number of short waves along the axis, and of their neighbours in the plane.
+    on: (f64, f64),
+    near: [(f64, f64); 2],
+}
+
+/// Squared gradient of a wave (wave number, power), but for a factor.
+pub(super) fn square((q, power): &(f64, f64)) -> f64 {
+    q * q * power
+}
+
+impl AxisPower {
+    fn compare(&mut self, across: f64, reach: f64, wave: (f64, f64)) {
+        let ranges = [0.0..=reach].into_iter().chain(NEAR);
+        let sums = [&mut self.on].into_iter().chain(&mut self.near).zip(ranges);
+        for (sum, _) in sums.filter(|(_, range)| range.contains(&across)) {
+            *sum = (sum.0 + square(&wave), sum.1 + 1.0);
+        }
+    }
+
+    /// Squared gradient by which the waves along the axis depart from their neighbours; zero if that is chance.
+    fn departure(&self) -> f64 {
+        let [near, farther] = self.near.map(|(sum, waves)| sum / waves);
+        let expected = (near + EXTRAPOLATED * (near - farther)) * self.on.1;
+        let apart = (self.on.0 - expected).abs();
+        if apart * self.on.1.sqrt() > NO_CHANCE * expected.abs() { apart } else { 0.0 }
+    }
+}
+
+impl MapPower {
+    /// Power of the heights (m) in rows of `columns` points. If the rows are levelled one by one (`aligned`), the waves between
+    /// rows alone are left out.
+    pub fn new(
+        heights: &[f64],
+        columns: usize,
+        [along, between]: [f64; 2],
+        windowed: bool,
+        aligned: bool,
+    ) -> Result<Self, SpectrumError> {
+        let rows = heights.len() / columns;
+        let half = columns / 2 + 1;
+        let points = heights.len();
+        check_room(48 * points as u64)?;
+        let mut coefficients: Vec<Complex64> = emptied(Vec::new(), half * rows)?;
+        let in_rows = heights.chunks_exact(columns).map(|row| row.iter().copied());
+        transform(in_rows, columns, windowed, |row| coefficients.extend_from_slice(row))?;
+        let steps = [TAU / (columns as f64 * along), TAU / (rows as f64 * between)];
+        let largest = (PI / along).min(PI / between);
+        let scale = along * between / points as f64;
+        let plan = FftPlanner::<f64>::new().plan_fft_forward(rows);
+        let mut scratch = vec![Complex64::ZERO; plan.get_inplace_scratch_len()];
+        let mut column = vec![Complex64::ZERO; rows];
+        let row_window = window(rows, windowed);
+        let mut waves = emptied(Vec::new(), half * rows)?;
+        let mut axes = [0, 1].map(|_| AxisPower::default());
+        let reach = if windowed { 1.0 } else { 0.0 };
+        let levelled = if aligned { reach as usize + 1 } else { 0 };
+        for x in levelled..half {
+            for (y, value) in column.iter_mut().enumerate() {
+                *value = coefficients[y * half + x] * row_window[y];
+            }
+            plan.process_with_scratch(&mut column, &mut scratch);
+            for (y, value) in column.iter().enumerate() {
+                let y = if 2 * y > rows { y as f64 - rows as f64 } else { y as f64 };
+                // Waves and their mirror images have equal power: only one of them counts.
+                let is_first = x > 0 || y > 0.0;
+                let q = (x as f64 * steps[0]).hypot(y * steps[1]);
+                if !is_first || q >= largest {
+                    continue;
+                }
+                let wave = (q, scale * value.norm_sqr());
+                let places = [(x as f64, y.abs() / rows as f64), (y.abs(), x as f64 / columns as f64)];
+                for (axis, (across, _)) in
+                    axes.iter_mut().zip(places).filter(|(_, place)| place.1 >= COMPARED)
+                {
+                    axis.compare(across, reach, wave);
+                }
+                let is_on = |(across, along): (f64, f64)| across <= reach && along >= LEFT_OUT;
+                match axes.iter_mut().zip(places).find(|(_, place)| is_on(*place)) {
+                    Some((axis, _)) => axis.waves.push(wave),
+                    None => waves.push(wave),
+                }
+            }
+        }
+        let gradient: f64 = waves.iter().chain(axes.iter().flat_map(|axis| &axis.waves)).map(square).sum();
+        let (mut offsets, mut apart) = (false, 0.0_f64);
+        for axis in axes {
+            let share = axis.departure() / gradient;
+            if (NEGLIGIBLE_OFFSETS..LARGEST_OFFSETS).contains(&share) {
+                offsets = true;
+                continue;
+            }
+            waves.extend(axis.waves);
+            if share >= LARGEST_OFFSETS {
+                apart = apart.max(share);
+            }
+        }
+        waves.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(MapPower { windowed, steps, sampling: [TAU / along, TAU / between], waves, offsets, apart })
+    }
+}
+
+/// Calls `each` with the Fourier coefficients of each row of `points` heights.
+fn transform(
+    rows: impl Iterator<Item = impl Iterator<Item = f64>>,
+    points: usize,
+    windowed: bool,
+    mut each: impl FnMut(&[Complex64]),
+) -> Result<(), SpectrumError> {
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+    let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
+    let mut scratch = plan.make_scratch_vec();
+    let window = window(points, windowed);
+    for row in rows {
+        for ((value, height), weight) in input.iter_mut().zip(row).zip(&window) {
+            *value = height * weight;
+        }
+        plan.process_with_scratch(&mut input, &mut output, &mut scratch)
+            .map_err(|error| SpectrumError::Transform(error.to_string()))?;
+        each(&output);
+    }
+    Ok(())
+}
+
+/// Hann window with a mean square of 1, or ones for a periodic profile.
+fn window(points: usize, windowed: bool) -> Vec<f64> {
+    if !windowed {
+        return vec![1.0; points];
+    }
+    let hann = |index: usize| 0.5 - 0.5 * (TAU * index as f64 / points as f64).cos();
+    let squares: f64 = (0..points).map(|index| hann(index).powi(2)).sum();
+    let scale = (points as f64 / squares).sqrt();
+    (0..points).map(|index| scale * hann(index)).collect()
+}
+
+/// Mean power in 10 bins per decade of wave numbers, from waves of (wave number, power, number).
+pub(super) fn bins(waves: impl Iterator<Item = (f64, f64, u64)>) -> Vec<Bin> {
+    let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> = std::collections::BTreeMap::new();
+    for (wave_number, power, count) in waves {
+        let bin = bins.entry((BINS_PER_DECADE * wave_number.log10()).floor() as i64).or_default();
+        let weight = count as f64;
+        *bin = (bin.0 + weight * wave_number, bin.1 + weight * power, bin.2 + count);
+    }
+    let mean = |(wave_number, power, waves): (f64, f64, u64)| Bin {
+        wave_number: wave_number / waves as f64,
+        power: power / waves as f64,
+        waves,
+    };
+    bins.into_values().map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(points: usize, number: f64) -> Vec<f64> {
+        (0..points).map(|i| 3.0 * (TAU * number * i as f64 / points as f64 + 0.3).cos()).collect()
+    }
+
+    #[test]
+    fn a_wave_has_its_power_at_its_wave_number() {
+        for points in [64, 65] {
+            let mut power = ProfilePower::new(points, 0.5, false);
+            power.add([wave(points, 5.0).into_iter()].into_iter()).unwrap();
+            // h² = 9/2 = (1/π) C1D Δq.
+            let expected = 4.5 * PI / power.step;
+            assert!((power.waves[4].1 / expected - 1.0).abs() < 1e-12);
+            let others: f64 = power.waves.iter().map(|(_, power)| power).sum::<f64>() - power.waves[4].1;
+            assert!(others.abs() < 1e-12 * expected, "{others}");
+        }
+    }
+
+    #[test]
+    fn a_window_keeps_the_power_of_a_wave() {
+        let points = 128;
+        let mut power = ProfilePower::new(points, 1.0, true);
+        power.add([wave(points, 20.0).into_iter()].into_iter()).unwrap();
+        let total: f64 = power.waves.iter().map(|(_, power)| power).sum::<f64>() * power.step / PI;
+        assert!((total - 4.5).abs() < 1e-10, "{total}");
+    }
+
+    #[test]
+    fn a_wave_of_a_map_has_its_power() {
+        let (columns, rows) = (24, 30);
+        for (kx, ky) in [(3.0, 0.0), (0.0, 4.0), (2.0, -3.0)] {
+            let phase = |i: usize| {
+                kx * (i % columns) as f64 / columns as f64 + ky * (i / columns) as f64 / rows as f64
+            };
+            let heights: Vec<f64> = (0..columns * rows).map(|i| 2.0 * (TAU * phase(i) + 0.4).sin()).collect();
+            let map = MapPower::new(&heights, columns, [0.5, 0.25], false, false).unwrap();
+            let largest = map.waves.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+            let q = (kx * map.steps[0]).hypot(ky * map.steps[1]);
+            assert!((largest.0 - q).abs() < 1e-12, "{largest:?}");
+            // h² = 2 = (1/4π²) 2 C2D ΔqxΔqy, for the wave and its mirror image.
+            let expected = 2.0 * 2.0 * PI * PI / (map.steps[0] * map.steps[1]);
+            assert!((largest.1 / expected - 1.0).abs() < 1e-12);
+        }
+    }
+}

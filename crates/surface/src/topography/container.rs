@@ -1,0 +1,250 @@
+//! Containers of contact.engineering: archives with an index, in JSON or in YAML, of surfaces and their measurements.
+
+use super::Unit;
+use super::reading::{ReadOptions, Reading};
+use super::surface::Detrend;
+use super::{Place, TopographyError, refused, shown};
+use serde::Deserialize;
+
+pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
+
+pub(super) const LONGEST_INDEX: usize = 1 << 24;
+
+const MOST_MEASUREMENTS: usize = 10_000;
+
+#[derive(Deserialize)]
+struct Index {
+    surfaces: Vec<Surface>,
+}
+
+#[derive(Deserialize)]
+struct Surface {
+    #[serde(default)]
+    name: String,
+    topographies: Vec<Measurement>,
+}
+
+/// A measurement of a surface: its file in the archive, and what the file may omit.
+#[derive(Deserialize)]
+pub(super) struct Measurement {
+    #[serde(default)]
+    pub name: String,
+    datafile: Files,
+    /// Lengths along and between rows.
+    #[serde(default)]
+    size: Vec<f64>,
+    unit: Option<String>,
+    data_source: Option<u32>,
+    height_scale: Option<f64>,
+    detrend_mode: Option<Mode>,
+    #[serde(default)]
+    pub is_periodic: bool,
+    fill_undefined_data_mode: Option<String>,
+}
+
+/// Names of the file as measured, and of the one with the same heights scaled and detrended.
+#[derive(Deserialize)]
+struct Files {
+    original: Option<String>,
+    #[serde(rename = "squeezed-netcdf")]
+    squeezed: Option<String>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Mode {
+    Center,
+    #[serde(alias = "slope")]
+    Height,
+    Curvature,
+}
+
+/// Returns the measurements of the surface of a name, or the measurement of that name; without a name, the measurements of
+/// the only surface.
+pub(super) fn measurements(
+    index: &str,
+    content: &[u8],
+    name: Option<&str>,
+) -> Result<Vec<Measurement>, TopographyError> {
+    let wrong = |error: String| {
+        let first = error.lines().next().unwrap_or_default();
+        refused(Place::Part(index.to_owned()), first, "surfaces with their topographies and datafile")
+    };
+    let read: Result<Index, String> = if index == INDICES[0] {
+        serde_json::from_slice(content).map_err(|error| error.to_string())
+    } else {
+        serde_saphyr::from_slice(content).map_err(|error| error.to_string())
+    };
+    let mut surfaces = read.map_err(wrong)?.surfaces;
+    let names = surfaces.iter().map(|surface| format!("{:?}", shown(&surface.name)));
+    let names = names.collect::<Vec<_>>().join(", ");
+    let which = |fault: String| {
+        let allowed =
+            "--surface-name with one of them or of their measurements, in a scene roughness.surface_name";
+        refused(Place::File, format!("{fault} in the container: {names}"), allowed)
+    };
+    let found = match (name, surfaces.iter().position(|surface| Some(surface.name.as_str()) == name)) {
+        (_, Some(place)) => surfaces.swap_remove(place).topographies,
+        (None, None) if surfaces.len() == 1 => surfaces.remove(0).topographies,
+        (None, None) => return Err(which(format!("{} surfaces", surfaces.len()))),
+        (Some(name), None) => {
+            let mut all = surfaces.into_iter().flat_map(|surface| surface.topographies);
+            let one = all.find(|measurement| measurement.name == name);
+            vec![one.ok_or_else(|| which(format!("no surface {:?}", shown(name))))?]
+        }
+    };
+    if !(1..=MOST_MEASUREMENTS).contains(&found.len()) {
+        let fault = format!("{} measurements of the surface", found.len());
+        return Err(refused(Place::File, fault, format!("from 1 to {MOST_MEASUREMENTS}")));
+    }
+    Ok(found)
+}
+
+impl Measurement {
+    /// Name of its file: the scaled one, whose format is always the same, if there is one.
+    pub fn file(&self) -> Result<&str, TopographyError> {
+        let names = self.datafile.squeezed.as_deref().or(self.datafile.original.as_deref());
+        names.ok_or_else(|| {
+            let place = Place::Part(format!("topography {}", self.name));
+            refused(place, "no file", "a datafile with original or squeezed-netcdf")
+        })
+    }
+
+    fn is_original(&self) -> bool {
+        self.datafile.squeezed.is_none()
+    }
+
+    /// Part of the heights that the container removes; `None` if it removes the mean alone, as it does by default.
+    pub fn detrend(&self) -> Option<Detrend> {
+        match self.detrend_mode? {
+            Mode::Center => None,
+            Mode::Height => Some(Detrend::Tilt),
+            Mode::Curvature => Some(Detrend::Curvature),
+        }
+    }
+
+    pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, TopographyError> {
+        let unit = self.unit.as_deref().unwrap_or_default();
+        let stated = Unit::stated(unit, Place::Part(format!("topography {}", self.name)))?;
+        let is_filled = self.fill_undefined_data_mode.as_deref().is_some_and(|mode| mode != "do-not-fill");
+        Ok(ReadOptions {
+            convention: stated.or(options.convention),
+            channel: options.channel.or(self.data_source.filter(|_| self.is_original())),
+            interpolate: options.interpolate || is_filled,
+            ..options.clone()
+        })
+    }
+
+    /// Adds to the numbers of its file what the file omits.
+    pub fn completed(&self, mut reading: Reading) -> Reading {
+        if let (None, None, Some(&width)) = (&reading.positions, reading.spacing, self.size.first()) {
+            let rows = (reading.heights.len() / reading.columns.max(1)) as f64;
+            let height = self.size.get(1).copied().unwrap_or(width);
+            reading.spacing = Some([width / reading.columns as f64, height / rows]);
+        }
+        match self.height_scale.filter(|_| self.is_original()) {
+            Some(scale) => reading.scaled(|_| false, scale),
+            None => reading,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bytes::tests::archive;
+    use super::super::open::{parse, parse_all};
+    use super::super::reading::ReadOptions;
+    use super::super::surface::Topography;
+    use super::*;
+
+    /// Points of a profile in µm.
+    const PROFILE: &str = "0 1\n1 3\n2 2\n";
+
+    const YAML: &str = "surfaces:
+- creator: &one
+    name: A
+  name: \"first: \\xE9\"
+  topographies:
+  - {creator: *one, datafile: {original: map.txt}, name: map, size: [4.0, 2.0], unit: nm, height_scale: 10.0}
+  - datafile:
+      original: map.txt
+      squeezed-netcdf: profile.txt
+    detrend_mode: curvature
+    height_scale: 10.0
+    is_periodic: true
+    name: profile
+    size: [2.0]
+    unit: \"\\xB5m\"
+- name: second
+  topographies:
+  - datafile: {original: profile.txt}
+    name: 7
+    unit: um
+";
+
+    fn read(index: (&str, &str), name: Option<&str>) -> Result<Vec<Topography>, String> {
+        let map = "1 2 3 4\n4 3 2 1\n";
+        let files = [index, ("map.txt", map), ("profile.txt", PROFILE)];
+        let files = files.map(|(name, text)| (name, text.as_bytes()));
+        let options = ReadOptions { surface_name: name.map(str::to_owned), ..ReadOptions::default() };
+        parse_all(&archive(&files), &options).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn measurements_of_a_surface_are_read_with_what_the_index_states() {
+        let surfaces = read(("meta.yml", YAML), Some("first: \u{e9}")).unwrap();
+        let [map, profile] = &surfaces[..] else { panic!("{surfaces:?}") };
+        assert_eq!((&*map.name, map.columns, map.spacing()), ("map", 4, Ok([1e-9; 2])));
+        assert!((map.heights[3] - 4e-8).abs() < 1e-20 && map.detrend.is_none());
+        // The scaled file is not scaled again.
+        assert_eq!((&*profile.name, profile.heights[1]), ("profile", 3e-6));
+        assert_eq!((profile.detrend, profile.periodic), (Some(Detrend::Curvature), true));
+        for name in ["second", "7", "profile"] {
+            assert_eq!(read(("meta.yml", YAML), Some(name)).unwrap().len(), 1, "{name}");
+        }
+        let json = r#"{"surfaces": [{"name": "s", "topographies": [
+            {"name": "p", "datafile": {"original": "profile.txt"}, "size": [2.0], "unit": "nm"}]}]}"#;
+        assert_eq!(read(("index.json", json), None).unwrap()[0].heights[1], 3e-9);
+    }
+
+    #[test]
+    fn faults_have_a_place_and_the_allowed_content() {
+        let first = "first: \u{e9}";
+        let all = |from: &str, to: &str, name: Option<&str>| {
+            read(("meta.yml", &YAML.replacen(from, to, 1)), name).unwrap_err()
+        };
+        for (from, to, name, expected) in [
+            (
+                "",
+                "",
+                None,
+                "2 surfaces in the container: \"first: \u{e9}\", \"second\"; allowed: --surface-name",
+            ),
+            ("", "", Some("third"), "no surface \"third\" in the container: \"first"),
+            ("map.txt", "none.txt", Some(first), "no file none.txt in the archive"),
+            ("nm", "V", Some(first), "topography map: \"V\" is not a unit of length; allowed: "),
+            ("curvature", "wavelets", Some(first), "meta.yml: "),
+            ("surfaces", "things", None, "meta.yml: "),
+            ("original: map", "other: map", Some(first), "topography map: no file; allowed: a datafile"),
+            ("unit: nm, ", "", Some(first), "map: no unit of "),
+            ("size: [4.0, 2.0], ", "", Some(first), "map: text matrix without a distance"),
+        ] {
+            let error = all(from, to, name);
+            assert!(error.starts_with(expected) && error.contains("; allowed: "), "{to}: {error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+        let both = ReadOptions { surface_name: Some(first.to_owned()), ..ReadOptions::default() };
+        let files: [(&str, &[u8]); 3] = [
+            ("meta.yml", YAML.as_bytes()),
+            ("map.txt", b"1 2 3 4\n4 3 2 1\n"),
+            ("profile.txt", PROFILE.as_bytes()),
+        ];
+        let error = parse(&archive(&files), &both).unwrap_err().to_string();
+        assert!(error.starts_with("2 measurements of a surface; allowed: one: --surface-name"), "{error}");
+        // Aliases of aliases expand to nothing large.
+        let level =
+            |i: u32| format!("a{i}: &a{i} [*a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}]\n", i - 1);
+        let bomb: String = (1..12).map(level).collect();
+        assert!(read(("meta.yml", &format!("a0: &a0 [x, x]\n{bomb}surfaces: []\n")), None).is_err());
+    }
+}

@@ -1,0 +1,378 @@
+//! The format of a file, determined by its first bytes, and its reader.
+
+use super::bytes::{Archive, MOST_BYTES, MOST_EXPANSION, ZIP, most_expanded};
+use super::reading::{ReadOptions, Reading};
+use super::surface::Topography;
+use super::{Place, TopographyError, refused};
+use super::{container, gwy, netcdf, npy, sdf, sur, text, x3p};
+use asperity_data::{ReadError, read_limited, read_regular};
+use flate2::read::MultiGzDecoder;
+use std::borrow::Cow;
+use std::path::Path;
+
+const GZIP: [u8; 2] = [0x1f, 0x8b];
+
+type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
+
+/// First bytes of the binary formats. All others but SDF and archives are text.
+const SIGNATURES: [(&[u8], BinaryReader); 6] = [
+    (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
+    (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
+    (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
+    (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
+    (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
+    (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
+];
+
+/// Reads a surface, or all measurements of a surface in a container, from a regular file of at most 1 GiB.
+///
+/// # Errors
+/// [`TopographyError`] if the file cannot be read or is no surface.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
+    parse_all(&content(path)?, options)
+}
+
+/// Reads the bytes of a regular file of at most 1 GiB, for [`parse`].
+pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
+    Ok(read_regular(path, MOST_BYTES)?)
+}
+
+/// Reads the only surface from the content of a file.
+///
+/// # Errors
+/// As [`read`], and for several measurements.
+pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
+    let mut surfaces = parse_all(bytes, options)?;
+    match (surfaces.pop(), surfaces.len()) {
+        (Some(surface), 0) => Ok(surface),
+        (_, others) => {
+            let fault = format!("{} measurements of a surface", others + 1);
+            let allowed = "one: --surface-name with its name, in a scene roughness.surface_name";
+            Err(refused(Place::File, fault, allowed))
+        }
+    }
+}
+
+/// Reads a surface, or all measurements of a surface in a container, from the content of a file.
+pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
+    let is_archive = bytes.starts_with(ZIP);
+    if let (Some(_), false) = (&options.surface_name, is_archive) {
+        let allowed = "a container of surfaces, or no --surface-name, in a scene roughness.surface_name";
+        return Err(refused(Place::File, "a file of one surface, without a name", allowed));
+    }
+    if !is_archive {
+        return Ok(vec![resolved(reading(bytes, options)?, options)?]);
+    }
+    let mut archive = Archive::new(bytes)?;
+    let [in_json, in_yaml] = container::INDICES;
+    let index = archive.index(&[x3p::INDEX, in_json, in_yaml])?.ok_or_else(|| {
+        let allowed = format!("{} of X3P, or {in_json} or {in_yaml} of a container", x3p::INDEX);
+        refused(Place::File, "an archive without an index", allowed)
+    })?;
+    if index == x3p::INDEX {
+        return Ok(vec![resolved(x3p::read(archive)?, options)?]);
+    }
+    let content = archive.unpacked(index, container::LONGEST_INDEX)?;
+    let measurements = container::measurements(index, &content, options.surface_name.as_deref())?;
+    let read = |measurement: container::Measurement| {
+        let options = measurement.options(options)?;
+        let content = archive.unpacked(measurement.file()?, MOST_BYTES)?;
+        let within = |error: TopographyError| error.within(&measurement.name);
+        let reading = measurement.completed(reading(&content, &options).map_err(within)?);
+        let surface = resolved(reading, &options).map_err(within)?;
+        Ok(Topography {
+            detrend: measurement.detrend(),
+            periodic: measurement.is_periodic,
+            name: measurement.name,
+            ..surface
+        })
+    };
+    measurements.into_iter().map(read).collect()
+}
+
+/// Reads the numbers of a file of one surface.
+fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
+    let content = unpacked(bytes)?;
+    if content.starts_with(ZIP) {
+        let mut archive = Archive::new(&content)?;
+        archive.index(&[x3p::INDEX])?;
+        return x3p::read(archive);
+    }
+    if sdf::is_sdf(&content) {
+        return sdf::read(&content);
+    }
+    let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
+    reader.map_or_else(|| text::read(&content, options.channel), |(_, read)| read(&content, options))
+}
+
+/// The surface of numbers, or its row or column.
+fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, TopographyError> {
+    let mut surface = reading.resolve(options)?;
+    if let Some(cut) = options.cut {
+        surface = surface.cut(cut)?;
+    }
+    if options.resample { surface.resampled() } else { Ok(surface) }
+}
+
+/// The content of a file, decompressed where it is gzip.
+pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
+    if !bytes.starts_with(&GZIP) {
+        return Ok(bytes.into());
+    }
+    let most = most_expanded(bytes.len());
+    let content = read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES));
+    let content = content.map_err(|error| match error {
+        ReadError::TooLong { .. } if most <= MOST_BYTES => {
+            let fault = format!("gzip expands to more than {MOST_EXPANSION} times its size");
+            refused(Place::File, fault, "at most that and 1 MiB")
+        }
+        error => error.into(),
+    })?;
+    if content.starts_with(&GZIP) {
+        return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
+    }
+    Ok(content.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::topography::Unit;
+    use crate::topography::surface::Cut;
+    use flate2::Compression;
+    use flate2::write::GzEncoder;
+    use std::fmt::Write as _;
+    use std::io::Write;
+
+    fn gzip(bytes: &[u8]) -> Vec<u8> {
+        let mut encoder = GzEncoder::new(Vec::new(), Compression::default());
+        encoder.write_all(bytes).unwrap();
+        encoder.finish().unwrap()
+    }
+
+    fn metres() -> ReadOptions {
+        ReadOptions { unit: Some(Unit::METRE), ..ReadOptions::default() }
+    }
+
+    /// A file of the inputs of fuzzing, with some bytes replaced where they occur first.
+    fn file(name: &str, from: &[u8], to: &[u8]) -> Vec<u8> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/surface").join(name);
+        let content = std::fs::read(path).unwrap();
+        let at = content.windows(from.len().max(1)).position(|found| found.starts_with(from)).unwrap();
+        [&content[..at], to, &content[at + from.len()..]].concat()
+    }
+
+    /// Options that suit a file without units and distances.
+    fn bare(name: &str) -> ReadOptions {
+        let unit = name.ends_with(".npy").then_some(Unit::METRE);
+        let height_unit = (name == "points.nc").then_some(Unit::METRE);
+        ReadOptions { unit, height_unit, spacing: Some(0.5), interpolate: true, ..ReadOptions::default() }
+    }
+
+    #[test]
+    fn files_of_every_format_are_surfaces() {
+        let mut found = String::new();
+        let names = "binary.sdf text.sdf field.gsf map.npy columns.npy profile.npy linked.x3p listed.x3p map.gwy \
+                     plain.sur compressed.sur map.nc points.nc heights.txt matrix.txt points.txt latin1.txt utf16.txt descending.csv";
+        for name in names.split(' ') {
+            let mut surface = parse(&file(name, b"", b""), &bare(name)).unwrap();
+            surface.heights.truncate(12);
+            writeln!(found, "{name}: {surface:?}").unwrap();
+        }
+        insta::assert_snapshot!(found);
+    }
+
+    #[test]
+    fn headers_decide_on_units_rows_and_channels() {
+        let read = |name: &str, from: &[u8], to: &[u8], options: &ReadOptions| {
+            parse(&file(name, from, to), options).unwrap()
+        };
+        // µm in an MS-DOS code page.
+        let micrometres = read("plain.sur", b"um", b"\xe6m", &bare(""));
+        assert_eq!(micrometres, read("plain.sur", b"", b"", &bare("")));
+        // Rows along x become rows along y.
+        let (along_x, along_y) =
+            (&b"heights\0\0\0\0\x02\0\0\0\0\0\0\0\x01"[..], &b"heights\0\0\0\0\x02\0\0\0\x01\0\0\0\0"[..]);
+        let (turned, straight) =
+            (read("map.nc", b"", b"", &bare("")), read("map.nc", along_x, along_y, &bare("")));
+        assert_eq!((turned.columns, straight.columns), (6, 6));
+        assert_eq!((turned.heights[1], turned.heights[6]), (straight.heights[4], straight.heights[1]));
+        // Each axis of a map, and its heights, have a unit of their own.
+        let before =
+            b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0\0\0\0\0\x04unit\0\0\0\x02\0\0\0";
+        let (metre, nanometre) = ([&before[..], b"\x01m\0"].concat(), [&before[..], b"\x02nm"].concat());
+        let [along, between] = straight.spacing().unwrap();
+        let found = read("map.nc", &metre, &nanometre, &bare("")).spacing().unwrap();
+        assert_eq!((found[0] / along, (found[1] / between * 1e9).round()), (1.0, 1.0));
+        for (name, change) in [("map.nc", (&b"unit"[..], &b"note"[..])), ("points.nc", (b"", b""))] {
+            let error = parse(&file(name, change.0, change.1), &bare("")).unwrap_err().to_string();
+            assert!(error.starts_with("no unit of heights is stated"), "{name}: {error}");
+        }
+        let chosen = ReadOptions { channel: Some(0), ..bare("") };
+        assert_eq!(read("map.gwy", b"", b"", &chosen), read("map.gwy", b"", b"", &bare("")));
+        let none = ReadOptions { channel: Some(4), ..bare("") };
+        let error = parse(&file("map.gwy", b"", b""), &none).unwrap_err().to_string();
+        assert_eq!(error, "no channel 4; channels: 0 (m); allowed: a channel of heights");
+    }
+
+    #[test]
+    fn faults_have_a_place_and_the_allowed_content() {
+        let mut errors = String::new();
+        for (name, from, to) in [
+            ("text.sdf", &b"9 1 2 3"[..], &b"9 1"[..]),
+            ("text.sdf", b"9 1", b"9 1 4"),
+            ("text.sdf", b"BAD", b"x"),
+            ("text.sdf", b"NumPoints = 4", b"NumPoints = 2.5"),
+            ("text.sdf", b"Zscale = 1e-9\n", b""),
+            ("text.sdf", b"DataType = 5", b"DataType = 9"),
+            ("text.sdf", b"*\n1", b"1"),
+            ("binary.sdf", b"\xf0\xbf\0", b"\xf0\xbf\x01"),
+            ("binary.sdf", b"\x04\0\x03", b"\x04\0\x04"),
+            ("field.gsf", b"YRes = 3\n", b""),
+            ("field.gsf", b"XRes = 4", b"XRes = -3"),
+            ("field.gsf", b"XReal = 4e-6", b"XReal = wide"),
+            ("field.gsf", b"ZUnits = m", b"ZUnits = V"),
+            ("field.gsf", b"YRes = 3", b"YRes = 4294967296"),
+            ("field.gsf", b"XRes = 4", b"XRes"),
+            ("map.npy", b">i2", b"<c16"),
+            ("map.npy", b"'>i2'", b"[('a', '<f8'), ('b', '<u8')]"),
+            ("map.npy", b"'>i2'", b"[]"),
+            ("map.npy", b"'>i2'", b"[('a')]"),
+            ("map.npy", b";\0{'descr': '>i2'", b"D\0{'descr': [('a', '<f8')]"),
+            ("map.npy", b"fortran_order", b"order"),
+            ("map.npy", b"(3, 4)", b"(3, 4, 1)"),
+            ("map.npy", b"(3, 4)", b"(99999999999, 99999999999)"),
+            ("columns.npy", b"?\0\0\0\0\0\0\xf0?", b"?\0\0\0\0\0\0\0\0"),
+            ("map.gwy", b"m\0data", b"V\0data"),
+            ("map.gwy", b"/0/data\0oG", b"/0/date\0oG"),
+            ("map.gwy", b"xres\0i", b"xres\0z"),
+            ("map.gwy", b"xres\0i\x04", b"xres\0i\x05"),
+            ("plain.sur", b"\x02\0", b"\x05\0"),
+            ("plain.sur", b"\x10\0", b"\x08\0"),
+            ("plain.sur", b"\x04\0", b"\0\0"),
+            ("plain.sur", b"\x03\0", b"\x09\0"),
+            ("plain.sur", b"um", b"Vo"),
+            ("compressed.sur", b"\x04\0\0\0\x03", b"\x04\0\0\x09\x03"),
+            ("map.nc", b"CDF\x02", b"CDF\x05"),
+            ("map.nc", b"heights", b"weights"),
+            ("map.nc", b"x\0\0\0\0\0\0\x06", b"x\0\0\0\0\0\0\0"),
+            ("map.nc", b"x\0\0\0\0\0\0\x06", b"x\0\0\0\xff\xff\xff\xff"),
+            ("map.nc", b"s\0\0\0\0\x02\0\0\0\0", b"s\0\0\0\0\x02\0\0\0\x07"),
+            ("map.nc", b"?\x0a\x36", b"?\x0b\x36"),
+        ] {
+            let options = ReadOptions { interpolate: false, ..bare(name) };
+            let error = parse(&file(name, from, to), &options).unwrap_err().to_string();
+            assert!(error.contains("; allowed: "), "{error}");
+            writeln!(errors, "{name}, {}: {error}", to.escape_ascii()).unwrap();
+        }
+        insta::assert_snapshot!(errors);
+        // What is missing at the end is missed at a place.
+        for name in ["map.gwy", "map.nc", "compressed.sur", "binary.sdf"] {
+            let whole = file(name, b"", b"");
+            for end in 13..whole.len() {
+                let error = parse(&whole[..end], &bare(name)).unwrap_err().to_string();
+                assert!(error.starts_with("byte "), "{name}, {end}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn gzip_is_read_as_its_content() {
+        let text = b"0 1\n1 2\n2 1\n";
+        let plain = parse(text, &metres()).unwrap();
+        assert_eq!(parse(&gzip(text), &metres()), Ok(plain.clone()));
+        let members = [gzip(b"0 1\n1 2\n"), gzip(b"2 1\n")].concat();
+        assert_eq!(parse(&members, &metres()), Ok(plain));
+        let nested = parse(&gzip(&gzip(text)), &metres()).unwrap_err();
+        assert_eq!(nested.to_string(), "byte 0: gzip within gzip; allowed: gzip once");
+        assert!(parse(&gzip(text)[..15], &metres()).is_err());
+    }
+
+    #[test]
+    fn decompression_ends_at_a_multiple_of_the_file() {
+        let bomb = gzip(&b"# 1\n".repeat(1 << 20));
+        assert!(bomb.len() < 10_000);
+        let error = parse(&bomb, &metres()).unwrap_err().to_string();
+        assert_eq!(error, "gzip expands to more than 32 times its size; allowed: at most that and 1 MiB");
+    }
+
+    #[test]
+    fn folders_and_long_files_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("profile");
+        let error = read(folder.path(), &metres()).unwrap_err().to_string();
+        assert!(error.contains("this is a folder"), "{error}");
+        // A sparse file takes no room on the disk.
+        std::fs::File::create(&path).unwrap().set_len(MOST_BYTES as u64 + 1).unwrap();
+        let error = read(&path, &metres()).unwrap_err().to_string();
+        assert_eq!(error, "longer than 1073741824 bytes; allowed: at most 1073741824 bytes");
+    }
+
+    #[test]
+    fn units_and_distances_are_never_guessed() {
+        let none = ReadOptions::default();
+        let error = parse(b"0 1\n1 2\n", &none).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "no unit of heights is stated; allowed: a unit in the file or beside it: --unit um, in a scene roughness.unit"
+        );
+        let error = parse(b"1\n2\n", &metres()).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "text columns without a distance between points; allowed: a distance beside the file: --spacing 0.5um, in a \
+             scene roughness.spacing"
+        );
+        let error = parse(b"x [nm] z [nm]\n0 1\n1 2\n", &metres()).unwrap_err().to_string();
+        assert!(
+            error.starts_with("the file states nm as the unit of heights, the options state m"),
+            "{error}"
+        );
+        let spaced = ReadOptions { spacing: Some(0.5), ..metres() };
+        assert_eq!(parse(b"1\n2\n", &spaced).unwrap().spacing(), Ok([0.5; 2]));
+    }
+
+    #[test]
+    fn missing_points_are_refused_or_filled() {
+        let text = b"0 1\n1 bad\n2 3\n3 4\n";
+        let error = parse(text, &metres()).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: --interpolate, in a scene \
+             roughness.interpolate, which fills them from their neighbours"
+        );
+        let options = ReadOptions { interpolate: true, ..metres() };
+        let surface = parse(text, &options).unwrap();
+        assert_eq!((&surface.heights[..], surface.interpolated()), (&[1.0, 2.0, 3.0, 4.0][..], 1));
+    }
+
+    #[test]
+    fn empty_rows_and_columns_at_the_border_are_left_out_and_counted() {
+        let spaced = ReadOptions { spacing: Some(1.0), ..metres() };
+        let read = |text: &str, cut: Option<Cut>| {
+            parse(text.as_bytes(), &ReadOptions { cut, ..spaced.clone() }).map_err(|error| error.to_string())
+        };
+        let map =
+            "nan nan nan nan nan\nnan 1 2 3 nan\nnan 4 5 6 nan\nnan nan nan nan nan\nnan nan nan nan nan\n";
+        let found = read(map, None).unwrap();
+        assert_eq!((found.columns, &found.heights[..]), (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..]));
+        assert_eq!((found.cropped.counts(), found.interpolated()), ([2, 3], 0));
+        // Rows, columns and points keep their numbers.
+        let (row, column) = (read(map, Some(Cut::Row(3))).unwrap(), read(map, Some(Cut::Column(2))).unwrap());
+        assert_eq!((row.heights, row.cropped.counts()), (vec![4.0, 5.0, 6.0], [2, 0]));
+        assert_eq!((column.heights, column.cropped.counts()), (vec![1.0, 4.0], [3, 0]));
+        assert_eq!(read(map, Some(Cut::Row(1))).unwrap_err(), "row 1; allowed: rows 2 to 3");
+        let error = read(&map.replace('5', "nan"), None).unwrap_err();
+        assert!(
+            error.starts_with("point 13: 1 of 6 points are missing (16.67 %), the first here"),
+            "{error}"
+        );
+        let profile = read("0 nan\n1 5\n2 6\n3 4\n4 nan\n", None).unwrap();
+        assert_eq!(
+            (profile.cropped.counts(), profile.into_profile()),
+            ([2, 0], Ok((vec![1.0, 2.0, 3.0], vec![5.0, 6.0, 4.0])))
+        );
+        // A single measured row is no profile.
+        let error = read("nan nan nan nan\n1 2 3 4\nnan nan nan nan\n", None).unwrap_err();
+        assert!(error.contains("8 of 12 points are missing"), "{error}");
+    }
+}

@@ -1,0 +1,406 @@
+//! Header of the numbers in a text: units, sizes, and names of columns.
+
+use super::super::Unit;
+use super::layout::{COMMENT, Cell, Decimal, Separator};
+use std::collections::VecDeque;
+
+/// Longest header line that is examined, bytes, and number of the last lines that may name columns.
+const LONGEST: usize = 4096;
+const LAST_LINES: usize = 64;
+
+/// Characters that a unit in round brackets may have that is not known.
+const LONGEST_UNIT: usize = 5;
+
+/// Keys of sizes, of channels and of units in English and in the other languages of Gwyddion.
+const WIDTH: &str = "width šířka breite anchura largeur larghezza 幅 폭 largura ширина";
+const HEIGHT: &str = "height výška höhe altura hauteur altezza 高さ 높이 высота";
+const CHANNEL: &str = "channel kanál kanal canal canale チャネル 채널 канал";
+const UNIT: &str = "unit units einheit einheiten jednotka jednotky unité unités unità unidad unidades единицы 単位 단위 値の単位";
+
+/// Words beside `unit` in a key: words for heights, for both positions, and for all lengths.
+const OF_HEIGHTS: &str = "z value values height heights data hodnot valore valor 값";
+const OF_POSITIONS: &str = "xy lateral position positions distance";
+const OF_ALL: &str = "length lengths de измерения";
+
+/// Keys of the distance between points of a map.
+const SPACING: [&str; 3] = ["xy calibration", "pixel size", "sampling distance"];
+
+/// Keys of the number of columns and of rows.
+const COUNTS: [&str; 2] = ["horizontal", "vertical"];
+
+/// What a column of a surface holds, as its name says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// Nothing that the name says.
+    #[default]
+    Unknown,
+    /// Position along the first axis.
+    X,
+    /// Position along the second axis.
+    Y,
+    /// Height.
+    Height,
+    /// Number of the point.
+    Number,
+    /// 0 for a point that is not measured.
+    Valid,
+}
+
+/// Words in the names of columns, the first ones preferred.
+const ROLES: [(Role, &str); 6] = [
+    (Role::X, "x"),
+    (Role::Y, "y"),
+    (Role::Height, "z height heights höhe hauteur altura altezza výška elevation topography"),
+    (Role::X, "position positions pos lateral distance length weg"),
+    (Role::Valid, "valid validity isvalid"),
+    (Role::Number, "index idx no nr number point points pt sample id"),
+];
+
+/// A column with its name and, if that states one, its unit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Column {
+    /// Name of the column; empty without one.
+    pub name: String,
+    /// What the column holds.
+    pub role: Role,
+    /// Unit as the file writes it.
+    pub unit: Option<String>,
+}
+
+/// The lines above the numbers of a text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Header {
+    /// Name of the channel.
+    pub channel: Option<String>,
+    /// Units of x, of y and of heights, as keys that name them state.
+    units: [Option<Unit>; 3],
+    /// Unit of all lengths.
+    unit: Option<Unit>,
+    /// Unit of the heights that is no length.
+    pub other_unit: Option<String>,
+    /// Width and height of a map, m.
+    pub sizes: [Option<f64>; 2],
+    /// Distance between points of a map along and between rows, m.
+    pub spacing: Option<f64>,
+    /// Numbers of columns and of rows.
+    pub counts: [Option<usize>; 2],
+    /// The last lines that are none of these entries.
+    lines: VecDeque<String>,
+}
+
+impl Header {
+    /// A header that states a unit of all lengths.
+    pub fn in_unit(unit: Option<Unit>) -> Header {
+        Header { unit, ..Header::default() }
+    }
+
+    /// Reads a line: `key: value`, `key = value` or `key,value` with a unit, a size or a channel, or else names of columns.
+    pub fn take(&mut self, line: &str) {
+        let line = line.trim_start_matches(COMMENT).trim();
+        if line.len() <= LONGEST && self.take_entry(line) {
+            return;
+        }
+        if self.lines.len() == LAST_LINES {
+            self.lines.pop_front();
+        }
+        self.lines.push_back(line.to_owned());
+    }
+
+    fn take_entry(&mut self, line: &str) -> bool {
+        let Some((key, value)) = entry(line) else { return false };
+        if is_one_of(&key, CHANNEL) {
+            self.channel = Some(value);
+        } else if let Some(axes) = axes_of_unit(&key) {
+            match (value.trim_matches(['[', ']', '(', ')']).parse().ok(), &axes[..]) {
+                (Some(unit), []) => self.unit = Some(unit),
+                (Some(unit), axes) => axes.iter().for_each(|axis| self.units[*axis] = Some(unit)),
+                (None, [2]) => self.other_unit = Some(value),
+                (None, _) => return false,
+            }
+        } else if let Some(axis) = [WIDTH, HEIGHT].iter().position(|names| is_one_of(&key, names)) {
+            let Some(size) = length(&value) else { return false };
+            self.sizes[axis] = Some(size);
+        } else if SPACING.contains(&&*key) {
+            let Some(spacing) = length(&value) else { return false };
+            self.spacing = Some(spacing);
+        } else if let Some(axis) = COUNTS.iter().position(|name| *name == key) {
+            let Ok(count) = value.parse() else { return false };
+            self.counts[axis] = Some(count);
+        } else {
+            return false;
+        }
+        true
+    }
+
+    /// Unit of x (0), y (1) or heights (2), as a key states, if the column does not.
+    pub fn unit(&self, axis: usize, column: Option<&Column>) -> Option<Unit> {
+        let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
+        of_column.or(self.units[axis]).or(self.unit)
+    }
+
+    /// Names and units of columns, from the last line with a name for each of `count` columns, of which the numbers may be
+    /// followed by further separators up to `cells` cells, and a row of units. Without such a line nothing is known of them.
+    pub fn columns(&self, count: usize, cells: usize, separator: Separator, is_unit: IsUnit) -> Vec<Column> {
+        let mut units: Option<Vec<String>> = None;
+        for line in self.lines.iter().rev() {
+            let Some(found) = cells_of(line, count, cells, separator) else { continue };
+            let is_number =
+                |cell: &String| matches!(Decimal::default().read(cell, Separator::SPACE), Cell::Number(_));
+            if found.iter().any(is_number) || !found.iter().any(|cell| cell.contains(char::is_alphanumeric)) {
+                continue;
+            }
+            let mut columns: Vec<Column> = found.iter().map(|cell| column(cell, is_unit)).collect();
+            let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
+            let names = columns.iter().any(|column| column.role != Role::Unknown);
+            if units.is_none() && !names && bare.iter().any(|cell| is_unit(cell)) {
+                units = Some(bare);
+                continue;
+            }
+            // Numbers of points often have no name, or a sign that begins a comment.
+            if let [first, _, ..] = &mut columns[..]
+                && first.name.is_empty()
+                && names
+            {
+                first.role = Role::Number;
+            }
+            add_units(&mut columns, units.unwrap_or_default(), is_unit);
+            return columns;
+        }
+        let mut columns = vec![Column::default(); count];
+        add_units(&mut columns, units.unwrap_or_default(), is_unit);
+        columns
+    }
+
+    /// Returns true if one of the last lines that are no entries is this text.
+    pub fn has_line(&self, text: &str) -> bool {
+        self.lines.iter().any(|line| line == text)
+    }
+}
+
+/// Returns true for a text that is a unit of a quantity in the columns.
+pub(crate) type IsUnit = fn(&str) -> bool;
+
+/// Adds a row of units, which overrules the units beside names where it is known.
+fn add_units(columns: &mut [Column], units: Vec<String>, is_unit: IsUnit) {
+    for (column, unit) in columns.iter_mut().zip(units) {
+        if is_unit(&unit) || column.unit.is_none() && !unit.is_empty() {
+            column.unit = Some(unit);
+        }
+    }
+}
+
+fn is_one_of(word: &str, words: &str) -> bool {
+    words.split(' ').any(|one| one == word)
+}
+
+/// Key in small letters and value of a line.
+fn entry(line: &str) -> Option<(String, String)> {
+    let bare = |text: &str| text.trim_matches(['"', ',', ';', ' ', '\t']).to_owned();
+    if let Some((key, value)) = line.split_once([':', '=', '：']) {
+        return Some((bare(key).to_lowercase(), bare(value)));
+    }
+    let mut cells = Separator::of(line).split(line);
+    let key = cells.next()?.to_lowercase();
+    let value: Vec<&str> = cells.collect();
+    Some((key, bare(&value.join(" ")))).filter(|(_, value)| !value.is_empty())
+}
+
+/// The axes whose unit a key states: x (0), y (1) and heights (2), or none for all lengths; `None` for another key.
+fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
+    let words = || key.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    if !words().any(|word| is_one_of(word, UNIT)) {
+        return None;
+    }
+    let mut axes = Vec::new();
+    for word in words().filter(|word| !is_one_of(word, UNIT) && !is_one_of(word, OF_ALL)) {
+        axes.extend_from_slice(match word {
+            "x" => &[0],
+            "y" => &[1],
+            word if is_one_of(word, OF_POSITIONS) => &[0, 1],
+            word if is_one_of(word, OF_HEIGHTS) => &[2],
+            _ => return None,
+        });
+    }
+    if key == "値の単位" { Some(vec![2]) } else { Some(axes) }
+}
+
+/// Length in m, such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
+fn length(text: &str) -> Option<f64> {
+    let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
+    let (number, unit) = text.split_at(end);
+    let unit = unit.split('/').next()?.trim().trim_matches(['[', ']', '(', ')']);
+    let unit: Unit = unit.parse().ok()?;
+    match Decimal::default().read(number, Separator::SPACE) {
+        Cell::Number(value) if value.is_finite() => Some(unit.to_metres(value)),
+        _ => None,
+    }
+}
+
+/// The cells of a line of names, if they are `count` or, separated like the numbers, up to `most`: between separators of the
+/// numbers, else of the line itself, else behind closing brackets.
+fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
+    let line = match line.split_once([':', '=']) {
+        Some((key, cells)) if is_one_of(&key.trim().to_lowercase(), "columns names fields units") => cells,
+        Some(_) => return None,
+        None => line,
+    };
+    // Between a name and its unit there may be a blank.
+    let joined = line.trim().replace(" [", "[").replace(" (", "(").replace(" / ", "/");
+    let split = |separator: Separator| {
+        let line = if separator == Separator::SPACE { &joined } else { line.trim() };
+        let mut cells: Vec<String> = separator.split(line).map(str::to_owned).collect();
+        let end = cells.iter().rposition(|cell| !cell.is_empty()).map_or(0, |last| last + 1);
+        cells.truncate(end);
+        cells
+    };
+    let mut cells = split(separator);
+    if (count..=most).contains(&cells.len()) {
+        cells.truncate(count);
+        return Some(cells);
+    }
+    let cells = split(Separator::of(&joined));
+    if cells.len() == count {
+        return Some(cells);
+    }
+    let pieces = joined.split_inclusive([']', ')']).map(|piece| piece.trim().to_owned());
+    let pieces: Vec<String> = pieces.filter(|piece| !piece.is_empty()).collect();
+    (pieces.len() == count && pieces.iter().all(|piece| piece.ends_with([']', ')']))).then_some(pieces)
+}
+
+fn bare(cell: &str) -> &str {
+    cell.trim_matches(['[', ']', '(', ')', '"', ' '])
+}
+
+/// Name, role and unit in the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral um`;
+/// an unknown one is in square brackets, behind a slash, or a short word in round brackets: `height (measured)` is a name.
+fn column(cell: &str, is_unit: IsUnit) -> Column {
+    let bracket = |(at, mark): (usize, &str)| {
+        let unit = bare(cell[at + 1..].split([']', ')']).next()?);
+        Some((&cell[..at], unit, mark == "[" || unit.chars().count() < LONGEST_UNIT))
+    };
+    let slash = cell.rsplit_once('/').map(|(name, unit)| (name, bare(unit), true));
+    // `Length 5 um` is a size.
+    let last_word = cell.rsplit_once([' ', '_']).filter(|(name, _)| {
+        !name.rsplit(' ').next().is_some_and(|before| before.contains(|c: char| c.is_ascii_digit()))
+    });
+    let parts = cell.match_indices(['[', '(']).filter_map(bracket).chain(slash);
+    let parts: Vec<_> = parts.chain(last_word.map(|(name, unit)| (name, unit, false))).collect();
+    let known = parts.iter().find(|(_, unit, _)| is_unit(unit));
+    let found = known.or_else(|| parts.iter().find(|(.., is_stated)| *is_stated));
+    let (name, unit) = found.map_or((cell, None), |(name, unit, _)| (*name, Some((*unit).to_owned())));
+    let lower = cell.split(['[', '(', '/']).next().unwrap_or_default().to_lowercase();
+    let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let role = ROLES.iter().find(|(_, known)| words().any(|word| is_one_of(word, known)));
+    Column {
+        name: name.trim_matches(['"', ' ']).to_owned(),
+        role: role.map_or(Role::Unknown, |(role, _)| *role),
+        unit,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header(lines: &[&str]) -> Header {
+        let mut header = Header::default();
+        lines.iter().for_each(|line| header.take(line));
+        header
+    }
+
+    /// Units of positions and heights of a table of x and height.
+    fn units(lines: &[&str]) -> [Option<&'static str>; 2] {
+        let header = header(lines);
+        let columns = header.columns(2, 2, Separator::SPACE, Unit::is_name);
+        [(0, 0), (2, 1)].map(|(axis, column)| header.unit(axis, Some(&columns[column])).map(Unit::name))
+    }
+
+    #[test]
+    fn units_belong_to_the_column_or_axis_that_names_them() {
+        let both = [Some("µm"), Some("nm")];
+        for lines in [
+            &["x [µm]\tz [nm]"][..],
+            &["X (um);Z (nm)"],
+            &["x/µm z/nm"],
+            &["# x [um], z [nm]"],
+            &["scan position [µm] height [nm]"],
+            &["x_um,z_nm"],
+            &["Lateral um,Raw nanometer,"],
+            &["Position,Height", "µm,nm"],
+            &["\"x [µm]\";\"z [nm]\""],
+            &["columns: x [µm], z [nm]"],
+            &["x unit: µm", "z unit = nm"],
+            &["Unit Data = nm", "Unit X = um"],
+            &["Unit X = um", "Unit Data = nm"],
+            &["Unit: nm", "X unit: µm"],
+            &["\"XY unit\",\"um\"", "\"Z unit\",\"nm\""],
+            &["Sample 7 (old)", "x [µm] z [nm]"],
+            &["x [µm] z [nm]", "--- ---", "Points = 3"],
+        ] {
+            assert_eq!(units(lines), both, "{lines:?}");
+        }
+        assert_eq!(units(&["# units: mm"]), [Some("mm"); 2]);
+        for unknown in [
+            &["x,z"][..],
+            &["x [px], z [V]"],
+            &["Length 5 mm"],
+            &["Length,5 mm"],
+            &["Cut-off (mm),0.8,Stylus tip (um),2", "X,Z"],
+            &["Cut-off (mm),Stylus tip (um)", "X,Z"],
+            &["Force unit: mm"],
+            &["Cut-off unit = mm", "x z"],
+            &[""],
+        ] {
+            assert_eq!(units(unknown), [None, None], "{unknown:?}");
+        }
+    }
+
+    #[test]
+    fn names_say_what_columns_hold() {
+        use Role::{Height, Number, Unknown, Valid, X, Y};
+        for (line, roles) in [
+            ("x y z", vec![X, Y, Height]),
+            ("Index;Position X;Position Y;Height [nm]", vec![Number, X, Y, Height]),
+            (",z,x", vec![Number, Height, X]),
+            ("no. of point;a", vec![Number, Unknown]),
+            ("X;Y;valid", vec![X, Y, Valid]),
+            ("Höhe;Weg", vec![Height, X]),
+            ("z_sensor,signal", vec![Height, Unknown]),
+        ] {
+            let count = roles.len();
+            let mut header = Header::default();
+            header.lines.push_back(line.to_owned());
+            let found = header.columns(count, count, Separator::of(line), Unit::is_name);
+            assert_eq!(found.iter().map(|column| column.role).collect::<Vec<_>>(), roles, "{line}");
+        }
+    }
+
+    #[test]
+    fn sizes_distances_and_channels_are_entries() {
+        let sizes = header(&["# Width: 2,5 µm", "# Height: 1.0mm", "# Width of nothing: 5"]).sizes;
+        assert_eq!(sizes, [Some(2.5e-6), Some(1e-3)]);
+        for [width, height, channel, unit] in [
+            ["Breite: 4,0 µm", "Höhe: 3 µm", "Kanal: A", "Einheiten: nm"],
+            ["Šířka: 4 µm", "Výška: 3 (µm)", "Kanál: A", "Jednotky hodnot: nm"],
+            ["Largeur = 4 µm", "Hauteur: 3 µm", "Canal : A", "Unités: nm"],
+            ["幅：4 µm", "高さ：3 µm", "チャネル：A", "値の単位：nm"],
+        ] {
+            let found = header(&[width, height, channel, unit]);
+            assert_eq!(found.sizes, [Some(4e-6), Some(3e-6)], "{width}");
+            assert_eq!(
+                (found.channel.as_deref(), found.unit(2, None).map(Unit::name)),
+                (Some("A"), Some("nm"))
+            );
+        }
+        let keyence = header(&[
+            "\"XY calibration\",\"500\",\"nm/pixel\"",
+            "\"Output image data\",\"Height\"",
+            "\"Horizontal\",\"40\"",
+            "\"Unit\",\"um\"",
+            "\"Height\"",
+        ]);
+        assert_eq!((keyence.spacing, keyence.counts), (Some(5e-7), [Some(40), None]));
+        assert_eq!(keyence.unit(2, None).map(Unit::name), Some("µm"));
+        assert_eq!(header(&["Value units: deg"]).other_unit.as_deref(), Some("deg"));
+    }
+}

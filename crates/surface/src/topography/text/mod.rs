@@ -1,0 +1,401 @@
+//! Surfaces in text: columns of heights, positions and heights, or rows of a map, of one channel or several.
+//!
+//! Lines before the first line of numbers are a header ([`header::Header`]). The first line of numbers fixes the separator
+//! ([`layout::Separator::of`]) and the number of columns ([`table::Table`]), which are heights, positions and heights, or rows
+//! of a map ([`columns::list_of`]). A header, or in rows of a map an empty line, amid the numbers begins another channel.
+
+pub(crate) mod columns;
+pub(crate) mod grid;
+pub(crate) mod header;
+pub(crate) mod layout;
+pub(crate) mod matrix;
+pub(crate) mod table;
+pub(crate) mod warnings;
+use header::Header;
+
+use super::Unit;
+use super::reading::Reading;
+use super::{Place, TopographyError, refused, shown};
+use asperity_data::PROVENANCE;
+use asperity_data::check_room;
+use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use layout::COMMENT;
+use std::borrow::Cow;
+use std::ops::Range;
+use table::{Table, is_header};
+
+/// Most headers with numbers.
+const MOST_PARTS: usize = 256;
+
+/// Most channels that a message lists.
+const MOST_LISTED: usize = 8;
+
+/// Numbers with the header before them.
+#[derive(Default)]
+struct Part {
+    header: Header,
+    table: Option<Table>,
+}
+
+/// Reads the channel of this number, from 0, of a text with several; without a number, the only one whose heights are lengths.
+pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
+    // Tables of results are in SI units.
+    let metre = bytes.starts_with(PROVENANCE.as_bytes()).then_some(Unit::METRE);
+    let mut parts = vec![Part { header: Header::in_unit(metre), table: None }];
+    let (mut before, mut last_line) = (None::<(usize, String)>, 0);
+    each_text(bytes, |number, line| {
+        last_line = number;
+        let is_comment = line.starts_with(COMMENT);
+        if is_new_part(&parts, line, is_comment) {
+            if parts.len() == MOST_PARTS {
+                return Err(refused(Place::Line(number), format!("more than {MOST_PARTS} headers"), "fewer"));
+            }
+            parts.push(Part::default());
+        }
+        let Some(Part { header, table }) = parts.last_mut() else { return Ok(()) };
+        match table {
+            Some(table) if line.is_empty() => table.pause(),
+            Some(_) if is_comment => {}
+            Some(table) => table.take(number, line)?,
+            None if line.is_empty() => {}
+            None if is_comment || is_header(line) => {
+                before = (!is_comment).then(|| (number, line.to_owned()));
+                header.take(line);
+            }
+            None => {
+                let before = before.take();
+                *table =
+                    Some(Table::new(before.as_ref().map(|(number, line)| (*number, &**line)), number, line)?);
+            }
+        }
+        Ok(())
+    })?;
+    let (chosen, rows) = chosen(&parts, channel)?;
+    let Part { header, table: Some(table) } = parts.swap_remove(chosen) else {
+        return Err(no_numbers());
+    };
+    // Behind the last line end is an empty line.
+    let is_open = rows.end == table.rows() && table.last_line() == last_line;
+    table.reading(&header, rows, is_open)
+}
+
+/// Returns true for a line behind numbers that begins another header: words, or a comment with the name of a channel.
+fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
+    let Some(Part { table: Some(table), .. }) = parts.last() else { return false };
+    if !is_comment {
+        return !line.is_empty() && table.is_heading(line);
+    }
+    let mut header = Header::default();
+    header.take(line);
+    header.channel.is_some()
+}
+
+fn no_numbers() -> TopographyError {
+    refused(Place::File, "no line of numbers", "a line of numbers for each point or row")
+}
+
+/// The part and the rows of the channel of this number, or of the only one, or of the only one whose heights are lengths.
+fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), TopographyError> {
+    let with_numbers =
+        parts.iter().enumerate().filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
+    let channels: Vec<(usize, Range<usize>)> = with_numbers
+        .flat_map(|(index, table)| table.parts().into_iter().map(move |rows| (index, rows)))
+        .collect();
+    if let [only] = &channels[..] {
+        return Ok(only.clone());
+    }
+    let is_length = |(part, _): &&(usize, Range<usize>)| parts[*part].header.unit(2, None).is_some();
+    let may_be_length = |(part, _): &&(usize, Range<usize>)| parts[*part].header.other_unit.is_none();
+    let wanted = channel.and_then(|channel| channels.get(channel as usize)).filter(may_be_length);
+    let mut lengths = channels.iter().filter(is_length).filter(|_| channel.is_none());
+    match (wanted.or(lengths.next()), lengths.next()) {
+        (Some(chosen), None) => return Ok(chosen.clone()),
+        _ if channels.is_empty() => return Err(no_numbers()),
+        _ => {}
+    }
+    let describe = |(number, (part, rows)): (usize, &(usize, Range<usize>))| {
+        let Part { header, table } = &parts[*part];
+        let name = header.channel.as_ref().map(|name| format!(" {:?}", shown(name))).unwrap_or_default();
+        let unit = header.unit(2, None).map(Unit::name).or(header.other_unit.as_deref());
+        let unit = unit.map(|unit| format!(" in {}", shown(unit))).unwrap_or_default();
+        let line = table.as_ref().map_or(0, |table| table.line(rows.start));
+        format!("{number}{name}{unit} from line {line}")
+    };
+    let mut listed: Vec<String> = channels.iter().enumerate().take(MOST_LISTED).map(describe).collect();
+    if channels.len() > MOST_LISTED {
+        listed.push("…".to_owned());
+    }
+    let none = channel.map(|channel| format!("no lengths in channel {channel} of ")).unwrap_or_default();
+    let fault = format!("{none}{} channels: {}", channels.len(), listed.join(", "));
+    Err(refused(Place::File, fault, "--channel with the number of one, in a scene roughness.channel"))
+}
+
+/// Passes all lines of numbers of a table with the header before them and their places on: the header ends at the first line
+/// for which `is_header` is false. Empty lines, comments between numbers and the scene in a table of results are skipped.
+pub fn each_line(
+    bytes: &[u8],
+    is_header: impl Fn(&str) -> bool,
+    mut take: impl FnMut(&Header, Place, &str) -> Result<(), TopographyError>,
+) -> Result<(), TopographyError> {
+    let (mut header, mut has_begun) = (Header::default(), false);
+    each_text(bytes, |number, line| {
+        let is_comment = line.starts_with(COMMENT);
+        has_begun |= !line.is_empty() && !is_comment && !is_header(line);
+        match (has_begun, is_comment) {
+            (_, false) if line.is_empty() => {}
+            (true, false) => take(&header, Place::Line(number), line)?,
+            (false, _) => header.take(line),
+            _ => {}
+        }
+        Ok(())
+    })
+}
+
+/// Passes the lines of a text on, with their numbers and without white space around them, except for the scene in a table of
+/// results, whose words may look like units.
+fn each_text(
+    bytes: &[u8],
+    mut take: impl FnMut(usize, &str) -> Result<(), TopographyError>,
+) -> Result<(), TopographyError> {
+    let mut in_provenance = false;
+    let text = decoded(bytes)?;
+    let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
+    for (index, line) in text.split(|byte| *byte == end).enumerate() {
+        let line = line_text(line, &Place::Line(index + 1))?;
+        if !line.is_empty() {
+            in_provenance = line.starts_with(COMMENT) && (in_provenance || line.starts_with(PROVENANCE));
+        }
+        if !in_provenance {
+            take(index + 1, &line)?;
+        }
+    }
+    Ok(())
+}
+
+/// Longest line, bytes: a row of a large matrix.
+const LONGEST_LINE: usize = 1 << 24;
+
+/// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
+fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
+    let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
+    let text = &bytes[mark..];
+    if encoding == UTF_8 {
+        return Ok(Cow::Borrowed(text));
+    }
+    check_room(2 * text.len() as u64)?;
+    Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
+}
+
+/// Returns a line without white space around it: UTF-8, or, if that is invalid, Windows-1252, in which older programs
+/// write µ and °.
+fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, TopographyError> {
+    let (fault, allowed) = if line.len() > LONGEST_LINE {
+        (format!("longer than {LONGEST_LINE} bytes"), format!("at most {LONGEST_LINE} bytes"))
+    } else if let Some(at) = line.iter().position(|byte| *byte == 0) {
+        let formats = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, NetCDF, or these in gzip";
+        (format!("byte {at} of the line is zero, so this is no text"), formats.to_owned())
+    } else {
+        let line = line.trim_ascii();
+        let other = |_| WINDOWS_1252.decode_without_bom_handling(line).0;
+        return Ok(str::from_utf8(line).map_or_else(other, Cow::Borrowed));
+    };
+    Err(refused(place.clone(), fault, allowed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(text: &str) -> Result<Reading, String> {
+        read(text.as_bytes(), None).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_profile_is_the_same_in_every_notation() {
+        let expected = text("0.5 1e-1\n1.5 2.5\n2.5 -3\n").unwrap();
+        assert_eq!(expected.positions, Some(vec![0.5, 1.5, 2.5]));
+        assert_eq!(expected.heights, [0.1, 2.5, -3.0]);
+        for other in [
+            "0.5\t1e-1\r\n1.5\t2.5\r\n2.5\t-3\r\n",
+            "# stylus\nx,z\n0.5, 1e-1\n\n1.5,2.5\n2.5 ,-3",
+            "\u{feff}0,5;1e-1\n1,5;2,5\n2,5;-3\n",
+            "0,5 0,1\n1,5 2,5\n2,5 -3,0",
+            "x z\n2.5 -3\n1.5 2.5\n0.5 1e-1\n",
+            "Instrument: A7\nPoints = 3\n0.5 0.1\n# pause\n1.5 2.5\n2.5 -3",
+        ] {
+            assert_eq!(text(other).unwrap(), expected, "{other}");
+        }
+        let named = text("x [µm];z [nm]\n0,5;1e-1\n1,5;2,5\n2,5;-3\n").unwrap();
+        assert_eq!(units(&named), [Some("µm"), Some("nm")]);
+    }
+
+    #[test]
+    fn wrong_lines_are_named() {
+        for (lines, expected) in [
+            ("1 2\n1 3", "line 2: x = 1e0 after 1e0; allowed: another position than before"),
+            ("1 2\n2 3\n1.5 3", "line 3: x = 1.5e0 after 2e0; allowed: ascending positions, as before"),
+            ("3 2\n2 3\n2.5 3", "line 3: x = 2.5e0 after 2e0; allowed: descending positions, as before"),
+            ("1 2\n2 3 4", "line 1: 1 2 is no count of the 1 lines of 3 columns that follow"),
+            ("1 2\n2 3\n3 4 5", "line 3: 3 columns; allowed: 2, position and height"),
+            ("1 2 3 4\n1 2 3", "line 2: 3 columns; allowed: 4, as in the first row"),
+            (
+                "7\n1 2\n2 3\n3 4",
+                "line 1: 7 is no count of the 3 lines of 2 columns that follow; allowed: numbers of lines, of",
+            ),
+            (
+                "x,z,error\n0,1,2\n",
+                "3 columns \"x\", \"z\", \"error\"; allowed: a height, x and a height, or",
+            ),
+            ("0 1 what 3\n1 2 3 4", "line 1: \"what\"; allowed: a number"),
+            ("1 2\n2 what", "line 2: \"what\"; allowed: a number from -1e9 to 1e9"),
+            ("1 2\ninf 2", "line 2: \"inf\"; allowed: a number from"),
+            ("0,5;1\n1.5;2", "line 2: \"1.5\" has another decimal mark than the numbers before"),
+            ("1;2\n;3", "line 2: a position is missing"),
+            ("x;z\n", "no line of numbers; allowed: a line of numbers for each point or row"),
+        ] {
+            let error = text(lines).unwrap_err();
+            assert!(error.starts_with(expected), "{lines:?}: {error}");
+        }
+    }
+
+    /// Units of positions and of heights by their names.
+    fn units(reading: &Reading) -> [Option<&'static str>; 2] {
+        [0, 2].map(|axis| reading.units[axis].map(Unit::name))
+    }
+
+    #[test]
+    fn what_is_no_number_of_a_point_is_left_out() {
+        let expected = text("0.5 1e-1\n1.5 2.5\n2.5 -3\n").unwrap();
+        for other in [
+            // Separators at the ends of lines.
+            "0.5,0.1,,\n1.5,2.5,,\n2.5,-3,,\n",
+            "x,z,\n0.5,0.1,\n1.5,2.5\n2.5,-3,,\n",
+            // Quotation marks, and CR alone at the ends of lines.
+            "\"0,5\";\"0,1\"\r\"1,5\";\"2,5\"\r\"2,5\";\"-3\"",
+            // Counts, of points or of the distances between them.
+            "3\n0.5 0.1\n1.5 2.5\n2.5 -3\n",
+            "2\n0.5 0.1\n1.5 2.5\n2.5 -3\n",
+            // Headers that begin with a number, and footers.
+            "5.6 mm scan\n3 points\n0.5 0.1\n1.5 2.5\n2.5 -3\n\nEnd of data\n",
+            "3 points\n0.5,0.1\n1.5,2.5\n2.5,-3\n3 points,\"read\",at 12:00\n",
+            // Numbers of points and their validity.
+            "index;x;z\n1;0.5;0.1\n2;1.5;2.5\n3;2.5;-3\n",
+            "Z,X,valid\n0.1,0.5,1\n2.5,1.5,1\n-3,2.5,1\n",
+        ] {
+            let found = text(other).unwrap();
+            assert_eq!(
+                (found.positions, found.heights),
+                (expected.positions.clone(), expected.heights.clone()),
+                "{other}"
+            );
+        }
+        let invalid = text("X;Y;valid\n[mm];[um];[1/0]\n0;1;1\n1;7;0\n2;3;1\n").unwrap();
+        assert!(invalid.heights[1].is_nan() && invalid.first_missing == Some(Place::Line(4)));
+        assert_eq!(units(&invalid), [Some("mm"), Some("µm")]);
+    }
+
+    #[test]
+    fn channels_are_chosen_and_never_joined() {
+        let channel = |name: &str, unit: &str, first: f64| {
+            let rows = format!("{first} 2 3 4\n5 6 7 9\n");
+            format!("# Channel: {name}\n# Width: 4 nm\n# Height: 2 nm\n# Value units: {unit}\n{rows}")
+        };
+        let both = format!("{}\n{}", channel("Phase", "deg", 10.0), channel("Height", "nm", 20.0));
+        let found = text(&both).unwrap();
+        assert_eq!((found.heights[0], found.heights.len(), found.spacing), (20.0, 8, Some([1e-9; 2])));
+        let two = format!("{}{}", channel("Height", "nm", 10.0), channel("Retrace", "nm", 20.0));
+        assert_eq!(
+            text(&two).unwrap_err(),
+            "2 channels: 0 \"Height\" in nm from line 5, 1 \"Retrace\" in nm from line 11; allowed: --channel with the number \
+             of one, in a scene roughness.channel"
+        );
+        let chosen =
+            |text: &str, channel| read(text.as_bytes(), Some(channel)).map_err(|error| error.to_string());
+        assert_eq!(chosen(&two, 1).unwrap().heights[0], 20.0);
+        assert!(
+            chosen(&two, 2).unwrap_err().starts_with("no lengths in channel 2 of 2 channels: 0 \"Height\"")
+        );
+        assert!(
+            chosen(&both, 0)
+                .unwrap_err()
+                .starts_with("no lengths in channel 0 of 2 channels: 0 \"Phase\" in deg")
+        );
+        // Without headers, and profiles.
+        let rows = "1 2 3 4\n5 6 7 9\n\n11 2 3 4\n5 6 7 9\n";
+        assert!(
+            text(rows)
+                .unwrap_err()
+                .starts_with("2 channels: 0 from line 1, 1 from line 4; allowed: --channel")
+        );
+        assert_eq!(chosen(rows, 1).unwrap().heights[0], 11.0);
+        assert_eq!(text("1 2 3 4\n\n5 6 7 9\n\n1 2 3 4\n").unwrap().heights.len(), 12);
+        let profiles = "x z\n0 1\n1 2\nx z\n0 5\n1 6\n";
+        assert!(text(profiles).unwrap_err().starts_with("2 channels: 0 from line 2, 1 from line 5"));
+        assert_eq!(chosen(profiles, 1).unwrap().heights, [5.0, 6.0]);
+        assert!(text("0 1\n1 2\n\n0 5\n1 6\n").unwrap_err().starts_with("line 4: x = 0e0 after 1e0"));
+        let many = "0 1\nx z\n".repeat(MOST_PARTS);
+        assert!(text(&many).unwrap_err().starts_with("line 512: more than 256 headers"));
+    }
+
+    #[test]
+    fn maps_have_the_distances_that_the_file_states() {
+        let keyence = "\"XY calibration\",\"500\",\"nm/pixel\"\n\"Horizontal\",\"4\"\n\"Vertical\",\"2\"\n\"Unit\",\"um\"\n\"Height\"\n\
+                       \"1\",\"2\",\"3\",\"4\"\n\"5\",\"6\",\"7\",\"9\"\n";
+        let found = text(keyence).unwrap();
+        assert_eq!(
+            (found.columns, found.spacing, units(&found)),
+            (4, Some([5e-7; 2]), [Some("m"), Some("µm")])
+        );
+        let cut = keyence.replace("\"5\"", "5").replacen("4\"", "5\"", 1);
+        assert_eq!(
+            text(&cut).unwrap_err(),
+            "4 columns of numbers, 5 in the header; allowed: as many as the header states"
+        );
+        let points = text("x [mm] y [µm] z [nm]\n0 0 1\n1 0 2\n0 5 3\n1 5 4\n").unwrap();
+        assert_eq!((points.spacing, units(&points)), (Some([1.0, 5.0]), [Some("mm"), Some("nm")]));
+        assert_eq!(points.units[1].map(Unit::name), Some("µm"));
+        let one = text("x [mm] y z [nm]\n0 0 1\n1 0 2\n0 5 3\n1 5 4\n").unwrap_err();
+        assert!(one.starts_with("mm is the unit of one position, and the other one has none"), "{one}");
+        let rough = |row: usize| {
+            (0..9).map(move |column| (3.7 * ((row * 9 + column) * (column + 2)) as f64).sin().to_string())
+        };
+        let positions =
+            (0..9).map(|column| format!("{}", 0.25 * f64::from(column))).collect::<Vec<_>>().join(",");
+        let rows =
+            (0..9).map(|row| format!("{},{}\n", 0.5 * row as f64, rough(row).collect::<Vec<_>>().join(",")));
+        let matrix =
+            format!("Unit X = um\nUnit Y = um\nUnit Z = nm\ny\\x,{positions}\n{}", rows.collect::<String>());
+        let found = text(&matrix).unwrap();
+        assert_eq!((found.columns, found.heights.len(), found.spacing), (9, 81, Some([0.25, 0.5])));
+        assert_eq!(
+            (found.heights[80].to_string(), units(&found)),
+            (rough(8).next_back().unwrap(), [Some("µm"), Some("nm")])
+        );
+    }
+
+    #[test]
+    fn a_number_that_is_cut_off_is_a_warning() {
+        let rows: String =
+            (0..50).map(|i| format!("{:.2e} 3e-9 1e-9 2e-9\n", 1e-9 * f64::from(i * i % 11))).collect();
+        let cut = |end: usize| text(&rows[..rows.len() - end]).unwrap().warnings;
+        assert_eq!((cut(0), cut(1)), (vec![], vec![]));
+        let warnings = cut(4);
+        assert!(
+            warnings[0].starts_with("line 50: the last number, 2e0, is far from all others"),
+            "{warnings:?}"
+        );
+        let fill = rows.replacen("1e-9", "-9999", 1);
+        let warnings = text(&fill).unwrap().warnings;
+        assert!(warnings[0].starts_with("line 1: the height -9.999e3 is "), "{warnings:?}");
+    }
+
+    #[test]
+    fn binary_content_and_endless_lines_are_refused() {
+        let error = |line: &[u8]| line_text(line, &Place::Line(2)).unwrap_err().to_string();
+        assert!(error(b"b\0").starts_with("line 2: byte 1 of the line is zero"));
+        let mut long = vec![b'1'; LONGEST_LINE];
+        assert_eq!(line_text(&long, &Place::File).unwrap().len(), LONGEST_LINE);
+        long.push(b'1');
+        assert!(error(&long).starts_with("line 2: longer than 16777216 bytes"));
+    }
+}

@@ -1,0 +1,412 @@
+//! Lines of numbers of a text, and what they are: heights, a profile, or a map.
+
+use super::super::Unit;
+use super::super::reading::Reading;
+use super::super::surface::LARGEST;
+use super::super::{Place, TopographyError, refused, shown};
+use super::columns::{List, list_of};
+use super::grid::{Digits, Map, map_of, move_to_printed_grid};
+use super::header::{Column, Header, Role};
+use super::layout::{Cell, Decimal, Separator};
+use super::{matrix, warnings};
+use asperity_data::{gathered, push, reserve};
+use std::ops::Range;
+
+/// Columns whose printed digits count, since they may be positions.
+const FEW_COLUMNS: usize = 4;
+
+/// Most lines and most numbers of a line with counts of lines and columns.
+const MOST_COUNTS: usize = 3;
+
+/// Lines of numbers, in the units of the file.
+#[derive(Debug)]
+pub(super) struct Table {
+    separator: Separator,
+    decimal: Decimal,
+    /// Cells of a line, empty cells at the end among them, and cells up to the last one that is not empty.
+    cells: usize,
+    width: usize,
+    values: Vec<f64>,
+    /// True for a column with a cell that is not empty.
+    is_filled: Vec<bool>,
+    /// Digits of the first columns, and digits of the first line without its first number.
+    digits: [Digits; FEW_COLUMNS],
+    first_line: Digits,
+    /// Rows and line numbers where these do not follow the row and the line before.
+    lines: Vec<(usize, usize)>,
+    /// Rows behind an empty line.
+    breaks: Vec<usize>,
+    is_paused: bool,
+    /// Numbers before the first row, with the number of their line.
+    counts: Option<(usize, Vec<f64>)>,
+}
+
+/// Cells of a line, and of these up to the last one that is not empty.
+fn widths(separator: Separator, line: &str) -> (usize, usize) {
+    let count = |(_, width), (index, cell): (usize, &str)| {
+        (index + 1, if cell.is_empty() { width } else { index + 1 })
+    };
+    separator.split(line).enumerate().fold((0, 0), count)
+}
+
+/// Checks that the positions along both axes have a unit, or none of them.
+fn check_both([x, y]: [Option<Unit>; 2]) -> Result<(), TopographyError> {
+    let (Some(unit), None) = (x.or(y), x.and(y)) else { return Ok(()) };
+    let found = format!("{unit} is the unit of one position, and the other one has none");
+    Err(refused(Place::File, found, "units of both x and y in the file, or of none"))
+}
+
+fn is_word(cell: &str) -> bool {
+    cell.contains(char::is_alphabetic) && !cell.contains(|c: char| c.is_ascii_digit())
+}
+
+/// Returns true for a line before the numbers: its first cell is no number, another one is a word, or all are empty.
+pub(super) fn is_header(line: &str) -> bool {
+    let separator = Separator::of(line);
+    let is_none = |cell: &str| Decimal::default().read(cell, separator) == Cell::NoNumber;
+    let mut cells = separator.split(line);
+    cells.next().is_none_or(is_none)
+        || cells.any(|cell| is_none(cell) && is_word(cell))
+        || !line.contains(char::is_alphanumeric)
+}
+
+impl Table {
+    /// A table in the form of this first line.
+    fn empty(line: &str) -> Self {
+        let separator = Separator::of(line);
+        let (cells, width) = widths(separator, line);
+        Table {
+            separator,
+            decimal: Decimal::default(),
+            cells,
+            width,
+            values: Vec::new(),
+            is_filled: vec![false; cells],
+            digits: [Digits::default(); FEW_COLUMNS],
+            first_line: Digits::default(),
+            lines: Vec::new(),
+            breaks: Vec::new(),
+            is_paused: false,
+            counts: None,
+        }
+    }
+
+    /// A table from its first line of numbers on. The line before belongs to it if it has as many cells, most of them numbers:
+    /// positions behind a word, as in `y\x 0 1 2`.
+    pub fn new(before: Option<(usize, &str)>, number: usize, line: &str) -> Result<Self, TopographyError> {
+        let mut table = Table::empty(line);
+        if let Some((number, before)) = before {
+            let separator = table.separator;
+            let is_number = |cell: &str| matches!(Decimal::default().read(cell, separator), Cell::Number(_));
+            let mut cells = separator.split(before);
+            let first = cells.next().unwrap_or_default();
+            let numbers = separator.split(before).filter(|cell| is_number(cell)).count();
+            let is_same = widths(separator, before).1 == table.width;
+            let has_corner = numbers > MOST_COUNTS && numbers + 1 == table.width && !is_number(first);
+            if is_same && (has_corner || (2 * numbers > table.width && is_number(first))) {
+                table.take_cells(number, before, has_corner)?;
+            }
+        }
+        table.take(number, line)?;
+        Ok(table)
+    }
+
+    pub fn rows(&self) -> usize {
+        self.values.len() / self.cells
+    }
+
+    /// Number of the last line.
+    pub fn last_line(&self) -> usize {
+        self.line(self.rows() - 1)
+    }
+
+    /// Number of the line of a row.
+    pub fn line(&self, row: usize) -> usize {
+        let run = self.lines.partition_point(|(first, _)| *first <= row).saturating_sub(1);
+        self.lines.get(run).map_or(0, |(first, line)| line + row - first)
+    }
+
+    /// Notes an empty line.
+    pub fn pause(&mut self) {
+        self.is_paused = true;
+    }
+
+    /// Returns true for a line of words between or behind lines of numbers.
+    pub fn is_heading(&self, line: &str) -> bool {
+        // Most lines have no letters but those of exponents.
+        if line.bytes().all(|byte| byte.is_ascii() && !(byte.is_ascii_alphabetic() && byte | 32 != b'e')) {
+            return false;
+        }
+        let mut decimal = self.decimal;
+        let is_number = |cell: &str| matches!(decimal.read(cell, self.separator), Cell::Number(_));
+        let width = widths(self.separator, line).1;
+        let is_other =
+            width != self.width || (width < FEW_COLUMNS && !self.separator.split(line).any(is_number));
+        is_other && self.separator.split(line).any(is_word)
+    }
+
+    /// Reads a line without white space around it. Lines before may count the rows and columns of lines with more cells.
+    pub fn take(&mut self, number: usize, line: &str) -> Result<(), TopographyError> {
+        let are_counts = self.values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
+        if (1..=MOST_COUNTS).contains(&self.values.len()) && self.counts.is_none() && are_counts {
+            let table = Table::empty(line);
+            if table.cells > self.cells {
+                let counts = (self.line(0), std::mem::take(&mut self.values));
+                *self = Table { counts: Some(counts), ..table };
+            }
+        }
+        self.take_cells(number, line, false)
+    }
+
+    /// Reads a line, whose first cell may be no number.
+    fn take_cells(&mut self, number: usize, line: &str, has_corner: bool) -> Result<(), TopographyError> {
+        let (start, row) = (self.values.len(), self.rows());
+        let (mut found, mut width) = (0, 0);
+        reserve(&mut self.values, self.cells)?;
+        for cell in self.separator.split(line) {
+            if !cell.is_empty() {
+                width = found + 1;
+            }
+            if found < self.cells {
+                let value = if has_corner && found == 0 { f64::NAN } else { self.value(number, cell)? };
+                self.values.push(value);
+                self.is_filled[found] |= !cell.is_empty();
+                if found < FEW_COLUMNS {
+                    self.digits[found].take(cell);
+                }
+                if row == 0 && found > 0 {
+                    self.first_line.take(cell);
+                }
+            }
+            found += 1;
+        }
+        // Separators at the ends of lines may differ.
+        if found != self.cells && width != self.width {
+            let expected = match self.width {
+                1 => "1, the height".to_owned(),
+                2 => "2, position and height".to_owned(),
+                3 => "3, two positions and height".to_owned(),
+                columns => format!("{columns}, as in the first row"),
+            };
+            return Err(refused(Place::Line(number), format!("{found} columns"), expected));
+        }
+        self.values.resize(start + self.cells, f64::NAN);
+        if self.lines.last().is_none_or(|(first, line)| line + row - first != number) {
+            push(&mut self.lines, (row, number))?;
+        }
+        if std::mem::take(&mut self.is_paused) && row > 0 {
+            push(&mut self.breaks, row)?;
+        }
+        Ok(())
+    }
+
+    fn value(&mut self, number: usize, cell: &str) -> Result<f64, TopographyError> {
+        let quoted = || format!("{:?}", shown(cell));
+        let (fault, allowed) = match self.decimal.read(cell, self.separator) {
+            Cell::Number(value) if value.abs() <= LARGEST * 1e12 => return Ok(value),
+            Cell::Missing => return Ok(f64::NAN),
+            Cell::OtherMark => {
+                let fault = format!("{} has another decimal mark than the numbers before", quoted());
+                (fault, "one decimal mark throughout".to_owned())
+            }
+            Cell::Number(_) | Cell::NoNumber => {
+                (quoted(), format!("a number from -{LARGEST:e} to {LARGEST:e}"))
+            }
+        };
+        Err(refused(Place::Line(number), fault, allowed))
+    }
+
+    /// Number of columns up to the last one with a cell that is not empty.
+    fn columns(&self) -> usize {
+        self.is_filled.iter().rposition(|is_filled| *is_filled).map_or(1, |last| last + 1)
+    }
+
+    /// Rows between empty lines, where these separate channels: rows without positions, unless each is behind an empty line.
+    pub fn parts(&self) -> Vec<Range<usize>> {
+        let (rows, columns) = (self.rows(), self.columns());
+        let are_apart = (columns == 1 || columns >= FEW_COLUMNS) && self.breaks.len() + 1 < rows;
+        let starts = std::iter::once(0).chain(self.breaks.iter().copied().filter(|_| are_apart));
+        let ends = self.breaks.iter().copied().filter(|_| are_apart).chain([rows]);
+        starts.zip(ends).map(|(start, end)| start..end).collect()
+    }
+
+    /// The surface of some rows. `is_open` is true if the last line has no line end.
+    pub fn reading(
+        mut self,
+        header: &Header,
+        rows: Range<usize>,
+        is_open: bool,
+    ) -> Result<Reading, TopographyError> {
+        let cells = self.cells;
+        if rows.len() < self.rows() {
+            self.values.truncate(rows.end * cells);
+            self.values.drain(..rows.start * cells);
+            self.breaks.clear();
+            self.lines = vec![(0, self.line(rows.start))];
+        }
+        let columns = header.columns(self.columns(), cells, self.separator, Unit::is_name);
+        let Some(list) = list_of(&columns)? else { return self.map(header, is_open) };
+        self.check_counts(&[])?;
+        let place = |row: usize| Place::Line(self.line(row));
+        let mut heights = self.column(list.height)?;
+        if let Some(valid) = list.valid {
+            for (row, height) in heights.iter_mut().enumerate() {
+                match self.values[row * cells + valid] {
+                    1.0 => {}
+                    0.0 => *height = f64::NAN,
+                    other => {
+                        let fault = format!("{other:e} in the column {:?}", shown(&columns[valid].name));
+                        return Err(refused(place(row), fault, "1 for a measured point, or 0"));
+                    }
+                }
+            }
+        }
+        let first_missing = heights.iter().position(|height| height.is_nan()).map(place);
+        let warnings = warnings::of_heights(&heights, is_open, place);
+        let reading = self.points(header, &columns, list, heights)?;
+        Ok(Reading { first_missing, warnings, ..reading })
+    }
+
+    /// The profile or map of a list of points.
+    fn points(
+        mut self,
+        header: &Header,
+        columns: &[Column],
+        List { x, y, height, .. }: List,
+        heights: Vec<f64>,
+    ) -> Result<Reading, TopographyError> {
+        let format = "text columns";
+        let unit = |axis: usize, column: usize| header.unit(axis, Some(&columns[column]));
+        let is_y = |column: usize| columns[column].role == Role::Y;
+        // Of the columns X and Y the second is the height.
+        let of_heights = unit(2, height).or(unit(1, height).filter(|_| is_y(height)));
+        let digits = self.digits;
+        let digits = |column: usize| digits[column.min(FEW_COLUMNS - 1)];
+        match (x, y) {
+            (Some(x), Some(y)) => {
+                let [of_x, of_y] = [unit(0, x), unit(1, y)];
+                let (xs, ys) = (self.column(x)?, self.take_positions(y)?);
+                self.check_measured(&xs)?;
+                let place = |row: usize| Place::Line(self.line(row));
+                let map = map_of([&xs, &ys], &heights, [digits(x), digits(y)], place)?;
+                check_both([of_x, of_y])?;
+                let units = [of_x, of_y, of_heights];
+                Ok(Reading::even(format, map.heights, map.columns, map.distances, units))
+            }
+            (Some(x), None) => {
+                let lateral = unit(if is_y(x) { 1 } else { 0 }, x);
+                let mut positions = self.take_positions(x)?;
+                move_to_printed_grid(&mut positions, digits(x))?;
+                self.check_order(&positions)?;
+                Ok(Reading::profile(format, positions, heights, [lateral, of_heights]))
+            }
+            (None, _) => {
+                let count = heights.len();
+                let lateral = header.unit(0, None);
+                Ok(Reading::even(format, heights, count, None, [lateral, lateral, of_heights]))
+            }
+        }
+    }
+
+    /// The map of rows of heights.
+    fn map(mut self, header: &Header, is_open: bool) -> Result<Reading, TopographyError> {
+        let (cells, columns) = (self.cells, self.columns());
+        let mut index = 0;
+        self.values.retain(|_| {
+            index += 1;
+            (index - 1) % cells < columns
+        });
+        self.cells = columns;
+        let values = std::mem::take(&mut self.values);
+        let place = |row: usize| Place::Line(self.line(row));
+        let digits = [self.first_line, self.digits[0]];
+        let Map { heights, columns: found, distances } =
+            matrix::without_positions(values, columns, digits, place)?;
+        // Positions take the first row and column.
+        let above = columns - found;
+        let line_of = |index: usize| place(index / found + above);
+        let rows = heights.len() / found;
+        self.check_counts(&[found, rows])?;
+        for (count, stated, name) in [(found, header.counts[0], "columns"), (rows, header.counts[1], "rows")]
+        {
+            if stated.is_some_and(|stated| stated != count) {
+                let fault =
+                    format!("{count} {name} of numbers, {} in the header", stated.unwrap_or_default());
+                return Err(refused(Place::File, fault, "as many as the header states"));
+            }
+        }
+        let warnings = warnings::of_heights(&heights, is_open, line_of);
+        let first_missing = heights.iter().position(|height| height.is_nan()).map(line_of);
+        let [width, height] = header.sizes;
+        let of_sizes = width.zip(height).map(|(width, height)| [width / found as f64, height / rows as f64]);
+        let stated = of_sizes.or(header.spacing.map(|spacing| [spacing; 2]));
+        // Sizes are in m.
+        let of_axes = if stated.is_some() {
+            [Some(Unit::METRE); 2]
+        } else {
+            [0, 1].map(|axis| header.unit(axis, None))
+        };
+        if stated.or(distances).is_some() {
+            check_both(of_axes)?;
+        }
+        let units = [of_axes[0], of_axes[1], header.unit(2, None)];
+        let reading = Reading::even("text matrix", heights, found, stated.or(distances), units);
+        Ok(Reading { first_missing, warnings, ..reading })
+    }
+
+    /// The positions in a column, in the memory of all numbers, which are no longer needed.
+    fn take_positions(&mut self, column: usize) -> Result<Vec<f64>, TopographyError> {
+        let (cells, mut index) = (self.cells, 0);
+        let mut positions = std::mem::take(&mut self.values);
+        positions.retain(|_| {
+            index += 1;
+            (index - 1) % cells == column
+        });
+        positions.shrink_to_fit();
+        self.check_measured(&positions)?;
+        Ok(positions)
+    }
+
+    fn check_measured(&self, positions: &[f64]) -> Result<(), TopographyError> {
+        let Some(row) = positions.iter().position(|x| x.is_nan()) else { return Ok(()) };
+        Err(refused(Place::Line(self.line(row)), "a position is missing", "a number for each position"))
+    }
+
+    fn column(&self, column: usize) -> Result<Vec<f64>, TopographyError> {
+        let values = self.values.iter().skip(column).step_by(self.cells).copied();
+        Ok(gathered(self.rows(), values)?)
+    }
+
+    /// Checks that the numbers before the first row count its rows, the distances between these, columns or points.
+    fn check_counts(&self, of_map: &[usize]) -> Result<(), TopographyError> {
+        let Some((line, counts)) = &self.counts else { return Ok(()) };
+        let rows = if of_map.is_empty() { self.rows() } else { of_map[1] };
+        let columns = of_map.first().copied().unwrap_or(self.columns());
+        let known = [rows, rows - 1, columns, rows * columns].map(|count| count as f64);
+        let is_known = counts.iter().all(|count| known.contains(count));
+        if is_known || counts.iter().product::<f64>() == rows as f64 {
+            return Ok(());
+        }
+        let counts: Vec<String> = counts.iter().map(f64::to_string).collect();
+        let fault =
+            format!("{} is no count of the {rows} lines of {columns} columns that follow", counts.join(" "));
+        let allowed = format!("numbers of lines, of columns or of points, or {columns} columns throughout");
+        Err(refused(Place::Line(*line), fault, allowed))
+    }
+
+    /// Checks that the positions of a profile either ascend or descend.
+    fn check_order(&self, positions: &[f64]) -> Result<(), TopographyError> {
+        let [first, second, ..] = positions else { return Ok(()) };
+        let (is_before, allowed): (fn(f64, f64) -> bool, _) = if first < second {
+            (|before, x| before < x, "ascending positions, as before")
+        } else if first > second {
+            (|before, x| before > x, "descending positions, as before")
+        } else {
+            (|_, _| false, "another position than before")
+        };
+        let turn = positions.windows(2).position(|pair| !is_before(pair[0], pair[1]));
+        let Some(row) = turn else { return Ok(()) };
+        let fault = format!("x = {:e} after {:e}", positions[row + 1], positions[row]);
+        Err(refused(Place::Line(self.line(row + 1)), fault, allowed))
+    }
+}

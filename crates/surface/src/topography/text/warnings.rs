@@ -1,0 +1,90 @@
+//! Warnings of heights that are far from all others: marks of missing points, and numbers that are cut off.
+
+use super::super::Place;
+use asperity_data::median;
+
+/// Least distance of a height from the median, in medians of these distances, that is an error of the file.
+const FAR: f64 = 1e6;
+
+/// Least distance of one height from the median, in the largest one of all others, that is an error of the file or a spike; and
+/// that of the last height if its line has no end.
+const ALONE: f64 = 30.0;
+const ALONE_AT_OPEN_END: f64 = 10.0;
+
+/// Most heights from which the median follows.
+const SAMPLE: usize = 4096;
+
+/// Warnings of finite heights in the order of the file. `is_open` is true if the last line has no line end.
+pub(super) fn of_heights(heights: &[f64], is_open: bool, place: impl Fn(usize) -> Place) -> Vec<String> {
+    let step = heights.len().div_ceil(SAMPLE).max(1);
+    let finite = heights.iter().step_by(step).copied().filter(|height| height.is_finite());
+    let mut sample: Vec<f64> = finite.collect();
+    let Some(level) = median(&mut sample) else { return Vec::new() };
+    sample.iter_mut().for_each(|height| *height = (*height - level).abs());
+    let usual = median(&mut sample).unwrap_or_default();
+    let distance = |height: f64| (height - level).abs();
+    let (mut largest, mut next) = ((0.0, 0), 0.0);
+    for (index, height) in heights.iter().enumerate().filter(|(_, height)| height.is_finite()) {
+        if distance(*height) > largest.0 {
+            (largest, next) = ((distance(*height), index), largest.0);
+        } else if distance(*height) > next {
+            next = distance(*height);
+        }
+    }
+    let ((largest, index), last) = (largest, heights.len() - 1);
+    if is_open && index == last && next > 0.0 && largest > ALONE_AT_OPEN_END * next {
+        return vec![format!(
+            "{}the last number, {:e}, is far from all others, and its line has no end: the file may be cut off",
+            place(last),
+            heights[last]
+        )];
+    }
+    if next > 0.0 && largest > ALONE * next {
+        return vec![format!(
+            "{}the height {:e} is {:.0e} times as far from the median as all others: a spike, a mark of a missing point, or a \
+             number that is cut off; --robust replaces it",
+            place(index),
+            heights[index],
+            largest / next
+        )];
+    }
+    let mut far = (0..heights.len()).filter(|index| usual > 0.0 && distance(heights[*index]) > FAR * usual);
+    let Some(first) = far.next() else { return Vec::new() };
+    vec![format!(
+        "{}the height {:e} and {} others are more than {FAR:e} times as far from the median as heights usually are: marks of \
+         missing points, or other units",
+        place(first),
+        heights[first],
+        far.count()
+    )]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_far_from_all_others_are_named() {
+        let mut heights: Vec<f64> = (0..100).map(|i| 1e-8 * (0.7 * f64::from(i * i)).sin()).collect();
+        let warnings =
+            |heights: &[f64], is_open| of_heights(heights, is_open, |index| Place::Line(index + 3));
+        assert_eq!(warnings(&heights, true), [""; 0]);
+        heights[99] = -2e-7;
+        assert_eq!(warnings(&heights, false), [""; 0]);
+        let cut = warnings(&heights, true);
+        assert!(
+            cut[0].starts_with("line 102: the last number, -2e-7, is far from all others, and its line"),
+            "{cut:?}"
+        );
+        heights[50] = 4e-5;
+        let alone = warnings(&heights, false);
+        assert!(alone[0].starts_with("line 53: the height 4e-5 is 2e2 times as far from"), "{alone:?}");
+        (heights[20], heights[30], heights[40]) = (-9999.0, f64::NAN, -9999.0);
+        let far = warnings(&heights, true);
+        assert!(
+            far[0].starts_with("line 23: the height -9.999e3 and 1 others are more than 1e6 times"),
+            "{far:?}"
+        );
+        assert_eq!((warnings(&[0.0, 0.0, 5.0], false), warnings(&[f64::NAN], true)), (vec![], vec![]));
+    }
+}
