@@ -97,8 +97,11 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
     let names = names(&command);
     let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
-    if let Some(message) = removed::instead(words.iter().map(AsRef::as_ref)).filter(|_| error.use_stderr()) {
-        return command.error(ErrorKind::InvalidSubcommand, message);
+    let refused = error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::UnknownArgument);
+    let refused = refused.map(ToString::to_string);
+    let candidates = words.first().map(AsRef::as_ref).into_iter().chain(refused.as_deref());
+    if let Some(message) = removed::instead(candidates).filter(|_| error.use_stderr()) {
+        return clap::Error::raw(ErrorKind::InvalidSubcommand, message + "\n");
     }
     let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
     let (Some(first), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument) =

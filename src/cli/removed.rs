@@ -4,6 +4,7 @@
 const REMOVED: &[(&str, &str)] = &[
     ("compare", "asperity A --compare B opens A with the curve of B, asperity run A B prints both"),
     ("config", "docs/keys.md lists the settings of the configuration file"),
+    ("--quick", "asperity check computes all its cases in seconds"),
     ("--cast", "asciinema rec -c \"asperity demo\" records the terminal"),
     ("--parquet", "results.csv has the same rows, and pandas or polars write them as Parquet"),
     ("--smoothing", "reversals have no density, and --map writes their forces and Everett function"),

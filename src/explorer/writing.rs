@@ -47,25 +47,22 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
     match content {
         Content::Scene => out.write_all(app.edit.document.text().as_bytes()),
         Content::Pane(Format::Text) => out.write_all(text(&picture_of(app)).as_bytes()),
-        Content::Pane(format) if format.is_picture() => {
-            crate::export::report::write(out, &figure(app).ok_or_else(missing)?, format, "")
-        }
         Content::Pane(format) => {
-            let curves = || {
-                let figure = figure(app).filter(|figure| app.is_current() && figure.table().is_some())?;
-                Some((OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>))
+            let drawn = |figure: Figure| (OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>);
+            let has_table = |figure: &Figure| app.is_current() && figure.table().is_some();
+            let report = if format.is_picture() {
+                figure(app).map(drawn)
+            } else {
+                let report = (panes::row(app.view.pane).report)(app);
+                report.or_else(|| figure(app).filter(has_table).map(drawn))
             };
-            let report = (panes::row(app.view.pane).report)(app).or_else(curves);
             let (command, report) = report.ok_or_else(missing)?;
             let kept = if command == OPEN_COMMAND { with_path(app).and_then(Result::ok) } else { None };
             let document = kept.as_ref().unwrap_or(&app.edit.document);
             let command = command_line(&command, document.name(), document.overrides());
             let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));
-            let provenance = match format {
-                Format::Json => String::new(),
-                _ => scene_provenance(&command, document.scene(), &folder, destination)
-                    .map_err(io::Error::other)?,
-            };
+            let provenance = scene_provenance(&command, document.scene(), &folder, destination);
+            let provenance = provenance.map_err(io::Error::other)?;
             crate::export::report::write(out, &*report, format, &provenance)
         }
     }

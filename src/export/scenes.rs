@@ -69,10 +69,13 @@ impl Report for ScenesReport<'_> {
         let mut table: Vec<Vec<String>> = vec![std::iter::once(String::new()).chain(letters).collect()];
         for (name, unit, of) in ROWS {
             let values: Vec<Option<f64>> = self.scenes.iter().map(|(_, outcome)| of(outcome)).collect();
-            let first = values[0].filter(|first| *first != 0.0);
+            // A position may lie on either side of first touch, where a ratio means nothing.
+            let first = values[0].filter(|first| *first > 0.0);
             let cell = |(number, value): (usize, &Option<f64>)| {
                 let Some(value) = value else { return "-".to_owned() };
-                let ratio = first.filter(|_| number > 0).map(|first| format_quantity(value / first, "1"));
+                let ratio = first
+                    .filter(|_| number > 0 && *value > 0.0)
+                    .map(|first| format_quantity(value / first, "1"));
                 format_quantity(*value, unit)
                     + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
             };

@@ -12,6 +12,9 @@ use crate::explorer::prompt::{Prompt, Purpose, Topic};
 use asperity_scene::{Entry, typed_path};
 use tui_input::InputRequest;
 
+/// Name of the list that is read, whose entries are not chosen.
+const HELP: &str = "Help";
+
 /// Opens the search of the list of parameters, in its pane.
 pub fn find_parameter(app: &mut App) {
     app.ask(Purpose::Parameter { before: app.view.pane }, "");
@@ -44,7 +47,7 @@ pub fn open_help(app: &mut App) {
         Pane::ALL.iter().flat_map(|pane| panes::row(*pane).help).map(|(name, text)| topic(name, text));
     let keys = app.config.bindings.rows().map(Topic::of);
     let topics = notice.into_iter().chain(panes).chain(keys).collect();
-    app.ask(Purpose::Topics { name: "Help", topics, is_typed: false }, "");
+    app.ask(Purpose::Topics { name: HELP, topics, is_typed: false }, "");
 }
 
 /// Opens the list of commands, to be searched.
@@ -77,7 +80,13 @@ pub fn page(app: &mut App, pages: i32) {
 
 /// Accepts the line, the selected row, or the question. A refused line stays, with the reason.
 pub fn accept(app: &mut App) {
-    let Some(prompt) = app.prompt.take() else { return };
+    let Some(mut prompt) = app.prompt.take() else { return };
+    if let Purpose::Topics { name: HELP, is_typed: is_typed @ true, .. } = &mut prompt.purpose {
+        // The search of the help is over, and its results stay.
+        *is_typed = false;
+        app.prompt = Some(prompt);
+        return;
+    }
     if let Err(why) = accept_prompt(app, &prompt) {
         app.prompt = Some(Prompt { refused: Some(why), ..prompt });
     }

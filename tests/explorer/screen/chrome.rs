@@ -87,6 +87,8 @@ fn the_help_pages_to_its_ends_and_is_searched() {
     let text = driver.text();
     assert!(text.contains("Find: dissipated energy") && text.contains("shade the area"), "{text}");
     assert!(!text.contains("quit without saving"), "{text}");
+    driver.press("Enter");
+    assert!(driver.text().contains("shade the area") && driver.app.prompt.is_some(), "{}", driver.text());
     driver.press("End Home PageDown Esc");
     assert!(driver.app.prompt.is_none());
 }

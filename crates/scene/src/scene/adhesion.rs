@@ -177,11 +177,11 @@ impl TryFrom<AdhesionText> for Adhesion {
             (None, None, None) => return Err("give work, kappa or elastic_energy_ratio".to_owned()),
             _ => {
                 let given = [("work", work), ("kappa", kappa), ("elastic_energy_ratio", ratio)];
-                let given = given.into_iter().filter_map(|(name, value)| {
-                    value.map(|value| format!("adhesion=({name}: {})", ron_float(value)))
-                });
-                let given = given.collect::<Vec<_>>().join(" or ");
-                return Err(format!("the strength of the adhesion is given in one way: type {given}"));
+                let given = given.into_iter().filter_map(|(name, value)| Some((name, value?)));
+                let (names, choices): (Vec<_>, Vec<_>) =
+                    given.map(|(name, value)| (name, format!("({name}: {})", ron_float(value)))).unzip();
+                let (names, choices) = (names.join(" and "), choices.join(" or "));
+                return Err(format!("{names} determine each other: give {choices}"));
             }
         };
         Ok(Adhesion { strength, range })

@@ -371,13 +371,12 @@ mod tests {
             ("roughness.rms_gradient=0.1", "rms_height and rms_gradient determine each other"),
             (
                 "adhesion.kappa=2.0",
-                "adhesion: the strength of the adhesion is given in one way: type adhesion=(work: 0.05) or \
-                 adhesion=(kappa: 2.0)",
+                "adhesion: work and kappa determine each other: give (work: 0.05) or (kappa: 2.0)",
             ),
             ("adhesion.work=None; adhesion.elastic_energy_ratio=2.0", ""),
             (
                 "adhesion=(kappa: 2.0, elastic_energy_ratio: 1.0)",
-                "type adhesion=(kappa: 2.0) or adhesion=(elastic_energy_ratio: 1.0)",
+                "kappa and elastic_energy_ratio determine each other: give (kappa: 2.0) or",
             ),
             ("adhesion=()", "adhesion: give work, kappa or elastic_energy_ratio"),
             ("adhesion=(work: 0.0)", ""),

@@ -2,9 +2,9 @@
 
 pub(crate) mod equivalent;
 pub(crate) mod form;
-pub(crate) mod rigid_line;
 pub(crate) mod measured;
 pub(crate) mod modes;
+pub(crate) mod rigid_line;
 pub(crate) mod roughness;
 pub(crate) mod spectrum;
 pub(crate) mod table;
