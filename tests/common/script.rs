@@ -3,16 +3,16 @@
 
 use super::driver::Driver;
 use asperity::contact::CurvePoint;
-use asperity::explorer::action::Task;
-use asperity::explorer::action::{Action, Gesture, Mouse};
+use asperity::explorer::action::{Action, Gesture, Mouse, Task};
 use asperity::explorer::app::App;
 use asperity::explorer::keys::key::Key;
 use asperity::explorer::layout::{Layout, inside};
-use asperity::explorer::opening::Opening;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::snapshot::ContactSnapshot;
 use asperity::explorer::update::update;
+use asperity::explorer::opening::Opening;
 use asperity::explorer::view;
+use asperity::scene::Document;
 use asperity::scene::Outcome;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -41,16 +41,60 @@ impl Driver {
         update(&mut self.app, Action::Command(command))
     }
 
-    /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`. Returns the effects of the
-    /// last one.
-    pub fn press(&mut self, names: &str) -> Vec<Task> {
+    /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`; text between grave accents is
+    /// typed. Returns the effects of the last key.
+    pub fn press(&mut self, keys: &str) -> Vec<Task> {
         let mut effects = Vec::new();
-        for name in names.split_whitespace() {
-            let name = if name == "Space" { "space" } else { name };
-            let key = Key::named(name).unwrap_or_else(|| panic!("no key is called {name}"));
-            effects = self.act(Action::Key(key.event()));
+        for (place, part) in keys.split('`').enumerate() {
+            if place % 2 == 1 {
+                self.type_text(part);
+                continue;
+            }
+            for name in part.split_whitespace() {
+                let name = if name == "Space" { "space" } else { name };
+                let key = Key::named(name).unwrap_or_else(|| panic!("no key is called {name}"));
+                effects = self.act(Action::Key(key.event()));
+            }
         }
         effects
+    }
+
+    /// Asserts that the screen shows these words.
+    #[track_caller]
+    pub fn shows(&self, words: impl AsRef<str>) {
+        assert!(self.text().contains(words.as_ref()), "not shown: {}\n{}", words.as_ref(), self.text());
+    }
+
+    /// Asserts that the screen shows all of these words.
+    #[track_caller]
+    pub fn shows_all<'t>(&self, words: impl IntoIterator<Item = &'t str>) {
+        words.into_iter().for_each(|words| self.shows(words));
+    }
+
+    /// Asserts that the screen does not show these words.
+    #[track_caller]
+    pub fn hides(&self, words: impl AsRef<str>) {
+        assert!(!self.text().contains(words.as_ref()), "shown: {}\n{}", words.as_ref(), self.text());
+    }
+
+    /// Asserts that the status line has these words.
+    #[track_caller]
+    pub fn states(&self, words: impl AsRef<str>) {
+        assert!(self.status().contains(words.as_ref()), "not stated: {}\n{}", words.as_ref(), self.text());
+    }
+
+    /// Presses keys, after which the screen shows these words.
+    #[track_caller]
+    pub fn sees(&mut self, keys: &str, words: impl AsRef<str>) {
+        self.press(keys);
+        self.shows(words);
+    }
+
+    /// Presses keys, after which the status line has these words.
+    #[track_caller]
+    pub fn answers(&mut self, keys: &str, words: impl AsRef<str>) {
+        self.press(keys);
+        self.states(words);
     }
 
     /// Types a text, character by character.
@@ -60,9 +104,13 @@ impl Driver {
 
     /// Types a value for the selected parameter in place of the present one.
     pub fn enter(&mut self, value: &str) {
-        self.press("e Ctrl+u");
-        self.type_text(value);
-        self.press("Enter");
+        self.press(&format!("e Ctrl+u `{value}` Enter"));
+    }
+
+    /// Types a value for the parameter of this path.
+    pub fn set(&mut self, path: &str, value: &str) {
+        self.select(path);
+        self.enter(value);
     }
 
     /// Reason why the typed text was refused.
@@ -70,11 +118,11 @@ impl Driver {
         self.app.prompt.as_ref()?.refused.as_deref()
     }
 
-    /// Selects the parameter of a field, by keys.
+    /// Selects the row of this path, by keys.
     pub fn select(&mut self, path: &str) {
         self.press("g");
         for _ in 0..self.app.edit.parameters.len() {
-            if self.app.edit.parameter().is_some_and(|parameter| parameter.field.path == path) {
+            if self.app.edit.parameter().is_some_and(|parameter| parameter.path == path) {
                 return;
             }
             self.press("j");
@@ -128,6 +176,11 @@ impl Driver {
     /// Moves the mouse.
     pub fn mouse(&mut self, column: u16, row: u16, gesture: Gesture) -> Vec<Task> {
         self.act(Action::Mouse(Mouse { column, row, gesture }))
+    }
+
+    /// The scene as text.
+    pub fn document(&self) -> &Document {
+        &self.app.edit.document
     }
 
     /// The state shown.

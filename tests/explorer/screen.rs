@@ -30,18 +30,33 @@ mod studies;
 mod study;
 mod typing;
 
-use super::common::{self, driver::Driver, scenes::rough};
-use asperity::explorer::app::App;
-use asperity::scene::{Document, open};
+use super::common;
+use super::common::driver::{APPEARANCE, Driver, REFUSED};
+use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
+use asperity::explorer::Opening;
+use asperity::explorer::action::{Action, Gesture, Task};
+use asperity::explorer::app::{App, Message};
+use asperity::explorer::commands::table::bindings;
+use asperity::explorer::keys::bindings::Context;
+use asperity::explorer::layout::Layout;
+use asperity::explorer::pane::Pane;
+use asperity::explorer::snapshot::Reply;
+use asperity::explorer::studies::Study;
+use asperity::scene::{Document, format_quantity, open, presets};
+use asperity::simulation::Simulation;
+use preloads::computed_preloads;
 use ratatui::buffer::Cell;
 use ratatui::style::Modifier;
+use sensitivity::computed_sensitivity;
+use std::fs;
+use std::path::Path;
 
 /// Windows, columns and rows.
 const SIZES: [(u16, u16); 5] = [(120, 40), (80, 24), (60, 20), (40, 12), (20, 5)];
 
 /// The scene the explorer opens on.
 fn default_scene() -> Document {
-    open(asperity::scene::DEFAULT).unwrap_or_else(|errors| panic!("{errors}"))
+    open(asperity::scene::DEFAULT).unwrap()
 }
 
 /// Half way through the retraction, paused.
@@ -72,7 +87,7 @@ fn everywhere() -> Vec<Driver> {
     let mut all: Vec<Driver> = keys.split(';').map(pressed).collect();
     all.push(Driver::open(rough()));
     all.push(accuracy::measured(rough()));
-    all.push(sensitivity::computed_sensitivity(rough()));
+    all.push(computed_sensitivity(rough()));
     all.extend(["", "V", "V V", "z"].map(|keys| {
         let mut driver = map::mapped(rough());
         driver.press(keys);
@@ -91,10 +106,6 @@ fn everywhere() -> Vec<Driver> {
 
 fn reversed(cells: &[Cell]) -> String {
     cells.iter().filter(|cell| cell.modifier.contains(Modifier::REVERSED)).map(Cell::symbol).collect()
-}
-
-fn generation(driver: &Driver) -> u64 {
-    driver.app.edit.generation
 }
 
 /// True if the outcome shown is that of the present scene.

@@ -1,18 +1,10 @@
 //! The cost of accuracy, the error in the status line, springs for a tolerance.
 
-use super::common::driver::Driver;
-use super::common::scenes::{changed, rough, without_adhesion};
-use super::is_up_to_date;
-use asperity::contact::Edges;
-use asperity::explorer::action::Task;
-use asperity::explorer::app::Message;
+use super::*;
+use asperity::scene::{Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing};
 use asperity::explorer::commands::accuracy::Choosing;
-use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::accuracy::Costs;
-use asperity::scene::Document;
-use asperity::scene::{
-    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
-};
+use asperity::contact::Edges;
 
 /// Springs of 4e-4 at best, as found by a search.
 fn chosen(tolerance: f64) -> Result<Choosing, String> {
@@ -90,14 +82,13 @@ fn a_scene_with_nothing_to_show_says_so() {
     driver.press("A");
     for size in [(120, 40), (80, 24)] {
         driver.resize(size);
-        assert!(driver.text().contains("nothing to show"), "{}", driver.text());
-        assert!(driver.text().contains("F_a(0) skipped"), "{}", driver.text());
+        driver.shows("nothing to show");
+        driver.shows("F_a(0) skipped");
     }
     let short = "the budget of 10 s is spent".to_owned();
     let mut driver = driver_with(rough(), None, Err(short));
-    driver.press("A");
-    assert!(driver.text().contains("nothing is measured: the budget of 10 s"), "{}", driver.text());
-    assert!(driver.text().contains("error unknown"), "{}", driver.text());
+    driver.sees("A", "nothing is measured: the budget of 10 s");
+    driver.shows("error unknown");
 }
 
 #[test]
@@ -108,12 +99,12 @@ fn an_edit_forgets_what_was_found_out() {
     assert!(driver.app.is_shown(Pane::Accuracy));
     assert!(driver.app.studies.value::<Estimate>().is_none());
     assert!(driver.app.studies.value::<Costs>().is_none());
-    assert!(driver.status().contains("± …"), "{}", driver.status());
-    assert!(driver.text().contains("measuring"), "{}", driver.text());
+    driver.states("± …");
+    driver.shows("measuring");
     let setting = |setting: &str| Costs { table: None, trying: Some(setting.to_owned()) };
     let generation = driver.app.edit.generation;
     driver.app.studies.set(generation, setting("grid springs: 64 springs"), false);
-    assert!(driver.text().contains("trying grid springs: 64 springs…"), "{}", driver.text());
+    driver.shows("trying grid springs: 64 springs…");
 }
 
 #[test]
@@ -122,16 +113,16 @@ fn the_headline_has_its_error() {
     let mut driver = stated(Some(0.0042));
     for size in [(120, 40), (80, 24), (60, 20)] {
         driver.resize(size);
-        assert!(driver.status().contains("N grid ± 0.4 %"), "{}", driver.status());
+        driver.states("N grid ± 0.4 %");
     }
     // Reproducible pictures wait for nothing.
     driver.app.studies.forget::<Estimate>();
-    assert!(driver.status().contains("± …"), "{}", driver.status());
+    driver.states("± …");
     driver.app.view.shows_times = false;
     assert!(!driver.status().contains('±'), "{}", driver.status());
     assert!(stated(None).status().contains("N error unknown"), "{}", stated(None).status());
     let near_step = stated(Some(1.4));
-    assert!(near_step.status().contains("N near a step of F_a(F_n)"), "{}", near_step.status());
+    near_step.states("N near a step of F_a(F_n)");
     // Without a pulling force: the largest force, and the error of its curve.
     let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
     let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
@@ -140,9 +131,7 @@ fn the_headline_has_its_error() {
 
 /// Types a tolerance.
 fn ask(driver: &mut Driver, tolerance: &str) {
-    driver.press("%");
-    driver.type_text(tolerance);
-    driver.press("Enter");
+    driver.press(&format!("% `{tolerance}` Enter"));
     if let Some(Choosing { tolerance, .. }) = driver.app.studies.value() {
         driver.find(chosen(*tolerance));
     }
@@ -151,41 +140,40 @@ fn ask(driver: &mut Driver, tolerance: &str) {
 #[test]
 fn a_tolerance_is_an_edit_that_can_be_taken_back() {
     let mut driver = measured(changed(&rough(), &[("numerics.edges", "Grid")]));
-    let before = driver.app.edit.document.scene().numerics;
+    let before = driver.document().scene().numerics;
     ask(&mut driver, "0.1 %");
-    let after = driver.app.edit.document.scene().numerics;
+    let after = driver.document().scene().numerics;
     assert_eq!((after.points, after.edges), (2048, Edges::SubCell));
     assert!(is_up_to_date(&driver.app) && driver.app.studies.value::<Choosing>().is_none());
-    assert!(driver.status().contains("2 048 springs"), "{}", driver.status());
-    assert!(driver.text().contains("2 048 springs with edges SubCell: the fewest"), "{}", driver.text());
+    driver.states("2 048 springs");
+    driver.shows("2 048 springs with edges SubCell: the fewest");
     // The known error is from finer solutions than an estimate.
     assert!(driver.app.studies.value::<Estimate>().is_some_and(|known| known.error == 4e-4));
     let generation = driver.app.edit.generation;
     ask(&mut driver, "0.1 %");
     assert_eq!(driver.app.edit.generation, generation, "it is so already");
-    assert!(driver.status().contains("as it is"), "{}", driver.status());
+    driver.states("as it is");
     driver.press("u");
-    assert_eq!(driver.app.edit.document.scene().numerics, before);
+    assert_eq!(driver.document().scene().numerics, before);
 }
 
 #[test]
 fn a_tolerance_out_of_reach_changes_nothing() {
     let mut driver = measured(rough());
     driver.resize((80, 24));
-    let (text, generation) = (driver.app.edit.document.text().to_owned(), driver.app.edit.generation);
+    let (text, generation) = (driver.document().text().to_owned(), driver.app.edit.generation);
     ask(&mut driver, "1e-6");
     assert!(matches!(driver.app.message, Some(Message::Error(_))));
     let stated = "a tolerance of 1e-6 is not reached with at most";
-    assert!(driver.status().contains(stated), "{}", driver.status());
+    driver.states(stated);
     for wrong in ["", "0", "2", "much", "-1 %"] {
         ask(&mut driver, wrong);
         assert!(driver.status().contains("allowed: a relative error"), "{wrong}: {}", driver.status());
     }
     driver.press("% 1 Esc");
     assert!(driver.app.message.is_none() && driver.app.studies.value::<Choosing>().is_none());
-    assert_eq!((driver.app.edit.document.text(), driver.app.edit.generation), (text.as_str(), generation));
+    assert_eq!((driver.document().text(), driver.app.edit.generation), (text.as_str(), generation));
     // No choice for a missing scene.
     let mut driver = Driver::open(rough());
-    driver.press("%");
-    assert!(driver.status().contains("still being computed"), "{}", driver.status());
+    driver.answers("%", "still being computed");
 }

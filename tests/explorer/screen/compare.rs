@@ -1,12 +1,7 @@
 //! Loops kept as ghosts beside the present one.
 
-use super::common::driver::Driver;
-use super::common::scenes::rough;
-use super::{is_up_to_date, pressed};
-use asperity::explorer::app::Message;
+use super::*;
 use asperity::explorer::ghost::Ghost;
-use asperity::explorer::opening::Opening;
-use asperity::scene::Document;
 
 /// The scenes of the ghosts, the newest last.
 fn kept(driver: &Driver) -> Vec<Document> {
@@ -24,12 +19,11 @@ fn message(driver: &Driver) -> String {
 fn ghosts_have_letters_and_say_where_they_differ() {
     let mut driver = pressed("c");
     assert!(message(&driver).contains("x swaps"), "{}", message(&driver));
-    assert!(driver.text().contains("· the same scene"), "{}", driver.text());
+    driver.shows("· the same scene");
     driver.press("L");
-    assert!(driver.text().contains("A: F_a ") && driver.text().contains("· H 0.7"), "{}", driver.text());
+    driver.shows_all(["A: F_a ", "· H 0.7"]);
     driver.press("c");
-    driver.select("adhesion.kappa");
-    driver.enter("4");
+    driver.set("adhesion.kappa", "4");
     driver.select("loading");
     driver.press("j");
     driver.enter("10 µN");
@@ -37,8 +31,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
     for expected in ["· H 0.7, κ 8", "· κ 8, stage 1"] {
         assert!(text.contains(expected), "{expected}\n{text}");
     }
-    driver.select("loading");
-    driver.enter("[ToForce(1.0e-5), ToIndentation(0.0)]");
+    driver.set("loading", "[ToForce(1.0e-5), ToIndentation(0.0)]");
     let text = driver.text();
     assert!(text.contains("· κ 8, loading "), "{text}");
     driver.press("u");
@@ -50,7 +43,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
     }
     driver.press("C");
     assert!(driver.app.ghosts.is_empty());
-    assert!(!driver.text().contains("κ 8"), "{}", driver.text());
+    driver.hides("κ 8");
 }
 
 #[test]
@@ -65,7 +58,7 @@ fn one_loop_is_kept_once_and_four_at_most() {
     let mut scenes = Vec::new();
     for _ in 0..6 {
         driver.press("l c");
-        scenes.push(driver.app.edit.document.clone());
+        scenes.push(driver.document().clone());
     }
     assert_eq!(kept(&driver), scenes[2..], "the oldest are dropped");
     driver.screen();
@@ -76,38 +69,32 @@ fn two_exchanges_are_none() {
     let mut driver = pressed("c L");
     driver.select("adhesion.kappa");
     driver.press("c L L");
-    let (document, ghosts, computed) =
-        (driver.app.edit.document.clone(), kept(&driver), driver.outcome().clone());
+    let (document, ghosts, computed) = (driver.document().clone(), kept(&driver), driver.outcome().clone());
     driver.press("x");
-    assert_eq!(driver.app.edit.document, ghosts[1]);
+    assert_eq!(*driver.document(), ghosts[1]);
     assert_eq!(kept(&driver), [ghosts[0].clone(), document.clone()]);
     assert!(is_up_to_date(&driver.app));
     assert_ne!(driver.outcome().history, computed.history);
     driver.press("x");
-    assert_eq!(driver.app.edit.document, document);
+    assert_eq!(*driver.document(), document);
     assert_eq!(kept(&driver), ghosts);
     assert_eq!(driver.outcome().history, computed.history);
     // An exchange is undone like any other edit, and the ghosts remain.
     driver.press("x u");
-    assert_eq!(driver.app.edit.document, document);
+    assert_eq!(*driver.document(), document);
     assert_eq!(driver.outcome().history, computed.history);
     assert_eq!(driver.app.ghosts.len(), 2);
     driver.press("U");
-    assert_eq!(driver.app.edit.document, ghosts[1]);
+    assert_eq!(*driver.document(), ghosts[1]);
 }
 
 #[test]
-fn what_cannot_be_kept_or_exchanged_says_why() {
+fn a_scene_without_a_loop_is_not_kept() {
     let mut driver = Driver::open(rough());
-    driver.press("c");
-    assert!(driver.app.ghosts.is_empty() && message(&driver).contains("no curve yet"));
+    driver.answers("c", "no curve yet");
+    assert!(driver.app.ghosts.is_empty());
     let mut driver = pressed("");
-    let before = driver.app.edit.document.clone();
-    driver.press("x");
-    assert!(message(&driver).contains("no ghost to swap with"), "{}", message(&driver));
-    assert_eq!(driver.app.edit.document, before);
-    driver.select("loading");
-    driver.enter("[ToForce(2.0e-5), ToForce(-1.0)]");
+    driver.set("loading", "[ToForce(2.0e-5), ToForce(-1.0)]");
     driver.press("c");
     assert!(driver.app.ghosts.is_empty(), "a scene that failed has no loop");
 }
@@ -119,7 +106,7 @@ fn a_scene_is_opened_with_the_loop_of_another_one() {
     let ghost = Some(Ghost { document: other.clone(), outcome });
     let mut driver = Driver::start(Opening { ghost, ..Opening::from(rough()) });
     assert!(!driver.app.edit.is_unsaved() && driver.app.edit.past.is_empty());
-    assert!(driver.text().contains("A: F_a ") && driver.text().contains("· κ 4"), "{}", driver.text());
+    driver.shows_all(["A: F_a ", "· κ 4"]);
     driver.press("x");
-    assert_eq!((driver.app.edit.document.text(), kept(&driver)), (other.text(), vec![rough()]));
+    assert_eq!((driver.document().text(), kept(&driver)), (other.text(), vec![rough()]));
 }

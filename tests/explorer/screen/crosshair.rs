@@ -1,13 +1,8 @@
 //! The crosshair: its readings, and their agreement with the panes.
 
-use super::common::driver::Driver;
-use super::common::scenes::{changed, punch, rough};
-use super::{default_scene, mid_retraction};
-use asperity::data::{format_quantity, parse_quantity};
-use asperity::explorer::action::Gesture;
-use asperity::explorer::keys::bindings::Context;
-use asperity::explorer::pane::Pane;
+use super::*;
 use asperity::explorer::snapshot::Probe;
+use asperity::scene::parse_quantity;
 
 fn probe(driver: &Driver) -> Probe {
     driver.snapshot().probe.unwrap()
@@ -99,17 +94,4 @@ fn the_mouse_moves_the_crosshair_of_the_pane_it_is_in() {
     }
     driver.press("Down");
     assert_ne!(driver.app.edit.selected, before);
-}
-
-#[test]
-fn the_crosshair_stays_on_the_curves_of_its_chart() {
-    let mut driver = mid_retraction(punch());
-    driver.press("*");
-    for end in ["Home", "End"] {
-        driver.press(end);
-        let edge = edge(&driver, Pane::Force);
-        assert!(edge.contains("loading "), "{end}: {edge}");
-    }
-    driver.press("* Y *");
-    assert!(driver.text().contains("no curves for the crosshair"), "{}", driver.text());
 }

@@ -1,9 +1,6 @@
 //! Failures, late reports and panics.
 
-use super::common::driver::Driver;
-use super::{is_up_to_date, pressed};
-use asperity::explorer::action::Action;
-use asperity::explorer::snapshot::Reply;
+use super::*;
 
 #[test]
 fn reports_of_another_scene_change_nothing() {
@@ -26,8 +23,7 @@ fn reports_of_another_scene_change_nothing() {
 
 /// Makes the scene one whose contact detaches before it reaches a force, by switching its adhesion off.
 pub fn detach(driver: &mut Driver) {
-    driver.select("loading");
-    driver.enter("20 µN, -10 nN");
+    driver.set("loading", "20 µN, -10 nN");
     driver.select("adhesion");
     driver.press("t");
 }
@@ -44,11 +40,55 @@ fn a_scene_that_fails_is_stated_and_the_next_edit_mends_it() {
     for keys in ["j", "k", ". .", "Tab", "n", "+"] {
         driver.press(keys);
     }
-    assert!(driver.text().contains("stage 2: the contact detaches before -10 nN"), "{}", driver.text());
+    driver.shows("stage 2: the contact detaches before -10 nN");
     driver.press("u");
     assert!(driver.status().starts_with("undo: "), "{}", driver.status());
     driver.press("j");
     let text = driver.text();
     assert!(text.contains("F_max 20 µN") && !text.contains("detaches"), "{text}");
     assert!(is_up_to_date(&driver.app));
+}
+
+#[test]
+fn a_key_that_cannot_do_anything_says_why() {
+    let (dry, none) = (without_adhesion(), "");
+    for (document, path, keys, why) in [
+        (rough(), none, "u", "nothing to undo"),
+        (rough(), none, "x", "no ghost to swap with"),
+        (rough(), none, "P", "select a row of the loading"),
+        (rough(), none, "W", "no manual loading; d begins it"),
+        (rough(), none, "Y * *", "no curves for the crosshair"),
+        (rough(), none, "Ctrl+f", "! there is no measured curve; asperity SCENE --measured CURVE"),
+        (rough(), none, "m W", "! no study is open"),
+        (rough(), none, "m P", "! no study is open"),
+        (dry.clone(), none, "!", "there is no pull-off"),
+        (dry.clone(), none, "m Left Up", "has no adhesion"),
+        (smooth(), none, "m Left Up", "a smooth body has"),
+        (rough(), "length", "t", "no effect to switch"),
+        (rough(), "material", "t", "no effect to switch"),
+        (one_spring(), "roughness", "t", "! "),
+        (rough(), "material.poisson_ratio", "l", "allowed"),
+        (rough(), "adhesion", "2", "adhesion is a choice: ← → change it"),
+        (rough(), "material", "2", "material is not a number: Enter types it"),
+        (rough(), "loading", "L", "loading is not a number: Enter types it"),
+        (rough(), "numerics", "3", "numerics is a group: its fields are in the rows below"),
+        (rough(), "roughness.modes", "Right", "is computed; Enter fixes it in place of the wavelengths"),
+        (rough(), "adhesion.work", "L", "is computed; Enter fixes it in place of κ"),
+        (rough(), "adhesion.elastic_energy_ratio", "h", "is computed; Enter fixes it in place of κ"),
+        (rough(), "loading.1", "K", "cannot pull before contact"),
+    ] {
+        let document = if path == "roughness.modes" {
+            changed(&document, &[("roughness.modes", "None"), ("roughness.wavelengths", "50 µm, 1 µm")])
+        } else {
+            document
+        };
+        let mut driver = mid_retraction(document.clone());
+        if !path.is_empty() {
+            driver.app.view.pane = Pane::Parameters;
+            driver.select(path);
+        }
+        driver.press(keys);
+        assert!(driver.text().contains(why), "{path} {keys}: {why}\n{}", driver.text());
+        assert_eq!((driver.document(), driver.app.prompt.is_none()), (&document, true), "{path} {keys}");
+    }
 }

@@ -1,14 +1,8 @@
 //! The close-up of contact patches.
 
-use super::common::driver::Driver;
-use super::common::scenes::rough;
-use super::pressed;
+use super::*;
 use asperity::contact::Patch;
-use asperity::explorer::action::Action;
-use asperity::explorer::action::Task;
-use asperity::explorer::pane::Pane;
 use asperity::explorer::snapshot::PatchFacts;
-use asperity::explorer::snapshot::Reply;
 
 #[test]
 fn the_close_up_goes_round_all_fragments() {

@@ -1,12 +1,7 @@
 //! Choosing a scene from the library.
 
-use super::common::driver::Driver;
-use super::common::scenes::smooth;
-use super::{is_up_to_date, pressed};
-
+use super::*;
 use asperity::explorer::prompt::{Prompt, Purpose};
-use asperity::scene::presets;
-use std::fs;
 use tempfile::TempDir;
 
 const BROKEN: &str = "(version: 1, title: \"Broken\", length: -1.0)";
@@ -51,13 +46,10 @@ fn all_scenes_are_listed_and_found_as_one_types() {
     assert!(found(&driver).contains(&"mine.ron".to_owned()), "its title has it");
     driver.type_text("ere-no-such");
     assert!(found(&driver).is_empty());
-    assert!(driver.text().contains("no scene fits"), "{}", driver.text());
+    driver.shows("no scene fits");
     // On Enter the text is tried as a path.
-    driver.press("Enter");
-    assert!(driver.status().contains("! there is no such file"), "{}", driver.status());
-    driver.press("Ctrl+u");
-    assert_eq!(found(&driver).len(), presets().len() + 2);
-    driver.type_text("mine");
+    driver.answers("Enter", "! there is no such file");
+    driver.press("Ctrl+u `mine`");
     assert_eq!(found(&driver), ["mine.ron"]);
     driver.press("Backspace Backspace Backspace Backspace");
     assert_eq!(found(&driver).len(), presets().len() + 2);
@@ -69,22 +61,21 @@ fn all_scenes_are_listed_and_found_as_one_types() {
 #[test]
 fn enter_opens_and_escape_leaves() {
     let (folder, mut driver) = opened();
-    let before = driver.app.edit.document.clone();
+    let before = driver.document().clone();
     driver.press("Down Down Esc");
-    assert!(driver.app.prompt.is_none() && driver.app.edit.document == before);
+    assert!(driver.app.prompt.is_none() && *driver.document() == before);
     driver.press("o Down");
     assert_eq!(library(&driver).scene().unwrap().name, presets()[1].name);
     driver.press("Up Up");
     assert_eq!(library(&driver).selected, 0, "the list has an end");
-    driver.type_text("mine");
-    driver.press("Enter");
+    driver.press("`mine` Enter");
     assert!(driver.app.prompt.is_none());
     assert!(is_up_to_date(&driver.app));
-    assert_eq!(driver.app.edit.document.text(), smooth().text());
-    assert_eq!(driver.app.edit.document.name(), folder.path().join("mine.ron").display().to_string());
+    assert_eq!(driver.document().text(), smooth().text());
+    assert_eq!(driver.document().name(), folder.path().join("mine.ron").display().to_string());
     assert!(!driver.app.edit.is_unsaved() && driver.app.play.playing);
     driver.press("u");
-    assert_eq!(driver.app.edit.document, before);
+    assert_eq!(*driver.document(), before);
     // The smallest window shows the whole list by scrolling.
     driver.resize((20, 5));
     driver.press("o");
@@ -98,19 +89,10 @@ fn enter_opens_and_escape_leaves() {
 #[test]
 fn a_broken_file_is_listed_with_its_error_and_not_opened() {
     let (_folder, mut driver) = opened();
-    let before = driver.app.edit.document.clone();
-    driver.type_text("broken");
-    let entry = library(&driver).scene().unwrap().clone();
-    let error = entry.error().expect("it is no scene");
-    let text = driver.text();
-    assert!(text.contains("! broken.ron"), "{text}");
-    let start: String = error.chars().take(30).collect();
-    assert!(text.contains(&start), "{start}\n{text}");
-    driver.press("Enter");
-    assert_eq!(driver.app.edit.document, before);
-    assert!(
-        driver.status().starts_with("! ") && driver.status().contains("broken.ron"),
-        "{}",
-        driver.status()
-    );
+    let before = driver.document().clone();
+    driver.sees("`broken`", "! broken.ron");
+    let error = library(&driver).scene().unwrap().error().expect("it is no scene");
+    driver.shows(error.chars().take(30).collect::<String>());
+    driver.answers("Enter", "broken.ron");
+    assert_eq!(*driver.document(), before);
 }

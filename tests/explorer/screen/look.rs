@@ -1,10 +1,6 @@
 //! The part of the line in the profile pane, and the quantities of the curve.
 
-use super::common::driver::Driver;
-use super::common::scenes::{rough, smooth, without_adhesion};
-use super::{mid_retraction, pressed};
-use asperity::data::format_quantity;
-use asperity::explorer::pane::Pane;
+use super::*;
 
 fn seen(driver: &Driver) -> (usize, usize) {
     let section = &driver.snapshot().profile;
@@ -15,13 +11,13 @@ fn seen(driver: &Driver) -> (usize, usize) {
 fn the_profile_is_looked_at_from_near_and_moved_along() {
     let mut driver = pressed("Tab");
     assert_eq!((driver.app.view.pane, seen(&driver)), (Pane::Profile, (0, 1024)));
-    assert!(driver.text().contains("x to 100 µm"), "{}", driver.text());
+    driver.shows("x to 100 µm");
     // There is nothing beside the whole line.
     driver.press(") (");
     assert_eq!(seen(&driver), (0, 1024));
     driver.press("+");
     assert_eq!(seen(&driver), (256, 512));
-    assert!(driver.text().contains("x from 25 µm to 75 µm of 100 µm"), "{}", driver.text());
+    driver.shows("x from 25 µm to 75 µm of 100 µm");
     driver.press(")");
     assert_eq!(seen(&driver), (384, 512));
     driver.press("( (");
@@ -88,8 +84,7 @@ fn the_dissipated_energy_is_shaded_and_stated() {
     assert_eq!(driver.screen(), before);
     // A loop that is not closed has no dissipated energy yet.
     let mut driver = Driver::start(rough().set("loading", "[ToForce(1.0e-5)]").unwrap());
-    driver.press("a");
-    assert!(driver.text().contains("ΔW open"), "{}", driver.text());
+    driver.sees("a", "ΔW open");
 }
 
 #[test]

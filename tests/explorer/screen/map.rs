@@ -1,16 +1,10 @@
 //! The map over H and κ: its content, its mark at the scene, and the order of its computations.
 
-use super::common::driver::Driver;
-use super::common::scenes::{rough, smooth, without_adhesion};
-use super::is_up_to_date;
-use asperity::explorer::action::Task;
-use asperity::explorer::action::{Action, Gesture, Mouse};
+use super::*;
 use asperity::explorer::commands::accuracy::studies;
-use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::map::Live;
-use asperity::explorer::pane::Pane;
-use asperity::scene::{Document, RoughnessParameter};
-use asperity::study::{Level, LiveMap, MAP_LINES, live_plan};
+use asperity::scene::RoughnessParameter;
+use asperity::study::{LiveMap, MAP_LINES, live_plan};
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
 fn set(map: &mut LiveMap, cell: u64) {
@@ -33,29 +27,19 @@ fn set(map: &mut LiveMap, cell: u64) {
     }
 }
 
-/// Fills levels of the map of the scene, if it has one.
-fn fill(driver: &mut Driver, levels: &[Level]) {
-    let (scene, chart) = (driver.app.edit.document.scene(), &driver.app.map);
-    let Ok(plan) = live_plan(scene, RoughnessParameter::Kappa) else { return };
-    let key = chart.key(scene).unwrap();
-    let mut map = LiveMap::new(plan).unwrap();
-    for cell in levels.iter().flat_map(|level| map.cells(*level).concat()).collect::<Vec<_>>() {
-        set(&mut map, cell);
-    }
-    driver.app.studies.set(key, Live::of(&map), map.is_whole());
-}
-
-fn driver_with(document: Document, levels: &[Level]) -> Driver {
+/// The explorer with a complete map on display, if the scene has one.
+pub fn mapped(document: Document) -> Driver {
     let mut driver = Driver::start(document);
     driver.press("Space");
-    fill(&mut driver, levels);
+    let scene = driver.document().scene();
+    if let Ok(plan) = live_plan(scene, RoughnessParameter::Kappa) {
+        let key = driver.app.map.key(scene).unwrap();
+        let mut map = LiveMap::new(plan).unwrap();
+        (0..map.plan().cells()).for_each(|cell| set(&mut map, cell));
+        driver.app.studies.set(key, Live::of(&map), map.is_whole());
+    }
     driver.press("m");
     driver
-}
-
-/// The explorer with a complete map on display.
-pub fn mapped(document: Document) -> Driver {
-    driver_with(document, &Level::ALL)
 }
 
 /// κ and H of the mark, on a map with H across.
@@ -68,7 +52,7 @@ fn place(driver: &Driver) -> (f64, f64) {
 fn moves_in_a_row_are_one_edit() {
     let mut driver = mapped(rough());
     assert_eq!(driver.app.keys(), Context::Map);
-    let before = driver.app.edit.document.clone();
+    let before = driver.document().clone();
     let (edits, map) = (driver.app.edit.past.len(), driver.app.grid().cloned());
     assert_eq!(driver.press("Down"), [Task::Ask]);
     assert_eq!(place(&driver), (6.73, 0.7));
@@ -78,14 +62,14 @@ fn moves_in_a_row_are_one_edit() {
     assert!(is_up_to_date(&driver.app));
     // The map is that of all of them.
     assert_eq!(driver.app.grid(), map.as_ref());
-    assert!(driver.text().contains("◆ H 0.65, κ 3.36"), "{}", driver.text());
+    driver.shows("◆ H 0.65, κ 3.36");
     // Any other key ends the row.
     driver.press("V Up");
     assert_eq!((place(&driver).0, driver.app.edit.past.len()), (4.0, edits + 2));
     driver.press("u");
     assert_eq!(place(&driver), (3.36, 0.65));
     driver.press("Down u u");
-    assert_eq!(driver.app.edit.document, before);
+    assert_eq!(*driver.document(), before);
     driver.press("U");
     assert_eq!(place(&driver), (3.36, 0.65));
     assert_eq!(driver.app.grid(), map.as_ref());
@@ -96,10 +80,9 @@ fn the_mouse_moves_the_mark() {
     let mut driver = mapped(rough());
     let edits = driver.app.edit.past.len();
     let area = driver.area(Pane::Map);
-    let mut mouse = |column, row, gesture| driver.act(Action::Mouse(Mouse { column, row, gesture }));
-    mouse(area.x + 20, area.y + 10, Gesture::Press);
+    driver.mouse(area.x + 20, area.y + 10, Gesture::Press);
     for column in 20..30 {
-        mouse(area.x + column, area.y + 12, Gesture::Drag);
+        driver.mouse(area.x + column, area.y + 12, Gesture::Drag);
     }
     assert_eq!(driver.app.edit.past.len(), edits + 1);
     // A cell of the map has two of the screen.
@@ -116,41 +99,24 @@ fn other_edits_begin_the_map_anew() {
     assert!(!begins(&mut driver), "it is whole");
     driver.press("Tab Tab R");
     assert!(begins(&mut driver));
-    assert!(driver.text().contains("computing the map"), "{}", driver.text());
+    driver.shows("computing the map");
     // The map is hidden.
     driver.press("m m");
     assert!(!driver.app.is_shown(Pane::Map));
     assert!(!begins(&mut driver));
     assert_eq!(driver.press("m"), [Task::Study, Task::Ask]);
     assert!(begins(&mut driver));
-    // Accuracy takes the place of the map, and vice versa.
-    driver.press("A");
-    assert_eq!(driver.app.view.large, Some(Pane::Accuracy));
-    driver.press("m");
-    assert_eq!(driver.app.view.large, Some(Pane::Map));
-}
-
-#[test]
-fn a_scene_without_a_map_says_why() {
-    for (document, why) in [(smooth(), "a smooth body has"), (without_adhesion(), "has no adhesion")] {
-        let mut driver = mapped(document);
-        assert!(driver.text().contains(why), "{}", driver.text());
-        let generation = driver.app.edit.generation;
-        driver.press("Left Up");
-        assert_eq!(driver.app.edit.generation, generation);
-    }
 }
 
 /// The map has both regimes, each with its protocol and the quantities that decide it.
 #[test]
 fn the_regime_has_two_protocols() {
     let mut driver = mapped(rough());
-    assert!(driver.text().contains("Map of regime (touch) over H, κ"), "{}", driver.text());
+    driver.shows("Map of regime (touch) over H, κ");
     driver.press("V V V V");
-    let text = driver.text();
-    for said in
-        ["Map of regime (F=0)", "pressure-insensitive after zero net force (3 of 4", "F_a(F=0)/F_a,max"]
-    {
-        assert!(text.contains(said), "{said}\n{text}");
-    }
+    driver.shows_all([
+        "Map of regime (F=0)",
+        "pressure-insensitive after zero net force (3 of 4",
+        "F_a(F=0)/F_a,max",
+    ]);
 }

@@ -1,15 +1,9 @@
 //! A measured force curve beside the scene.
 
-use super::common::driver::Driver;
-use super::is_up_to_date;
-use asperity::explorer::action::Task;
+use super::*;
+use asperity::study::{CurveOptions, Drift, Fit, MeasuredCurve};
 use asperity::explorer::measured::Fitting;
 use asperity::explorer::measured::Measured;
-use asperity::explorer::opening::Opening;
-use asperity::explorer::pane::Pane;
-use asperity::scene::Simulation;
-use asperity::scene::{Document, open};
-use asperity::study::{CurveOptions, Drift, Fit, MeasuredCurve};
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -36,7 +30,7 @@ fn curve() -> MeasuredCurve {
     }
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("curve.csv");
-    std::fs::write(&path, text).unwrap();
+    fs::write(&path, text).unwrap();
     MeasuredCurve::read(&path, &options()).unwrap()
 }
 
@@ -66,11 +60,10 @@ fn residual(driver: &Driver) -> f64 {
 fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() {
     let mut driver = shown();
     assert!(driver.pane(Pane::Force).concat().contains("● measured"), "{}", driver.text());
-    assert!(driver.text().contains("the loading of the measured curve"), "{}", driver.text());
+    driver.shows("the loading of the measured curve");
     driver.press("Space");
     let far = residual(&driver);
-    driver.select("adhesion.work");
-    driver.enter("0.049 J/m²");
+    driver.set("adhesion.work", "0.049 J/m²");
     let near = residual(&driver);
     assert!(far > 2.0 * near && near < 3.0, "{far} {near}");
     let measured = driver.app.measured.clone().unwrap();
@@ -81,20 +74,16 @@ fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() 
     let pull_off = driver.outcome().figures.pull_off_indentation.unwrap();
     assert!((least - pull_off).abs() < 5e-8, "{least} {pull_off}");
 
-    driver.press("Ctrl+f Ctrl+u");
-    driver.type_text("work,ofset");
-    driver.press("Enter");
+    driver.press("Ctrl+f Ctrl+u `work,ofset` Enter");
     assert!(
         driver.refusal().is_some_and(|why| why.contains("did you mean offset?")),
         "{:?}",
         driver.refusal()
     );
-    driver.press("Ctrl+u");
-    driver.type_text("work, offset");
-    driver.press("Enter");
-    let work = driver.app.edit.document.scene().adhesion.unwrap().work().unwrap();
+    driver.press("Ctrl+u `work, offset` Enter");
+    let work = driver.document().scene().adhesion.unwrap().work().unwrap();
     assert!((work - 0.05).abs() < 5e-4, "{work}");
-    assert!(driver.text().contains("fit: γ ") && driver.text().contains("u undoes"), "{}", driver.text());
+    driver.shows_all(["fit: γ ", "u undoes"]);
     driver.press(".");
     assert!(is_up_to_date(&driver.app) && residual(&driver) < near, "{}", driver.text());
 
@@ -110,16 +99,5 @@ fn the_residual_of_a_measured_curve_follows_the_scene_and_a_fit_can_be_undone() 
         "# command: asperity fit curve.csv --drift=remove --noise=2e-7N --free=work,offset jkr-sphere"
     ));
     driver.press("u");
-    assert_eq!(driver.app.edit.document.scene().adhesion.unwrap().work(), Some(0.049));
-}
-
-#[test]
-fn without_a_measured_curve_there_is_nothing_to_fit() {
-    let mut driver = Driver::start(sphere("0.03"));
-    driver.press("Ctrl+f");
-    assert!(
-        driver.text().contains("! there is no measured curve; asperity SCENE --measured CURVE"),
-        "{}",
-        driver.text()
-    );
+    assert_eq!(driver.document().scene().adhesion.unwrap().work(), Some(0.049));
 }

@@ -1,9 +1,6 @@
 //! The mouse: keys do everything that the mouse does.
 
-use super::common::driver::Driver;
-use super::{default_scene, mid_retraction, pressed};
-use asperity::explorer::action::Gesture;
-use asperity::explorer::pane::Pane;
+use super::*;
 use asperity::explorer::panel::Under;
 use asperity::explorer::panes::force::indentation_at;
 use asperity::explorer::panes::under;
@@ -85,7 +82,7 @@ fn the_wheel_looks_closer_and_scrolls() {
     assert_eq!(driver.app.view.profile.share, 1.0);
     // The place under the pointer remains there.
     let (column, row) = (area.x + 3 * area.width / 4, area.y + 2);
-    let length = driver.app.edit.document.scene().length;
+    let length = driver.document().scene().length;
     let at = |driver: &Driver| axis_number(driver, column, row) / length;
     let before = at(&driver);
     for turns in [1, 1, 1, -1] {

@@ -1,11 +1,6 @@
 //! The list of parameters: its order, its groups, its visible part, and the search.
 
-use super::common::scenes::{changed, punch, rough, smooth, without_adhesion};
-use super::{SIZES, default_scene, mid_retraction, pressed};
-use asperity::explorer::app::App;
-use asperity::explorer::keys::bindings::Context;
-use asperity::explorer::pane::Pane;
-use asperity::scene::Document;
+use super::*;
 
 fn selected(app: &App) -> &str {
     &app.edit.parameter().expect("a parameter is selected").path
@@ -68,7 +63,7 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
     ] {
         let mut driver = pressed("/");
         driver.type_text(typed);
-        assert!(driver.status().contains(&format!("Find: {typed}")), "{}", driver.status());
+        driver.states(&format!("Find: {typed}"));
         driver.press("Enter");
         assert_eq!(selected(&driver.app), path, "{typed}");
         assert_eq!(driver.app.keys(), Context::Parameters, "a value can be typed at once");
@@ -81,20 +76,20 @@ fn a_search_is_moved_through_and_left() {
         for before in ["", "Tab", "Tab Tab Tab"] {
             let mut driver = pressed(before);
             driver.resize(size);
-            let (pane_before, document) = (driver.app.view.pane, driver.app.edit.document.clone());
+            let (pane_before, document) = (driver.app.view.pane, driver.document().clone());
             driver.press("/ m o d");
             let found = driver.app.keys();
             assert_eq!(found, Context::List);
             assert!(driver.text().contains('›'), "{size:?}\n{}", driver.text());
             driver.press("Down Esc");
             assert_eq!((driver.app.view.pane, selected(&driver.app)), (pane_before, "roughness.hurst"));
-            assert_eq!(driver.app.edit.document, document);
+            assert_eq!(*driver.document(), document);
         }
     }
     // A search without a match moves nothing.
     let mut driver = pressed("/ q q q Enter");
     assert_eq!(driver.app.keys(), Context::List);
-    assert!(driver.text().contains("no parameter"), "{}", driver.text());
+    driver.shows("no parameter");
     driver.press("Backspace Ctrl+u Down Up Down Enter");
     assert_eq!(driver.app.edit.selected, 1);
 }

@@ -1,12 +1,8 @@
 //! Adhesion against preload beside the force curve.
 
-use super::common::driver::Driver;
-use super::common::scenes::{rough, without_adhesion};
-use asperity::explorer::action::Action;
+use super::*;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::panes::preload_curve::{PROFILES, PreloadCurve};
-use asperity::scene::Document;
-use asperity::scene::Simulation;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Computes the curve up to this number of profiles.
@@ -43,28 +39,16 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
         let mut driver = shown(rough(), profiles);
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
-            let text = driver.text();
-            for words in ["Adhesion against preload", "present preload", "Parameters", "this profile"] {
-                assert!(text.contains(words), "{words}\n{text}");
-            }
-            assert_eq!(text.contains("3 of 16 profiles"), profiles == 3, "{text}");
-            assert!(text.contains(&format!("range of {profiles} profiles")), "{text}");
+            driver.shows_all(["Adhesion against preload", "present preload", "Parameters", "this profile"]);
+            assert_eq!(driver.text().contains("3 of 16 profiles"), profiles == 3);
+            driver.shows(format!("range of {profiles} profiles"));
             // The status line and the crosshair.
-            assert!(text.contains("from first touch"), "{text}");
-            driver.press("*");
-            let text = driver.text();
-            for curve in ["F_n ", "this profile ", "median ", "quartiles ", "mean "] {
-                assert!(text.contains(curve), "{curve}: {text}");
-            }
+            driver.sees("*", "from first touch");
+            driver.shows_all(["F_n ", "this profile ", "median ", "quartiles ", "mean "]);
             driver.press("*");
         }
         driver.resize((200, 40));
-        let spread = format!(" · {profiles} profiles: median ");
-        assert!(
-            driver.text().contains(&spread) && driver.text().contains(" this profile ± …"),
-            "{}",
-            driver.text()
-        );
+        driver.shows_all([&*format!(" · {profiles} profiles: median "), " this profile ± …"]);
     }
 }
 
@@ -96,5 +80,5 @@ fn an_edit_begins_a_new_curve_and_a_scene_without_one_says_why() {
     compute(&mut driver, 1);
     assert_eq!(computed(&driver), 1);
     let driver = shown(without_adhesion(), 2);
-    assert!(driver.text().contains("without adhesion nothing holds"), "{}", driver.text());
+    driver.shows("without adhesion nothing holds");
 }

@@ -1,21 +1,13 @@
 //! Saving the scene, and leaving with or without saving.
 
-use super::common::driver::{Driver, REFUSED};
-use super::common::scenes::rough;
-use super::pressed;
+use super::*;
 use asperity::explorer::action::{Content, OutputFile};
-
-use asperity::explorer::action::Task;
-use asperity::explorer::keys::bindings::Context;
-use asperity::scene::Document;
 
 #[test]
 fn a_saved_scene_is_read_back_as_it_is() {
     let mut driver = pressed("");
     driver.select("roughness.hurst");
-    driver.press("l s");
-    driver.press("Ctrl+u");
-    driver.type_text("folder/mine.ron");
+    driver.press("l s Ctrl+u `folder/mine.ron`");
     assert_eq!(
         driver.press("Enter"),
         [Task::Write(OutputFile {
@@ -27,9 +19,9 @@ fn a_saved_scene_is_read_back_as_it_is() {
     );
     let text = &driver.file("folder/mine.ron");
     let again = Document::parse(text, "mine.ron").unwrap();
-    assert_eq!(again.scene(), driver.app.edit.document.scene());
+    assert_eq!(again.scene(), driver.document().scene());
     assert!(text.contains("// soft"), "the comments are kept");
-    assert!(driver.text().contains("saved to folder/mine.ron"), "{}", driver.text());
+    driver.shows("saved to folder/mine.ron");
     assert!(!driver.app.edit.is_unsaved());
     driver.press("q");
     assert!(driver.app.finished, "nothing is left to be asked");
@@ -52,8 +44,7 @@ fn what_could_not_be_saved_is_stated_and_not_forgotten() {
     driver.press("Ctrl+u");
     assert!(driver.press("Enter").is_empty() && driver.files().is_empty());
     assert!(driver.status().starts_with("! type the name of a file"), "{}", driver.status());
-    driver.type_text("mine.csv");
-    driver.press("Enter");
+    driver.press("`mine.csv` Enter");
     assert!(
         driver.status().starts_with("! unsupported file extension .csv; use .ron"),
         "{}",
@@ -67,7 +58,7 @@ fn a_changed_scene_asks_before_it_is_left() {
         let mut driver = pressed("l q");
         assert_eq!(driver.app.keys(), Context::Leave);
         assert!(!driver.app.finished);
-        assert!(driver.text().contains("unsaved"), "{}", driver.text());
+        driver.shows("unsaved");
         assert!(driver.rows()[0].contains("changed"), "{}", driver.text());
         driver.press(keys);
         driver
@@ -88,7 +79,7 @@ fn a_changed_scene_asks_before_it_is_left() {
         assert!(!asked(keys).app.finished, "{keys}");
     }
     let mut driver = asked("n");
-    std::fs::write(driver.folder.join("rough-line.ron"), "theirs").unwrap();
+    fs::write(driver.folder.join("rough-line.ron"), "theirs").unwrap();
     driver.press("q s Enter");
     assert!(!driver.app.finished, "first it is asked about the file");
     driver.press("y");
@@ -102,48 +93,40 @@ fn a_comment_that_goes_with_what_is_replaced_is_stated() {
     let document = Document::parse(&text, "mine.ron").unwrap();
     let comments = document.comments();
     let mut driver = Driver::start(document);
-    driver.select("loading");
-    driver.enter("[ToForce(1.0e-5), ToSeparation]");
-    assert_eq!(driver.app.edit.document.comments(), comments - 1);
-    assert!(driver.text().contains("1 comment removed"), "{}", driver.text());
+    driver.set("loading", "[ToForce(1.0e-5), ToSeparation]");
+    assert_eq!(driver.document().comments(), comments - 1);
+    driver.shows("1 comment removed");
     driver.press("u");
-    assert_eq!(driver.app.edit.document.text(), text);
+    assert_eq!(driver.document().text(), text);
     driver.select("roughness.hurst");
     driver.press("l");
-    assert!(!driver.text().contains("gone"), "{}", driver.text());
+    driver.hides("gone");
 }
 
 #[test]
 fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
     let mut driver = pressed("");
-    driver.select("title");
-    driver.enter("My \"own\" line");
-    driver.select("notice");
-    driver.enter("Look here.");
+    driver.set("title", "My \"own\" line");
+    driver.set("notice", "Look here.");
     assert!(driver.rows()[0].starts_with("My \"own\" line [changed]  Look here."), "{}", driver.text());
-    driver.press("s Ctrl+u");
-    driver.type_text("mine");
-    driver.press("Enter");
+    driver.press("s Ctrl+u `mine` Enter");
     let saved = Document::parse(&driver.file("mine.ron"), "mine.ron").unwrap();
     let scene = saved.scene();
     assert_eq!((scene.title.as_str(), scene.notice.as_str()), ("My \"own\" line", "Look here."));
     assert_eq!(saved.comments(), rough().comments());
-    assert!(!driver.app.edit.is_unsaved() && driver.app.edit.document.name() == "mine.ron");
+    assert!(!driver.app.edit.is_unsaved() && driver.document().name() == "mine.ron");
 }
 
 #[test]
 fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
     let mut driver = pressed("l o 1 Enter q");
     assert_eq!(driver.app.keys(), Context::Leave, "the first scene is unsaved");
-    driver.press("n l q");
-    assert!(driver.status().contains("2 scenes have unsaved changes"), "{}", driver.status());
+    driver.answers("n l q", "2 scenes have unsaved changes");
     driver.press("n u u");
-    assert_eq!(driver.app.edit.document.name(), "rough-line");
+    assert_eq!(driver.document().name(), "rough-line");
     assert_eq!(driver.app.edit.unsaved().len(), 1, "it is the explored scene again");
     // Each is saved before the explorer ends.
-    driver.press("l o 1 Enter l q s Ctrl+u");
-    driver.type_text("first");
-    driver.press("Enter");
+    driver.press("l o 1 Enter l q s Ctrl+u `first` Enter");
     for _ in 0..3 {
         if driver.app.keys() == Context::Leave {
             driver.press("s Enter");
@@ -161,7 +144,7 @@ fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
     let mut driver = pressed("v N a n + - A A m t X m z z M T d d");
     driver.select("roughness.hurst");
     driver.press("l h");
-    assert!(driver.app.edit.unsaved().is_empty(), "{}", driver.app.edit.document.text());
+    assert!(driver.app.edit.unsaved().is_empty(), "{}", driver.document().text());
     driver.press("q");
     assert!(driver.app.finished);
 }

@@ -1,12 +1,6 @@
 //! The pane of sensitivities.
 
-use super::common::driver::Driver;
-use super::common::scenes::{changed, rough};
-use asperity::explorer::action::Task;
-use asperity::explorer::pane::Pane;
-use asperity::explorer::studies::Study;
-use asperity::scene::Document;
-use asperity::scene::Simulation;
+use super::*;
 use asperity::study::Sensitivity;
 
 /// The explorer with the sensitivities computed, and shown.

@@ -1,15 +1,9 @@
 //! One walk over every mode and pane in windows of five sizes, in all themes and markers; and what has to be visible in each
 //! window.
 
-use super::accuracy::measured;
-use super::common::driver::{APPEARANCE, Driver};
-use super::common::scenes::rough;
 use super::common::script::rows;
-use super::map::mapped;
-use super::preloads::computed_preloads;
-use super::{SIZES, everywhere, pressed};
-use asperity::explorer::layout::{Layout, is_framed};
-use asperity::explorer::pane::Pane;
+use super::*;
+use asperity::explorer::layout::is_framed;
 use asperity::explorer::theme::{Cycle, Marker, Theme};
 use clap::ValueEnum;
 use ratatui::style::Color;
@@ -68,12 +62,12 @@ fn keys_change_colours_and_markers_and_say_so() {
     for theme in [Theme::Dark, Theme::Light, Theme::Plain, Theme::Neutral] {
         driver.press("T");
         assert_eq!(driver.app.view.appearance.theme, theme);
-        assert!(driver.status().contains(&theme.name()), "{}", driver.status());
+        driver.states(&theme.name());
     }
     for marker in [Marker::Ascii, Marker::Braille] {
         driver.press("M");
         assert_eq!(driver.app.view.appearance.marker, marker);
-        assert!(driver.status().contains(&marker.name()), "{}", driver.status());
+        driver.states(&marker.name());
     }
 }
 
@@ -128,8 +122,8 @@ fn messages_are_whole_or_end_in_an_ellipsis() {
 /// The pane alone in the window, with a whole profile behind it.
 fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
     let mut driver = match pane {
-        Pane::Map => mapped(rough()),
-        Pane::Accuracy => measured(rough()),
+        Pane::Map => map::mapped(rough()),
+        Pane::Accuracy => accuracy::measured(rough()),
         Pane::Preloads => computed_preloads(rough()),
         Pane::Spectrum => pressed("Q"),
         _ => pressed(""),
@@ -162,31 +156,6 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
             assert!(rows.contains(across) && rows.contains(up), "{size:?} {pane:?}\n{rows}");
             let has_numbers = rows.lines().filter(|row| row.contains('┤')).count() >= 2;
             assert!(has_numbers || area.height < 12, "{size:?} {pane:?}\n{rows}");
-        }
-    }
-}
-
-#[test]
-fn a_digit_on_a_choice_says_how_choices_are_changed() {
-    for size in [SIZES[0], SIZES[4]] {
-        for (path, expected) in [
-            ("adhesion", "adhesion is a choice: ← → change it"),
-            ("material", "material is not a number: Enter types it"),
-            ("loading", "loading is not a number: Enter types it"),
-            ("numerics", "numerics is a group: its fields are in the rows below"),
-        ] {
-            let mut driver = pressed("");
-            driver.app.edit.selected =
-                driver.app.edit.parameters.iter().position(|one| one.path == path).unwrap();
-            driver.app.view.pane = Pane::Parameters;
-            driver.resize(size);
-            let before = driver.app.edit.document.text().to_owned();
-            driver.press("2");
-            let status = driver.status();
-            let start = status.split("  ").next().unwrap_or_default();
-            let start = start.strip_suffix('…').unwrap_or(start);
-            assert!(expected.starts_with(start) && start.len() > 8, "{size:?} {path}: {status}");
-            assert_eq!((driver.app.prompt.is_none(), driver.app.edit.document.text()), (true, &*before));
         }
     }
 }

@@ -1,12 +1,8 @@
 //! The loading by hand and by list: stages by keys and as text, the path of manual loading kept.
 
-use super::common::driver::Driver;
-use super::common::scenes::{changed, rough, smooth, without_adhesion};
-use super::{is_up_to_date, pressed};
+use super::*;
 use asperity::contact::Move;
-use asperity::explorer::app::{App, Message};
-use asperity::scene::Simulation;
-use asperity::scene::{Document, open, to_ron};
+use asperity::scene::to_ron;
 
 /// The rough scene with a loading, the row of one of its stages selected, of the loading as a whole for 0.
 fn loaded(loading: &str, stage: usize) -> Driver {
@@ -16,10 +12,9 @@ fn loaded(loading: &str, stage: usize) -> Driver {
 }
 
 fn select(driver: &mut Driver, stage: usize) {
-    let is_row =
-        |(leg, path): (Option<usize>, &str)| leg == stage.checked_sub(1) && path.starts_with("loading");
     let rows = &driver.app.edit.parameters;
-    driver.app.edit.selected = rows.iter().position(|one| is_row((one.leg, &one.path))).expect("a row");
+    let is_row = |leg: Option<usize>, path: &str| leg == stage.checked_sub(1) && path.starts_with("loading");
+    driver.app.edit.selected = rows.iter().position(|one| is_row(one.leg, &one.path)).expect("a row");
 }
 
 fn loading(app: &App) -> String {
@@ -73,9 +68,7 @@ fn a_stage_of_another_kind_has_the_state_at_its_end() {
     let end = driver.app.legs()[0].end();
     let preload = driver.outcome().figures.adhesion_force;
     driver.press("V");
-    let Move::ToIndentation(to) = driver.app.edit.document.scene().loading[0] else {
-        panic!("an indentation")
-    };
+    let Move::ToIndentation(to) = driver.document().scene().loading[0] else { panic!("an indentation") };
     assert!((to / end - 1.0).abs() < 1e-3, "{to} {end}");
     assert_eq!(selected(&driver.app), Some(1));
     // The turning point is nearly the same.
@@ -86,7 +79,7 @@ fn a_stage_of_another_kind_has_the_state_at_its_end() {
     assert_eq!(selected(&driver.app), Some(1));
     driver.enter("touch");
     assert_eq!(loading(&driver.app), "[ToTouch, ToSeparation]");
-    driver.app.view.pane = asperity::explorer::pane::Pane::Parameters;
+    driver.app.view.pane = Pane::Parameters;
     driver.press("2 Space n m Enter");
     assert_eq!(loading(&driver.app), "[ToIndentation(2.0e-9), ToSeparation]");
 }
@@ -104,40 +97,26 @@ fn edits_of_stages_keep_comments() {
     driver.press("Esc");
     let added =
         "[\n        ToForce(20.0e-6), // press\n        ToZeroForce,\n        ToSeparation, // pull\n    ]";
-    assert!(driver.app.edit.document.text().contains(added), "{}", driver.app.edit.document.text());
+    assert!(driver.document().text().contains(added), "{}", driver.document().text());
     driver.press("K");
     let moved =
         "[\n        ToZeroForce,\n        ToForce(20.0e-6), // press\n        ToSeparation, // pull\n    ]";
-    assert!(driver.app.edit.document.text().contains(moved), "{}", driver.app.edit.document.text());
+    assert!(driver.document().text().contains(moved), "{}", driver.document().text());
     driver.press("J Backspace");
-    assert_eq!(driver.app.edit.document.text(), text);
-    assert_eq!(driver.app.edit.document.overrides(), []);
+    assert_eq!(driver.document().text(), text);
+    assert_eq!(driver.document().overrides(), []);
 }
 
 #[test]
 fn what_cannot_be_loaded_is_refused_in_one_line() {
-    let refused = |driver: &Driver| match &driver.app.message {
-        Some(Message::Refused(why) | Message::Error(why)) => why.clone(),
-        other => panic!("{other:?}: {}", driver.text()),
-    };
     let (one, two) = ("[ToForce(2.0e-5)]", "[ToForce(2.0e-5), ToSeparation]");
-    for (stages, stage, keys, why) in [
-        (one, 1, "Backspace", "loading = []: allowed: a list of 1 to 100000"),
-        (one, 0, "L", "loading is not a number: Enter types it"),
-        (two, 2, "K", "cannot pull before contact"),
-    ] {
-        let mut driver = loaded(stages, stage);
-        driver.press(keys);
-        let message = refused(&driver);
-        assert!(message.contains(why), "{keys}: {message}");
-        assert_eq!(loading(&driver.app), stages, "{keys}");
-    }
+    let mut driver = loaded(one, 1);
+    driver.answers("Backspace", "loading = []: allowed: a list of 1 to 100000");
+    assert_eq!(loading(&driver.app), one);
     // At the end of the list there is nothing to exchange.
     let mut driver = loaded(two, 2);
     driver.press("J");
     assert!(driver.app.edit.past.is_empty() && selected(&driver.app) == Some(2));
-    let mut driver = pressed("P");
-    assert!(refused(&driver).contains("select a row of the loading"));
     // What was typed stays in the editor.
     for (stage, typed, why) in [
         (0, "separation", "cannot pull before contact"),
@@ -147,14 +126,9 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
         (0, "2 loops 0 N to 1 kN, separation", "is far beyond full contact at "),
     ] {
         select(&mut driver, stage);
-        driver.press("Enter");
-        driver.type_text(typed);
-        driver.press("Enter");
-        assert!(
-            driver.refusal().is_some_and(|refusal| refusal.contains(why)),
-            "{typed}: {:?}",
-            driver.refusal()
-        );
+        driver.press(&format!("Enter `{typed}` Enter"));
+        let refusal = driver.refusal().unwrap_or_default();
+        assert!(refusal.contains(why), "{typed}: {refusal}");
         assert_eq!(driver.app.prompt.as_ref().unwrap().line.text(), typed);
         driver.press("Esc");
     }
@@ -188,7 +162,7 @@ fn the_path_of_manual_loading_is_kept_as_the_loading() {
         let effects = driver.press("W");
         assert!(driver.status().contains("is the loading of the scene"), "{keys}: {}", driver.status());
         assert!(!effects.is_empty() && driver.app.manual.is_none());
-        assert_eq!(driver.app.edit.document.scene().loading, manual.loading, "{keys}");
+        assert_eq!(driver.document().scene().loading, manual.loading, "{keys}");
         let is_near = |one: f64, other: f64, size: f64| (one - other).abs() <= 1e-9 * size;
         let (deepest, largest) = manual.path.iter().fold((0.0_f64, 0.0_f64), |(d, force), point| {
             (d.max(point.indentation.abs()), force.max(point.force.abs()))
@@ -196,7 +170,7 @@ fn the_path_of_manual_loading_is_kept_as_the_loading() {
         // The body stays where it is.
         assert!(is_near(driver.point().indentation, point.indentation, deepest), "{keys}");
         // The curve of each stage is the path.
-        let document = driver.app.edit.document.clone();
+        let document = driver.document().clone();
         let mut legs = Vec::new();
         let run = Simulation::default().run(document.scene(), &|| false, &mut |_, _, leg| {
             legs.push(leg.clone());
@@ -218,11 +192,8 @@ fn the_path_of_manual_loading_is_kept_as_the_loading() {
         }
         assert!(compared > 20, "{keys}: {compared} points");
         driver.press("u");
-        assert_eq!(driver.app.edit.document.text(), scene.text());
+        assert_eq!(driver.document().text(), scene.text());
     }
-    let mut driver = pressed("W");
-    assert!(driver.status().contains("no manual loading; d begins it"), "{}", driver.status());
-    driver.press("u");
 }
 
 #[test]
@@ -230,9 +201,7 @@ fn the_path_is_exported_with_its_stages() {
     let mut driver = Driver::start(rough());
     driver.press("Space > . . d { } { S");
     let manual = driver.app.manual.clone().unwrap();
-    driver.press("E Ctrl+u");
-    driver.type_text("path.csv");
-    driver.press("Enter");
+    driver.press("E Ctrl+u `path.csv` Enter");
     let table = driver.file("path.csv");
     let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows[0], "leg,indentation,force,contact_length,fragments,stored_energy");
@@ -245,9 +214,7 @@ fn the_path_is_exported_with_its_stages() {
     let path = driver.folder.join("path.csv");
     assert_eq!(open(path.to_str().unwrap()).unwrap().scene().loading, manual.loading);
     assert!(table.contains("# command: asperity rough-line --set 'loading="), "{table}");
-    driver.press("E Ctrl+u");
-    driver.type_text("path.json");
-    driver.press("Enter");
+    driver.press("E Ctrl+u `path.json` Enter");
     let value: serde_json::Value = serde_json::from_str(&driver.file("path.json")).unwrap();
     assert_eq!(value["curve"].as_array().unwrap().len(), manual.path.len());
     assert_eq!(value["loading"][0]["ToForce"], 2e-5);

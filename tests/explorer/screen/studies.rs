@@ -1,8 +1,8 @@
 //! The thread of the studies: the newest order wins.
 
 use super::common::deadline::within;
-use asperity::explorer::studies::{Finding, Findings, Study, StudyThread};
-use asperity::scene::Simulation;
+use super::*;
+use asperity::explorer::studies::{Finding, Findings, StudyThread};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 

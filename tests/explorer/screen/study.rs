@@ -1,16 +1,10 @@
 //! A finished study in place of the computed map.
 
-use super::common::driver::Driver;
-use super::common::scenes::rough;
-use super::common::study::{PLAN, begun, merged};
-use super::{is_up_to_date, pressed};
-use asperity::contact::Move;
-use asperity::explorer::action::Action;
-use asperity::explorer::action::Task;
+use super::common::study::{PLAN, merged};
+use super::*;
 use asperity::explorer::commands::accuracy::studies;
-use asperity::explorer::keys::bindings::Context;
 use asperity::explorer::map::Live;
-use asperity::explorer::opening::Opening;
+use asperity::contact::Move;
 use asperity::scene::Roughness;
 use asperity::study::Quantity;
 use tempfile::TempDir;
@@ -37,7 +31,7 @@ fn place(driver: &Driver) -> (f64, f64) {
 }
 
 fn preload(driver: &Driver) -> f64 {
-    match driver.app.edit.document.scene().loading[..] {
+    match driver.document().scene().loading[..] {
         [Move::ToForce(force), Move::ToSeparation] => force,
         ref other => panic!("{other:?}"),
     }
@@ -59,46 +53,40 @@ fn glyphs_show_all_that_was_recorded() {
     }
     // The map computed here does not have this quantity, and shows its own.
     driver.press("W");
-    assert!(!driver.text().contains("F_a (mN) "), "{}", driver.text());
-    driver.press("W");
-    assert!(driver.text().contains("F_a (mN) "), "{}", driver.text());
+    driver.hides("F_a (mN) ");
+    driver.sees("W", "F_a (mN) ");
     driver.press("V");
     assert_eq!(driver.app.mapped(), Quantity::Regime);
-    for text in ["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "(12 of 12"] {
-        assert!(driver.text().contains(text), "{text}\n{}", driver.text());
-    }
+    driver.shows_all(["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "(12 of 12"]);
 }
 
 #[test]
 fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
     let (_folder, mut driver) = opened();
-    let before = driver.app.edit.document.clone();
+    let before = driver.document().clone();
     assert_eq!(place(&driver), (1.0, 0.5));
     driver.press("Up Right k L");
     // Values of the study: 12 digits, other than those of the map computed here.
     assert_eq!(place(&driver), (2.0, 0.9));
-    assert!(driver.text().contains("◆ H 0.9, κ 2"), "{}", driver.text());
+    driver.shows("◆ H 0.9, κ 2");
     assert!(is_up_to_date(&driver.app));
     driver.press(&"K ".repeat(4));
     assert_eq!(place(&driver), (16.0, 0.9));
-    driver.press("k");
-    assert!(driver.status().contains("edge of the map"), "{}", driver.status());
+    driver.answers("k", "edge of the map");
     driver.press("u u");
-    assert_eq!(driver.app.edit.document, before);
+    assert_eq!(*driver.document(), before);
     for (kappa, hurst, back) in [("100", "0.5", (16.0, 0.5)), ("0.01", "0.97", (0.25, 0.9))] {
         driver.press("Tab Tab");
-        driver.select("adhesion.kappa");
-        driver.enter(kappa);
-        driver.select("roughness.hurst");
-        driver.enter(hurst);
+        driver.set("adhesion.kappa", kappa);
+        driver.set("roughness.hurst", hurst);
         for size in [(120, 40), (80, 24), (20, 5), (1, 1)] {
             driver.resize(size);
             driver.screen();
         }
         driver.resize((120, 40));
-        assert!(driver.text().contains("outside the map"), "{}", driver.text());
+        driver.shows("outside the map");
         assert!(driver.rows().iter().any(|row| row.chars().take(68).any(|cell| cell == '◆')));
-        assert!(!driver.text().contains("no longer"), "{}", driver.text());
+        driver.hides("no longer");
         driver.press("m");
         driver.press(if back.0 > 1.0 { "j" } else { "k" });
         if back.1 != place(&driver).1 {
@@ -112,12 +100,12 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
 fn the_scene_follows_to_the_next_preload() {
     let (_folder, mut driver) = opened();
     let first = preload(&driver);
-    assert!(driver.text().contains("F_n/(E* h L) = 0.01  1 of 3, P: the next"), "{}", driver.text());
+    driver.shows("F_n/(E* h L) = 0.01  1 of 3, P: the next");
     let mut regimes = vec![driver.app.grid().cloned()];
     for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
         driver.press("P");
         assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
-        assert!(driver.text().contains(&format!("F_n/(E* h L) = {share}")), "{}", driver.text());
+        driver.shows(&format!("F_n/(E* h L) = {share}"));
         assert!(is_up_to_date(&driver.app));
         regimes.push(driver.app.grid().cloned());
     }
@@ -127,12 +115,11 @@ fn the_scene_follows_to_the_next_preload() {
     // A different scene is left unchanged.
     driver.press("Tab Tab");
     driver.select("material.youngs_modulus");
-    driver.press("L");
-    assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
-    let other = driver.app.edit.document.clone();
+    driver.sees("L", "no longer that of the study");
+    let other = driver.document().clone();
     driver.press("m P P");
-    assert_eq!(driver.app.edit.document, other);
-    assert!(driver.text().contains("0.1  2 of 3"), "{}", driver.text());
+    assert_eq!(*driver.document(), other);
+    driver.shows("0.1  2 of 3");
 }
 
 #[test]
@@ -142,27 +129,16 @@ fn the_computed_map_can_be_had_instead() {
     assert!(!charts(&mut driver), "nothing is computed that is not shown");
     assert_eq!(driver.press("W"), [Task::Study]);
     assert!(charts(&mut driver));
-    assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
+    driver.shows("over H, κ, 4 profiles");
     driver.press("Up");
     assert_eq!(place(&driver).0, 1.19, "from cell to cell of the map that is shown");
-    driver.press("P");
-    assert!(driver.status().contains("W shows the study's"), "{}", driver.status());
-    driver.press("W");
-    assert!(driver.text().contains("Study small"), "{}", driver.text());
+    driver.answers("P", "W shows the study's");
+    driver.sees("W", "Study small");
     // The study is hidden and shown again with the pane.
-    driver.press("m m");
-    assert!(driver.text().contains("Study small"), "{}", driver.text());
+    driver.sees("m m", "Study small");
     // Another scene has a map of its own, and the study stays loaded.
-    driver.press("o 1 Enter W");
-    assert!(driver.text().contains("no longer that of the study"), "{}", driver.text());
-    driver.press("W");
-    assert!(driver.text().contains("over H, κ, 4 profiles"), "{}", driver.text());
-
-    let mut driver = pressed("m");
-    for key in ["W", "P"] {
-        driver.press(key);
-        assert!(driver.status().contains("! no study is open"), "{}", driver.status());
-    }
+    driver.sees("o 1 Enter W", "no longer that of the study");
+    driver.sees("W", "over H, κ, 4 profiles");
 }
 
 #[test]
@@ -171,28 +147,18 @@ fn studies_of_other_quantities_open_as_maps_and_curves() {
     let length = "List(path: \"length\", values: [5.0e-5, 1.0e-4, 2.0e-4])";
     // The length in place of κ: the mark moves along the length, in its unit.
     let (_folder, mut driver) = opened_with(&PLAN.replace(kappa, length));
-    assert!(
-        driver.text().contains("over H, L, 12 profiles") && driver.text().contains("L (µm)"),
-        "{}",
-        driver.text()
-    );
-    assert!(driver.text().contains("◆ H 0.5, L 100 µm"), "{}", driver.text());
+    driver.shows_all(["over H, L, 12 profiles", "L (µm)"]);
+    driver.shows("◆ H 0.5, L 100 µm");
     driver.press("Up");
-    assert_eq!(driver.app.edit.document.scene().length, 2.0e-4);
-    assert!(!driver.text().contains("no longer"), "{}", driver.text());
+    assert_eq!(driver.document().scene().length, 2.0e-4);
+    driver.hides("no longer");
     // H alone: curves with the confidence of the mean.
     let alone = PLAN.replace(&format!("{kappa},"), "");
     let (_folder, mut driver) = opened_with(&alone.replace("preloads: [0.01, 0.1, 1.0]", "preloads: [0.1]"));
-    assert!(
-        driver.text().contains("over H, 12 profiles")
-            && driver.text().contains("95 % confidence of the mean"),
-        "{}",
-        driver.text()
-    );
+    driver.shows_all(["over H, 12 profiles", "95 % confidence of the mean"]);
     driver.press("Right");
     assert_eq!(driver.app.place(), Some((0.6, None)));
-    driver.press("Up");
-    assert!(driver.status().contains("this map has one axis, H"), "{}", driver.status());
+    driver.answers("Up", "this map has one axis, H");
     for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
         driver.resize(size);
         driver.screen();
@@ -204,45 +170,20 @@ fn a_study_is_opened_by_its_path() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     merged(&folder.path().join("small"), PLAN);
-    begun(&folder.path().join("begun"), PLAN);
-    std::fs::create_dir(folder.path().join("another")).unwrap();
     let mut driver = pressed("");
-    let before = driver.app.edit.document.clone();
-    for (name, expected) in [
-        ("begun", "has not been merged yet; asperity sweep merge"),
-        ("another", "this folder is not that of a study"),
-        ("nowhere", "there is no such file"),
-    ] {
-        driver.press("o");
-        driver.act(Action::Paste(path(name)));
-        assert!(driver.text().contains("Enter tries it as a path"), "{}", driver.text());
-        driver.press("Enter");
-        assert_eq!(driver.app.edit.document, before);
-        let refusal = driver.refusal().unwrap_or_default();
-        assert!(refusal.contains(expected), "{refusal}");
-        driver.press("Esc");
-        assert!(driver.app.map.study.is_none());
-    }
     driver.press("o");
     driver.act(Action::Paste(path("small")));
-    driver.press("Enter");
-    assert!(
-        driver.text().contains("Study small: regime (touch) over H, κ, 12 profiles"),
-        "{}",
-        driver.text()
-    );
+    driver.sees("Enter", "Study small: regime (touch) over H, κ, 12 profiles");
     assert!(is_up_to_date(&driver.app) && !driver.app.edit.is_unsaved());
-    let Some(Roughness::SelfAffine { modes, .. }) = driver.app.edit.document.scene().roughness else {
-        panic!()
-    };
+    let Some(Roughness::SelfAffine { modes, .. }) = driver.document().scene().roughness else { panic!() };
     assert_eq!(modes, Some((1, 32)));
     driver.press("u");
-    assert_eq!(driver.app.edit.document.scene(), rough().scene());
+    assert_eq!(driver.document().scene(), rough().scene());
     // A scene file opens in the same way.
-    std::fs::write(folder.path().join("mine.ron"), rough().text()).unwrap();
+    fs::write(folder.path().join("mine.ron"), rough().text()).unwrap();
     driver.press("o");
     driver.act(Action::Paste(path("mine.ron")));
     driver.press("Enter");
-    assert_eq!(driver.app.edit.document.name(), path("mine.ron"));
+    assert_eq!(driver.document().name(), path("mine.ron"));
     assert!(driver.app.map.shown_study().is_none());
 }
