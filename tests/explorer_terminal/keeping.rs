@@ -45,11 +45,10 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         if is_killed {
             let status = Command::new("kill").args(["-KILL", &terminal.pid().to_string()]).status();
             assert!(status.unwrap().success());
-            terminal.wait_process();
         } else {
             terminal.hang_up();
-            terminal.wait_process();
         }
+        terminal.wait_process();
         assert_eq!(fs::read_to_string(home.join("scene.ron")).unwrap(), SCENE);
         // The next explorer reports the kept change in a line that ends with the next key.
         let mut terminal = again(home, "scene.ron").start();

@@ -105,21 +105,6 @@ fn without_a_terminal_it_says_what_to_do() {
 }
 
 #[test]
-fn over_a_connection_and_without_a_known_terminal_it_works_the_same() {
-    let (program, _folder) = explorer();
-    let mut near = paused(program);
-    for (name, value) in
-        [("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"), ("SSH_TTY", "/dev/pts/1"), ("TERM", "")]
-    {
-        let (far, _folder) = explorer();
-        let mut far = paused(far.env(name, value));
-        assert_eq!(headline(&far.rows()), headline(&near.rows()));
-        quit(&mut far);
-    }
-    quit(&mut near);
-}
-
-#[test]
 fn terminals_without_braille_get_ascii() {
     let is_drawn = |text: &str| text.chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c));
     for (name, value, ascii) in [

@@ -47,11 +47,7 @@ fn a_panic_of_the_engine_is_a_line_and_the_explorer_goes_on() {
 fn a_panic_while_drawing_gives_the_terminal_back_and_shows_why() {
     let mut terminal = paused(panicking().argument("draw"));
     select(&mut terminal, "seed");
-    terminal.send("e");
-    terminal.wait_for("Esc cancel");
-    terminal.send(CLEAR_LINE);
-    terminal.send("13");
-    terminal.send(ENTER);
+    seed(&mut terminal, "13");
     assert_eq!(terminal.wait_end().exit_code(), 101);
     assert_given_back(&terminal);
     // One line below the other: each line starts at the left again.

@@ -3,22 +3,6 @@
 use crate::driving::{explorer, paused, quit};
 
 #[test]
-fn another_size_of_the_window_is_filled() {
-    let (program, _folder) = explorer();
-    let mut terminal = paused(program);
-    let before = terminal.text();
-    for (columns, rows) in [(40, 12), (20, 5), (200, 50), (120, 40)] {
-        terminal.resize(columns, rows);
-        terminal.wait_for("F_a ");
-        terminal.settle();
-        let filled = terminal.rows().iter().filter(|row| !row.is_empty()).count();
-        assert!(filled + 2 >= usize::from(rows).min(40), "{columns} × {rows}:\n{}", terminal.text());
-    }
-    assert_eq!(terminal.text(), before);
-    quit(&mut terminal);
-}
-
-#[test]
 fn a_window_that_shrinks_and_grows_back_at_once_is_drawn_anew() {
     let (program, _folder) = explorer();
     let mut terminal = paused(program);
