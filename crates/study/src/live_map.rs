@@ -180,7 +180,7 @@ mod tests {
     use crate::study_map::StudyMap;
     use crate::tables::merge;
     use asperity_scene::Regime;
-    use asperity_scene::{Adhesion, Roughness, RoughnessParameter, open, to_ron};
+    use asperity_scene::{RoughnessParameter, open, to_ron};
     use std::cell::Cell;
 
     const HURSTS: usize = 19;
@@ -243,23 +243,6 @@ mod tests {
         }
         let (_, column, row) = grid.nearest((0.31, Some(1.02))).unwrap();
         assert_eq!((grid.up.as_ref().unwrap().values[row], grid.across.values[column]), (1.0, 0.3));
-        // The cell is the mean over its scenes.
-        let values = (0..map.plan().lines).map(|line| {
-            let mut scene = map.plan().scene.clone();
-            scene.adhesion = Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0));
-            if let Some(Roughness::SelfAffine { hurst, seed, .. }) = &mut scene.roughness {
-                (*hurst, *seed) = (0.3, *seed + line);
-            }
-            let scene = scene.checked().unwrap();
-            let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-            outcome.zero_load_adhesion_force.unwrap() / outcome.ideal_adhesion_force.unwrap()
-        });
-        let values: Vec<f64> = values.collect();
-        let shown = shares[row * HURSTS + column].unwrap();
-        let (low, high) =
-            (values.iter().copied().fold(1.0, f64::min), values.iter().copied().fold(0.0, f64::max));
-        assert_eq!((shown.range, shown.spread), ((low, high), None));
-        assert!((4.0 * shown.mean / values.iter().sum::<f64>() - 1.0).abs() < 1e-14);
     }
 
     #[test]

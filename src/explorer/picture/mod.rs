@@ -68,24 +68,16 @@ pub fn text(buffer: &Buffer) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ratatui::style::Style;
 
     #[test]
-    fn rows_lose_the_blanks_at_their_ends() {
-        let buffer = Buffer::with_lines(["  a b  ", "", "⠒ ⠒▌ "]);
-        assert_eq!(text(&buffer), "  a b\n\n⠒ ⠒▌\n");
-    }
-
-    #[test]
-    fn wide_characters_and_marks_stand_once() {
-        let mut buffer = Buffer::empty(Rect::new(3, 2, 8, 1));
-        buffer.set_string(3, 2, "漢字e\u{301}x", Style::new());
-        assert_eq!(text(&buffer), "漢字e\u{301}x\n");
-    }
-
-    #[test]
-    fn an_empty_screen_has_no_rows() {
-        assert_eq!(text(&Buffer::empty(Rect::ZERO)), "");
-        assert_eq!(text(&Buffer::empty(Rect::new(0, 0, 0, 2))), "\n\n");
+    fn rows_lose_the_blanks_at_their_ends_and_wide_characters_stand_once() {
+        for (rows, expected) in [
+            (&["  a b  ", "", "⠒ ⠒▌ "][..], "  a b\n\n⠒ ⠒▌\n"),
+            (&["漢字e\u{301}x"], "漢字e\u{301}x\n"),
+            (&["", ""], "\n\n"),
+            (&[], ""),
+        ] {
+            assert_eq!(text(&Buffer::with_lines(rows.iter().copied())), expected);
+        }
     }
 }

@@ -441,23 +441,6 @@ mod tests {
     }
 
     #[test]
-    fn a_column_of_the_screen_is_a_number_of_the_axis() {
-        let empty = chart(Vec::new());
-        for size in SIZES {
-            let place = drawn(&empty, size).0;
-            for column in place.plot.x..place.plot.right() {
-                let (number, _) = place.data_at(&empty, (column, place.plot.y)).unwrap();
-                let (back, _) = place.cell(&empty, (number, 0.0)).unwrap();
-                assert!(back.abs_diff(column) <= 1, "{size:?} {column} {back}");
-            }
-            assert_eq!(
-                place.data_at(&empty, (u16::MAX, u16::MAX)),
-                Some((empty.x.span.high, empty.y.span.low))
-            );
-        }
-    }
-
-    #[test]
     fn a_chart_is_drawn_like_this() {
         let area = [(0.0, -1.5e-5), (5e-7, -1.5e-5), (5e-7, 0.0)];
         let columns = (0..40).map(|at| (at % 9 > 1).then(|| (2e-7 * f64::from(at), 2.4e-7 * f64::from(at))));

@@ -284,26 +284,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn a_small_figure_is_drawn_like_this() {
-        let figure = small(vec![
-            Layer::new(
-                "inside".into(),
-                Ink::Quiet,
-                Shape::Inside(vec![(2e-9, 1e-5), (8e-9, 1e-5), (8e-9, 1e-4)]),
-            ),
-            Layer::new("zero".into(), Ink::Quiet, Shape::Upright(5e-9)),
-            Layer::new(
-                "profile".into(),
-                Ink::Profile,
-                Shape::Envelope {
-                    x: (0.0, 1e-8),
-                    columns: vec![Some((1e-5, 2e-5)), Some((3e-5, 4e-5)), None, Some((1e-4, 1e-4))],
-                },
-            ),
-            curve(&[(1e-9, 1e-5), (2e-9, 1e-4)], Ink::Loading, "F_n"),
-        ]);
-        insta::assert_snapshot!(figure.svg());
-    }
 }

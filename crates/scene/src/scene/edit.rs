@@ -158,12 +158,7 @@ mod tests {
             ("(adhesion: None)", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
             ("(adhesion: ())", "adhesion.work", "0.1", "(adhesion: (work: 0.1))"),
             ("( // c\n)", "length", "1.0", "(length: 1.0 // c\n)"),
-            (
-                "Scene(form: Some(Cone(angle: 1.0)))",
-                "form.angle",
-                "0.1",
-                "Scene(form: Some(Cone(angle: 0.1)))",
-            ),
+            ("S(form: Some(Cone(angle: 1.0)))", "form.angle", "0.1", "S(form: Some(Cone(angle: 0.1)))"),
         ] {
             assert_eq!(set_text(text, path, value).as_deref(), Ok(new), "{text} {path}");
         }

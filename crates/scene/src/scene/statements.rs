@@ -48,33 +48,3 @@ fn add(scene: &Scene, tree: &Tree, field: &'static Field, found: &mut Vec<Statem
     };
     found.push(Statement { field, value });
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::open::open;
-
-    #[test]
-    fn a_scene_is_stated_by_its_numbers() {
-        let stated = |scene: &str| -> Vec<String> {
-            let of = |one: Statement| format!("{} {}", one.field.name, one.value);
-            statements(open(scene).unwrap().scene()).into_iter().map(of).collect()
-        };
-        assert_eq!(
-            stated("ideal-adhesion"),
-            [
-                "Young's modulus 2 MPa",
-                "Poisson's ratio 0.5",
-                "apparent diameter 100 µm",
-                "Hurst exponent 0.7",
-                "rms height 200 nm",
-                "modes 4 to 512",
-                "seed 5",
-                "roughness-adhesion parameter 0.8",
-                "loading 20 µN, separation",
-                "points 16 384"
-            ]
-        );
-        assert!(stated("jkr-sphere").contains(&"radius of curvature 100 µm".to_owned()));
-    }
-}

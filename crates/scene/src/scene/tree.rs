@@ -217,7 +217,6 @@ fn contents_mut(value: &mut Value) -> &mut Value {
 
 #[cfg(test)]
 mod tests {
-    use super::super::adhesion::Adhesion;
     use super::super::document::Document;
     use super::super::fields::field;
     use super::super::open::open;
@@ -263,39 +262,5 @@ mod tests {
         }
         let unmet = |field: &&Field| is_number(field) && !met.contains(&(field.path, field.variant));
         assert_eq!(FIELDS.iter().find(unmet), None);
-    }
-
-    #[test]
-    fn numbers_are_read_and_set_by_path() {
-        let mut tree = Tree::of(&sound());
-        for (path, value) in [
-            ("roughness.modes.1", 64.0),
-            ("loading.0.0", 2e-5),
-            ("adhesion.work", 3.0),
-            ("roughness.rms_gradient", 0.1),
-        ] {
-            assert!(tree.set(path, value) && tree.get(path) == Some(value), "{path}");
-        }
-        let before = tree.clone();
-        for path in [
-            "",
-            "nothing",
-            "form.radius",
-            "roughness.file",
-            "roughness.modes",
-            "roughness.modes.2",
-            "loading.1.0",
-            "loading.9.0",
-            "title",
-            "numerics.solver.step",
-        ] {
-            assert!(!tree.set(path, 1.0) && tree == before, "{path}");
-        }
-        let scene = tree.scene().unwrap();
-        assert_eq!((scene.loading[0], scene.adhesion.unwrap().work()), (Move::ToForce(2e-5), Some(3.0)));
-        let mut bare = Tree::of(&Scene { adhesion: None, ..sound() });
-        assert!(
-            bare.set("adhesion.work", 0.1) && bare.scene().unwrap().adhesion == Some(Adhesion::by_work(0.1))
-        );
     }
 }
