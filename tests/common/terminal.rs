@@ -324,12 +324,7 @@ impl Terminal {
     /// Waits until the program has ended and all its output has arrived.
     #[track_caller]
     pub fn wait_end(&mut self) -> ExitStatus {
-        let deadline = Instant::now() + PATIENCE;
-        while self.ended.is_none() || !(self.closed || self.reader.is_none()) {
-            let time = deadline.saturating_duration_since(Instant::now());
-            assert!(self.take(time), "it does not end:\n{}", self.text());
-        }
-        self.ended.clone().expect("it has ended")
+        self.wait_ended(|terminal| terminal.closed || terminal.reader.is_none())
     }
 
     /// Stops (or resumes) reading output, as a terminal that hangs does. Output already on its way is still taken.
@@ -340,10 +335,20 @@ impl Terminal {
     /// Waits until the program has ended, with any output.
     #[track_caller]
     pub fn wait_process(&mut self) -> ExitStatus {
+        self.wait_ended(|_| true)
+    }
+
+    #[track_caller]
+    fn wait_ended(&mut self, is_over: fn(&Terminal) -> bool) -> ExitStatus {
         let deadline = Instant::now() + PATIENCE;
-        while self.ended.is_none() {
+        while self.ended.is_none() || !is_over(self) {
             let time = deadline.saturating_duration_since(Instant::now());
-            assert!(self.take(time), "it does not end:\n{}", self.text());
+            assert!(
+                self.take(time),
+                "it does not end:
+{}",
+                self.text()
+            );
         }
         self.ended.clone().expect("it has ended")
     }

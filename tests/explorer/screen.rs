@@ -114,8 +114,3 @@ fn is_up_to_date(app: &App) -> bool {
         && app.snapshot.as_ref().is_some_and(|snapshot| snapshot.generation == app.edit.generation)
         && !app.is_computing()
 }
-
-/// Compares the screens with the kept picture, beside those of the other tests.
-fn keep(name: &str, screens: &str) {
-    insta::assert_snapshot!(name, screens);
-}

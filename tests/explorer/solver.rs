@@ -204,22 +204,15 @@ fn a_panic_is_stated_and_the_next_scene_is_computed() {
     });
 }
 
-/// A rough sphere under adhesion.
-fn rough_sphere() -> Document {
-    changed(
-        &rough(),
-        &[("form", "Paraboloid(radius: 1.0e-3)"), ("loading", "[ToForce(1.0e-5), ToSeparation]")],
-    )
-}
-
 /// Scenes whose states are examined, with a name.
 fn scenes() -> Vec<(&'static str, Document)> {
+    let sphere = [("form", "Paraboloid(radius: 1.0e-3)"), ("loading", "[ToForce(1.0e-5), ToSeparation]")];
     let several = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToIndentation(-1.0e-8), ToSeparation]";
     vec![
         ("edges between springs", rough().set("numerics.edges", "SubCell").unwrap()),
         ("rough", rough()),
         ("several legs", rough().set("loading", several).unwrap()),
-        ("rough sphere", rough_sphere()),
+        ("rough sphere", changed(&rough(), &sphere)),
         ("smooth", smooth()),
         ("no adhesion", without_adhesion()),
         ("punch", punch()),

@@ -51,17 +51,12 @@ fn the_command_that_is_copied_gives_the_same_curve() {
     terminal.send("E");
     answer(&mut terminal, "Export to (.csv .npy .json .svg .png .pdf .txt): ", "curve.csv");
     terminal.wait_for("exported to curve.csv");
-    quit_anyway(&mut terminal);
+    terminal.send("q");
+    terminal.wait_for("unsaved changes");
+    quit(&mut terminal);
 
     let arguments = command.strip_prefix("asperity ").expect("it is a command of asperity");
     assert!(arguments.contains("--set adhesion.kappa="), "{command}");
     let curve = shell(folder.path(), &format!("asperity run {arguments} --format csv"));
     assert_eq!(fs::read(folder.path().join("curve.csv")).unwrap(), curve);
-}
-
-/// Leaves without saving a changed scene.
-fn quit_anyway(terminal: &mut Terminal) {
-    terminal.send("q");
-    terminal.wait_for("unsaved changes");
-    quit(terminal);
 }

@@ -57,21 +57,11 @@ fn without_times(terminal: &Terminal) -> Vec<String> {
 /// Waits until the shell has the terminal in its own mode.
 #[track_caller]
 fn wait_for_shell(terminal: &mut Terminal) {
-    terminal.wait("prompt", |rows| rows.last_filled() == Some(PROMPT.trim_end()));
+    let is_prompt = |row: &String| row == PROMPT.trim_end();
+    terminal.wait("prompt", |rows| rows.iter().rfind(|row| !row.is_empty()).is_some_and(is_prompt));
     terminal.settle();
     assert_given_back(terminal);
     assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::None);
-}
-
-/// The last row with text.
-trait LastFilled {
-    fn last_filled(&self) -> Option<&str>;
-}
-
-impl LastFilled for [String] {
-    fn last_filled(&self) -> Option<&str> {
-        self.iter().rev().find(|row| !row.is_empty()).map(String::as_str)
-    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::common::terminal::{BEGIN_FRAME, END_FRAME, Program};
 use crate::driving::{
-    ASPERITY, ESCAPE, SCENE, assert_given_back, count, explorer, headline, paused, place, quit, row_with,
+    ASPERITY, ESCAPE, SCENE, assert_given_back, count, explorer, paused, place, quit, row_with,
 };
 use std::fs;
 use std::process::{Command, Stdio};

@@ -157,12 +157,7 @@ fn every_pane_is_exported_as_a_figure() {
     assert!(exported(&mut driver, "a.svg").contains("present preload"));
     // A table is that of the pane.
     let tables = [
-        (
-            computed_preloads(rough()),
-            Pane::Preloads,
-            "asperity run --preloads=-",
-            "preload,adhesion_force,profiles,mean,",
-        ),
+        (computed_preloads(rough()), Pane::Preloads, "asperity run --preloads=-", "preload,adhesion_force,"),
         (accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
         (computed_sensitivity(rough()), Pane::Sensitivity, "asperity sensitivity", "path,value,"),
         (map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,adhesion.kappa,lines,regime,"),

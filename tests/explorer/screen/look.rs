@@ -2,38 +2,29 @@
 
 use super::*;
 
-fn seen(driver: &Driver) -> (usize, usize) {
-    let section = &driver.snapshot().profile;
-    (section.first, section.springs)
-}
-
 #[test]
 fn the_profile_is_looked_at_from_near_and_moved_along() {
     let mut driver = pressed("Tab");
-    assert_eq!((driver.app.view.pane, seen(&driver)), (Pane::Profile, (0, 1024)));
     driver.shows("x to 100 µm");
-    // There is nothing beside the whole line.
-    driver.press(") (");
-    assert_eq!(seen(&driver), (0, 1024));
-    driver.press("+");
-    assert_eq!(seen(&driver), (256, 512));
-    driver.shows("x from 25 µm to 75 µm of 100 µm");
-    driver.press(")");
-    assert_eq!(seen(&driver), (384, 512));
-    driver.press("( (");
-    assert_eq!(seen(&driver), (128, 512));
-    driver.press("( ( ( (");
-    assert_eq!(seen(&driver), (0, 512));
-    driver.press(") ) ) ) ) ) ) )");
-    assert_eq!(seen(&driver), (512, 512));
-    driver.press("+ +");
-    assert_eq!(seen(&driver).1, 128);
-    (0..20).for_each(|_| drop(driver.press("+")));
-    assert_eq!(seen(&driver).1, 8);
-    driver.press("Z");
-    assert_eq!(seen(&driver), (0, 1024));
-    driver.press("+ -");
-    assert_eq!(seen(&driver), (0, 1024));
+    for (keys, first, springs) in [
+        ("", 0, 1024),
+        // There is nothing beside the whole line.
+        (") (", 0, 1024),
+        ("+", 256, 512),
+        (")", 384, 512),
+        ("( (", 128, 512),
+        ("( ( ( (", 0, 512),
+        (") ) ) ) ) ) ) )", 512, 512),
+        ("+ -", 512, 512),
+        ("Z + -", 0, 1024),
+    ] {
+        driver.press(keys);
+        let section = &driver.snapshot().profile;
+        assert_eq!((section.first, section.springs), (first, springs), "{keys}");
+    }
+    driver.sees("+", "x from 25 µm to 75 µm of 100 µm");
+    driver.press(&"+ ".repeat(20));
+    assert_eq!(driver.snapshot().profile.springs, 8);
 }
 
 /// The text of the pane of the curve on the whole screen.
@@ -85,25 +76,4 @@ fn the_dissipated_energy_is_shaded_and_stated() {
     // A loop that is not closed has no dissipated energy yet.
     let mut driver = Driver::start(rough().set("loading", "[ToForce(1.0e-5)]").unwrap());
     driver.sees("a", "ΔW open");
-}
-
-#[test]
-fn marked_forces_are_stated_with_their_values() {
-    let labelled = |force: f64| format_quantity(format!("{force:.2e}").parse().unwrap(), "N");
-    let mut driver = mid_retraction(smooth());
-    let text = curve(&mut driver);
-    let legs = driver.app.legs();
-    for expected in [
-        format!("▲ preload {}", labelled(legs[0].largest.force)),
-        format!("▼ pull-off {}", labelled(legs[1].smallest.force)),
-    ] {
-        assert!(text.contains(&expected), "{expected}\n{text}");
-    }
-    // The glyphs are on the curve as well.
-    for glyph in ['▲', '▼'] {
-        assert_eq!(text.matches(glyph).count(), 2, "{glyph}\n{text}");
-    }
-    let mut driver = mid_retraction(without_adhesion());
-    let text = curve(&mut driver);
-    assert!(text.contains("▲ preload") && !text.contains('▼') && !text.contains('◇'), "{text}");
 }

@@ -12,7 +12,7 @@ fn the_main_screen() {
         driver.resize(size);
         screens += &format!("── {} × {} ──\n{}", size.0, size.1, text(&driver.screen()));
     }
-    keep("the_main_screen", &screens);
+    insta::assert_snapshot!("the_main_screen", screens);
 }
 
 #[test]
@@ -38,5 +38,5 @@ fn each_pane() {
         let pane = driver.app.view.pane;
         screens += &format!("── {pane:?} ──\n{}", text(&driver.screen()));
     }
-    keep("each_pane", &screens);
+    insta::assert_snapshot!("each_pane", screens);
 }

@@ -51,14 +51,10 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
         ("H", "roughness.hurst"),
         ("h", "roughness.rms_height"),
         ("κ", "adhesion.kappa"),
-        ("kappa", "adhesion.kappa"),
         ("gamma", "adhesion.work"),
-        ("γ", "adhesion.work"),
         ("N", "numerics.points"),
         ("springs", "numerics.points"),
-        ("seed", "roughness.seed"),
         ("nu", "material.poisson_ratio"),
-        ("poisson", "material.poisson_ratio"),
         ("force stage", "loading.0.0"),
     ] {
         let mut driver = pressed("/");

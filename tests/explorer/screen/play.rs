@@ -26,12 +26,7 @@ fn the_animation_plays_to_its_end_and_stops() {
     }
     assert_eq!(driver.app.play.leg, 1);
     assert!((last - ends[1]).abs() < 1e-12, "{last}");
-    // Then nothing changes any more.
-    let screen = driver.screen();
-    for _ in 0..3 {
-        assert!(driver.elapse(1.0).is_empty());
-    }
-    assert_eq!(driver.screen(), screen);
+    assert!(driver.elapse(1.0).is_empty(), "then nothing changes any more");
     // Playing again starts from the beginning.
     driver.press("Space");
     assert!(driver.app.play.playing && driver.app.play.leg == 0);
@@ -46,30 +41,28 @@ fn the_animation_is_paused_stepped_and_begun_again() {
     driver.press("Space");
     assert!(driver.elapse(1.0).is_empty(), "nothing moves while it is paused");
     assert_eq!(driver.app.play.at, before.at);
-    let force = |driver: &Driver| driver.point();
-    let here = force(&driver);
+    let here = driver.point().indentation;
     driver.press(".");
-    assert!(force(&driver).indentation > here.indentation);
+    assert!(driver.point().indentation > here);
     driver.press(",");
-    assert!((force(&driver).indentation - here.indentation).abs() < 1e-15);
+    assert!((driver.point().indentation - here).abs() < 1e-15);
     driver.press("Space .");
     assert!(!driver.app.play.playing, "a step pauses");
-    driver.press("> >");
-    assert_eq!((driver.app.play.leg, driver.app.play.at), (1, At::Start));
-    driver.press("<");
-    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start));
-    driver.press(". . <");
-    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start), "first to the start of this leg");
-    driver.press(",");
-    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start), "there is nothing before");
-    driver.press("> . r");
-    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::Start));
+    for (keys, leg, at) in [
+        ("> >", 1, At::Start),
+        ("<", 0, At::Start),
+        // First to the start of this leg, and nothing is before.
+        (". . <", 0, At::Start),
+        (",", 0, At::Start),
+        // Steps go from leg to leg in both directions.
+        ("> ,", 0, At::End),
+        (". ,", 0, At::End),
+        ("> . r", 0, At::Start),
+    ] {
+        driver.press(keys);
+        assert_eq!((driver.app.play.leg, driver.app.play.at), (leg, at), "{keys}");
+    }
     assert!(driver.app.play.playing);
-    // Steps go from leg to leg in both directions.
-    driver.press("> ,");
-    assert_eq!((driver.app.play.leg, driver.app.play.at), (0, At::End));
-    driver.press(".");
-    assert_eq!(driver.app.play.leg, 1);
 }
 
 #[test]

@@ -1,31 +1,6 @@
 //! Saving the scene, and leaving with or without saving.
 
 use super::*;
-use asperity::explorer::action::{Content, OutputFile};
-
-#[test]
-fn a_saved_scene_is_read_back_as_it_is() {
-    let mut driver = pressed("");
-    driver.select("roughness.hurst");
-    driver.press("l s Ctrl+u `folder/mine.ron`");
-    assert_eq!(
-        driver.press("Enter"),
-        [Task::Write(OutputFile {
-            path: "folder/mine.ron".into(),
-            content: Content::Scene,
-            overwrite: false,
-            then_quit: false
-        })]
-    );
-    let text = &driver.file("folder/mine.ron");
-    let again = Document::parse(text, "mine.ron").unwrap();
-    assert_eq!(again.scene(), driver.document().scene());
-    assert!(text.contains("// soft"), "the comments are kept");
-    driver.shows("saved to folder/mine.ron");
-    assert!(!driver.app.edit.is_unsaved());
-    driver.press("q");
-    assert!(driver.app.finished, "nothing is left to be asked");
-}
 
 #[test]
 fn what_could_not_be_saved_is_stated_and_not_forgotten() {
@@ -113,6 +88,7 @@ fn title_and_notice_are_rows_and_the_name_gets_its_extension() {
     let saved = Document::parse(&driver.file("mine.ron"), "mine.ron").unwrap();
     let scene = saved.scene();
     assert_eq!((scene.title.as_str(), scene.notice.as_str()), ("My \"own\" line", "Look here."));
+    assert_eq!(scene, driver.document().scene());
     assert_eq!(saved.comments(), rough().comments());
     assert!(!driver.app.edit.is_unsaved() && driver.document().name() == "mine.ron");
 }

@@ -79,11 +79,6 @@ fn the_mark_goes_from_cell_to_cell_and_beyond_the_map_stays_at_its_edge() {
         driver.press("Tab Tab");
         driver.set("adhesion.kappa", kappa);
         driver.set("roughness.hurst", hurst);
-        for size in [(120, 40), (80, 24), (20, 5), (1, 1)] {
-            driver.resize(size);
-            driver.screen();
-        }
-        driver.resize((120, 40));
         driver.shows("outside the map");
         assert!(driver.rows().iter().any(|row| row.chars().take(68).any(|cell| cell == '◆')));
         driver.hides("no longer");
@@ -159,10 +154,6 @@ fn studies_of_other_quantities_open_as_maps_and_curves() {
     driver.press("Right");
     assert_eq!(driver.app.place(), Some((0.6, None)));
     driver.answers("Up", "this map has one axis, H");
-    for size in [(80, 24), (40, 12), (20, 5), (1, 1)] {
-        driver.resize(size);
-        driver.screen();
-    }
 }
 
 #[test]
