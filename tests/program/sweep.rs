@@ -191,28 +191,6 @@ fn cells_that_cannot_be_computed_have_a_reason() {
     assert_eq!(map.cells.iter().filter(|cell| matches!(cell, Some(Err(_)))).count(), 3);
 }
 
-/// Rows that are doubled, missing or changed are not those of the merge.
-#[test]
-fn a_changed_table_is_refused() {
-    let (_place, folder) = study(&plan(SMALL));
-    compute(&folder, 2, Shard::WHOLE);
-    merge(&folder, false).unwrap();
-    let path = folder.path().join(RESULTS);
-    let [table, _] = tables(&folder);
-    let rows: Vec<&str> = table.lines().collect();
-    for changed in [[&rows[..], &rows[1..2]].concat(), rows[..rows.len() - 1].to_vec()] {
-        fs::write(&path, changed.join("\n") + "\n").unwrap();
-        let refused = Results::open(folder.path()).unwrap_err().to_string();
-        assert!(refused.contains("asperity sweep merge"), "{refused}");
-    }
-    fs::write(&path, table.replacen("e-", "e-1", 1)).unwrap();
-    assert!(Results::open(folder.path()).is_err());
-    merge(&folder, false).unwrap();
-    assert!(Results::open(folder.path()).is_ok());
-    fs::remove_file(folder.path().join("results.json")).unwrap();
-    assert!(Results::open(folder.path()).unwrap_err().to_string().contains("missing or damaged"));
-}
-
 #[test]
 fn results_that_differ_are_stated() {
     let plan = plan(SMALL);

@@ -256,16 +256,6 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
 }
 
 #[test]
-fn a_measured_profile_is_the_line_itself_where_a_scene_says_so() {
-    let place = Place::new();
-    let force =
-        |as_line: &str| number(&place.scene(&format!("file: \"line.txt\"{as_line}"))["adhesion_force"]);
-    let [profile, line] = [force(", as_line: true"), force("")];
-    assert_eq!(line, force(", as_line: false"));
-    assert_ne!(profile, line);
-}
-
-#[test]
 fn scenes_choose_profile_detrending_window_and_opposite_face() {
     let place = Place::new();
     let height = |roughness: &str| place.rms_height(roughness);

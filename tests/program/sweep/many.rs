@@ -80,11 +80,19 @@ fn rows_that_no_merge_wrote_are_refused() {
         (text.replacen("\n0,", "\n99,", 1), "line 2 is not a row of this study"),
         (text.replacen(",fragments", ",skewness_again", 1), "its columns are not those of the plan"),
         (text[..text.len() - 9].to_owned(), "line 97 is not a row of this study"),
+        (text.replacen("e-", "e-1", 1), "asperity sweep merge"),
+        (text.trim_end().rsplit_once('\n').unwrap().0.to_owned() + "\n", "asperity sweep merge"),
+        (text.clone() + text.lines().last().unwrap() + "\n", "asperity sweep merge"),
     ] {
         assert_ne!(changed, text);
         fs::write(&results, changed).unwrap();
         assert!(refusal().contains(expected), "{expected}: {}", refusal());
     }
+    fs::write(&results, &text).unwrap();
+    fs::rename(folder.path().join(SIDECAR), folder.path().join("aside")).unwrap();
+    assert!(refusal().contains("missing or damaged"), "{}", refusal());
+    fs::rename(folder.path().join("aside"), folder.path().join(SIDECAR)).unwrap();
+    assert!(Results::open(folder.path()).is_ok());
     // A folder in place of a table is not removed.
     fs::remove_file(&results).unwrap();
     fs::create_dir(&results).unwrap();

@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -31,10 +31,6 @@ fn place() -> tempfile::TempDir {
     let place = tempfile::tempdir().unwrap();
     fs::write(place.path().join("plan-of-test.ron"), text()).unwrap();
     place
-}
-
-fn finish(mut command: Command) -> Output {
-    command.output().unwrap()
 }
 
 fn done(place: &Path) -> u64 {
@@ -63,7 +59,7 @@ fn killed_at_random_moments_it_goes_on() {
     // Time of an undisturbed process.
     let calm = place();
     let clock = Instant::now();
-    assert!(finish(command(calm.path())).status.success());
+    assert!(command(calm.path()).output().unwrap().status.success());
     let whole = clock.elapsed();
     let mut random = ChaCha8Rng::seed_from_u64(rand::random());
     let (mut kills, mut after_records) = (0, 0);
@@ -112,7 +108,7 @@ fn asked_to_stop_it_ends_cleanly() {
         assert!(message.contains("records are complete; the same command continues the study"), "{message}");
         let folder = Folder::open(&place.path().join("study")).unwrap();
         assert_eq!(Status::of(&folder).unwrap().damaged, 0);
-        assert!(finish(command(place.path())).status.success());
+        assert!(command(place.path()).output().unwrap().status.success());
         check_whole(place.path());
     }
 }
@@ -156,7 +152,7 @@ fn a_full_disk_is_stated_and_loses_nothing() {
     assert!(there > 10 && there < plan(&text()).records_in_all(), "{there}");
     let folder = Folder::open(&place.path().join("study")).unwrap();
     assert!(Status::of(&folder).unwrap().damaged <= 1);
-    assert!(finish(command(place.path())).status.success());
+    assert!(command(place.path()).output().unwrap().status.success());
     check_whole(place.path());
 }
 
@@ -172,21 +168,4 @@ fn too_little_memory_is_refused() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("not enough memory: with --jobs 1024 the study takes up to"), "{message}");
     assert!(!place.path().join("study").exists());
-}
-
-#[test]
-fn where_a_study_cannot_be_is_stated() {
-    let place = place();
-    fs::write(place.path().join("study"), "a file").unwrap();
-    let output = finish(command(place.path()));
-    assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("study: this is not a folder"));
-    let output = Command::new(env!("CARGO_BIN_EXE_asperity"))
-        .args(["sweep", "merge"])
-        .arg(place.path())
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(message.contains("this is not the folder of a study: there is no plan.ron in it"), "{message}");
 }
