@@ -4,10 +4,8 @@
 use super::common::driver::{Driver, REFUSED};
 use super::common::effort::cases;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
-use super::common::study::PLAN;
-use super::common::study::merged;
-use asperity::explorer::action::Task;
-use asperity::explorer::action::{Action, Gesture, Mouse};
+use super::common::study::{PLAN, merged};
+use asperity::explorer::action::{Action, Gesture, Mouse, Task};
 use asperity::explorer::keys::bindings::Command;
 use asperity::explorer::opening::Opening;
 use asperity::explorer::parameters::parameters;

@@ -1,7 +1,7 @@
 //! Results of the program: JSON, tables and texts agree with each other, with the plan, and with a run of their own.
 
 use super::console::shell;
-use super::program::{json, rows, table, text};
+use super::program::{json, number, rows, table, text};
 use serde_json::Value;
 
 /// Keys of `run --format json` and of two of its parts.
@@ -10,10 +10,6 @@ const KEYS: &str = "program command scene line kappa elastic_energy elastic_ener
     adhesion_coefficient pull_off_indentation dissipated_energy tabor_number curve contacts work timings";
 const LINE_KEYS: &str = "points length spacing rms_height rms_gradient modes seed";
 const CURVE_KEYS: &str = "leg,indentation,force,contact_length,fragments,stored_energy";
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
-}
 
 fn array(value: &Value) -> &Vec<Value> {
     value.as_array().unwrap_or_else(|| panic!("{value} is not a list"))

@@ -64,6 +64,14 @@ fn compute(folder: &Folder, jobs: usize, shard: Shard) {
     assert!(ended.is_complete());
 }
 
+/// A study with the tables of all its cells.
+fn computed(plan: &Plan) -> (TempDir, Folder) {
+    let (place, folder) = study(plan);
+    compute(&folder, 2, Shard::WHOLE);
+    merge(&folder, false).unwrap();
+    (place, folder)
+}
+
 fn tables(folder: &Folder) -> [String; 2] {
     [RESULTS, SUMMARY].map(|name| fs::read_to_string(folder.path().join(name)).unwrap())
 }
@@ -93,9 +101,7 @@ fn alone(scene: &Scene, loading: [Move; 2]) -> Outcome {
 fn cells_are_what_single_runs_give() {
     for edges in ["Grid", "SubCell"] {
         let plan = plan(&SMALL.replace("edges: Grid", &format!("edges: {edges}")));
-        let (_place, folder) = study(&plan);
-        compute(&folder, 2, Shard::WHOLE);
-        merge(&folder, false).unwrap();
+        let (_place, folder) = computed(&plan);
         let results = Results::open(folder.path()).unwrap();
         for cell in 0..plan.cells() {
             for (line, recorded) in results.records_of(cell) {
@@ -243,9 +249,7 @@ fn what_is_missing_is_named() {
 #[test]
 fn summaries_are_the_statistics_of_the_rows() {
     let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    compute(&folder, 2, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    let (_place, folder) = computed(&plan);
     let results = Results::open(folder.path()).unwrap();
     assert_eq!(results.plan(), &plan);
     let [_, summary] = tables(&folder);
@@ -315,9 +319,7 @@ proptest! {
     fn damage_anywhere_never_makes_a_wrong_number(place in any::<prop::sample::Index>(), bit in 0..8_u8) {
         let text = SMALL.replace("lines: 3", "lines: 1").replace("count: 4", "count: 2");
         let plan = plan(&text);
-        let (_place, folder) = study(&plan);
-        compute(&folder, 1, Shard::WHOLE);
-        merge(&folder, false).unwrap();
+        let (_place, folder) = computed(&plan);
         let whole = tables(&folder);
         let file = &shard_files(&folder)[0];
         let mut bytes = fs::read(file).unwrap();
@@ -342,9 +344,7 @@ fn a_scene_may_be_varied_alone() {
         record: [adhesion_force, regime, zero_force_adhesion_force],
     )"#;
     let plan = plan(text);
-    let (_place, folder) = study(&plan);
-    compute(&folder, 2, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    let (_place, folder) = computed(&plan);
     let results = Results::open(folder.path()).unwrap();
     let forces: Vec<_> =
         (0..3).map(|cell| results.statistics(cell, Quantity::AdhesionForce).unwrap().mean).collect();

@@ -32,7 +32,7 @@ fn the_ending_of_a_name_shows_what_is_exported() {
         let (path, content) = (PathBuf::from(name), Content::Pane(format));
         let file = OutputFile { path, content, overwrite: false, then_quit: false };
         assert_eq!(export(&mut driver, Path::new(name)), [Task::Write(file)]);
-        driver.states(&format!("exported to {name}"));
+        driver.states(format!("exported to {name}"));
     }
     let mut driver = pressed("");
     assert!(export(&mut driver, Path::new("a.gif")).is_empty() && driver.files().is_empty());

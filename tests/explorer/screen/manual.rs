@@ -75,7 +75,7 @@ fn the_status_shows_what_a_move_changed() {
     driver.press("{");
     let (changed, now) = (manual(&driver).changed, driver.point().springs);
     assert!(changed > 0 && changed == before - now, "{changed}: {before} to {now}");
-    driver.states(&format!("{changed} springs changed"));
+    driver.states(format!("{changed} springs changed"));
     driver.resize((80, 24));
     assert!(driver.status().contains("springs changed"), "in a common window too: {}", driver.status());
     driver.shows("manual");

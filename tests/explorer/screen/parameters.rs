@@ -59,7 +59,7 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
     ] {
         let mut driver = pressed("/");
         driver.type_text(typed);
-        driver.states(&format!("Find: {typed}"));
+        driver.states(format!("Find: {typed}"));
         driver.press("Enter");
         assert_eq!(selected(&driver.app), path, "{typed}");
         assert_eq!(driver.app.keys(), Context::Parameters, "a value can be typed at once");

@@ -62,12 +62,12 @@ fn keys_change_colours_and_markers_and_say_so() {
     for theme in [Theme::Dark, Theme::Light, Theme::Plain, Theme::Neutral] {
         driver.press("T");
         assert_eq!(driver.app.view.appearance.theme, theme);
-        driver.states(&theme.name());
+        driver.states(theme.name());
     }
     for marker in [Marker::Ascii, Marker::Braille] {
         driver.press("M");
         assert_eq!(driver.app.view.appearance.marker, marker);
-        driver.states(&marker.name());
+        driver.states(marker.name());
     }
 }
 

@@ -100,7 +100,7 @@ fn the_scene_follows_to_the_next_preload() {
     for (times, share) in [(10.0, "0.1  2 of 3"), (100.0, "1  3 of 3"), (1.0, "0.01  1 of 3")] {
         driver.press("P");
         assert!((preload(&driver) / first / times - 1.0).abs() < 1e-9);
-        driver.shows(&format!("F_n/(E* h L) = {share}"));
+        driver.shows(format!("F_n/(E* h L) = {share}"));
         assert!(is_up_to_date(&driver.app));
         regimes.push(driver.app.grid().cloned());
     }

@@ -1,6 +1,6 @@
 //! `asperity surface`, and scenes of measured surfaces: what they state follows from the files, and from each other.
 
-use crate::program::{Finished, asperity_in, rows, table};
+use crate::program::{Finished, asperity_in, number, rows, table};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -83,10 +83,6 @@ impl Place {
     fn rms_height(&self, roughness: &str) -> f64 {
         number(&self.scene(roughness)["line"]["rms_height"])
     }
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
 fn assert_equal(found: f64, expected: f64, error: f64) {

@@ -1,7 +1,7 @@
 //! Foreign content in the folder of a study, or in its name: nothing hangs, panics, or reaches a terminal except as
 //! text.
 
-use super::{SMALL, compute, plan, shard_files, study, tables};
+use super::{SMALL, compute, computed, plan, shard_files, study, tables};
 use asperity::study::{Changes, Folder, Plan, Shard, Status, StudyError, merge};
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -78,9 +78,7 @@ fn a_header_that_no_program_wrote_is_an_error() {
 #[test]
 fn records_that_do_not_belong_to_the_plan_are_left_out_and_computed_again() {
     let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    compute(&folder, 1, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    let (_place, folder) = computed(&plan);
     let whole = tables(&folder);
     let file = &shard_files(&folder)[0];
     let text = fs::read_to_string(file).unwrap();
@@ -111,9 +109,7 @@ fn records_that_do_not_belong_to_the_plan_are_left_out_and_computed_again() {
 #[test]
 fn pipes_and_devices_are_refused_at_once() {
     let plan = plan(SMALL);
-    let (_place, folder) = study(&plan);
-    compute(&folder, 2, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    let (_place, folder) = computed(&plan);
     let path = folder.path().to_str().unwrap();
     let refused = |arguments: &[&str], expected: &str| {
         let output = asperity(arguments);

@@ -1,6 +1,6 @@
 //! Studies of many shards: few files are open at a time, and each table is whole.
 
-use super::{SMALL, compute, plan, shard_files, study, tables};
+use super::{SMALL, compute, computed, plan, shard_files, study, tables};
 use asperity::study::{Folder, RESULTS, Results, SIDECAR, SUMMARY, Shard, Status, merge};
 use std::fs;
 use std::process::Command;
@@ -35,9 +35,7 @@ fn limited(files: u32, arguments: &[&str]) -> Command {
 fn two_thousand_shards_are_merged_with_few_open_files() {
     let plan = plan(&SMALL.replace("lines: 3", "lines: 70").replace("count: 4", "count: 5"));
     assert!(plan.records_in_all() > 2000);
-    let (_place, folder) = study(&plan);
-    compute(&folder, 2, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    let (_place, folder) = computed(&plan);
     let whole = tables(&folder);
     scatter(&folder, 2000);
     assert_eq!(Status::of(&folder).unwrap().shards.len(), 2000);
