@@ -1,11 +1,11 @@
 //! An explorer without a terminal, in a folder of its own. It performs effects as the program does, but at once: results
 //! do not depend on speed.
 
-use asperity::explorer::opening::Opening;
 use asperity::explorer::action::{Action, Task};
 use asperity::explorer::commands::opening::begin;
 use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
+use asperity::explorer::opening::Opening;
 use asperity::explorer::runtime::{Engine, Runtime};
 use asperity::explorer::snapshot::Preview;
 use asperity::explorer::solver::Solve;

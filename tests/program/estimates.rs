@@ -6,8 +6,8 @@
 use super::common::effort::cases;
 use super::documentation::markdown;
 use super::generated::check;
-use asperity::scene::estimate;
 use asperity::scene::Document;
+use asperity::scene::estimate;
 use proptest::prelude::Rng;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::path::Path;

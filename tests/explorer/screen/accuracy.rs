@@ -1,10 +1,12 @@
 //! The cost of accuracy, the error in the status line, springs for a tolerance.
 
 use super::*;
-use asperity::scene::{Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing};
+use asperity::contact::Edges;
 use asperity::explorer::commands::accuracy::Choosing;
 use asperity::explorer::panes::accuracy::Costs;
-use asperity::contact::Edges;
+use asperity::scene::{
+    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
+};
 
 /// Springs of 4e-4 at best, as found by a search.
 fn chosen(tolerance: f64) -> Result<Choosing, String> {

@@ -1,8 +1,8 @@
 //! The crosshair: its readings, and their agreement with the panes.
 
 use super::*;
+use asperity::data::parse_quantity;
 use asperity::explorer::snapshot::Probe;
-use asperity::scene::parse_quantity;
 
 fn probe(driver: &Driver) -> Probe {
     driver.snapshot().probe.unwrap()

@@ -4,9 +4,9 @@ use super::*;
 use asperity::explorer::action::{Content, OutputFile};
 use asperity::explorer::picture;
 use asperity::explorer::theme::Marker;
+use asperity::export::provenance::scene_provenance;
 use asperity::export::report::{Format, write};
 use asperity::export::run::RunReport;
-use asperity::export::provenance::scene_provenance;
 use asperity::scene::command_line;
 use std::path::PathBuf;
 

@@ -2,9 +2,9 @@
 
 use super::common::study::{PLAN, merged};
 use super::*;
+use asperity::contact::Move;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::map::Live;
-use asperity::contact::Move;
 use asperity::scene::Roughness;
 use asperity::study::Quantity;
 use tempfile::TempDir;

@@ -221,7 +221,6 @@ mod tests {
     use super::super::fields::field;
     use super::super::open::open;
     use super::*;
-    use asperity_contact::Move;
 
     /// A rough scene with adhesion by work.
     fn sound() -> Scene {
