@@ -225,8 +225,8 @@ fn other_profiles(
 #[cfg(test)]
 mod tests {
     use super::super::made::{
-        Made, fit_from, fitted, force_curve, measured, noise, on_rubber, random, read, rubber, stiffness,
-        truth,
+        Made, fit_from, fitted, force_curve, gauss, measured, noise, on_rubber, random, read, rubber,
+        stiffness, truth,
     };
     use super::super::options::Drift;
     use super::*;
@@ -276,8 +276,10 @@ mod tests {
         let residual = (squares.sum::<f64>() / curve.force.len() as f64).sqrt();
         assert!((residual / fit.residual - 1.0).abs() < 1e-9, "{residual} {}", fit.residual);
         assert!((fit.residual / curve.noise / fit.residual_over_noise - 1.0).abs() < 1e-9);
+        let work = fit.parameters[0].value;
+        assert_eq!(serde_json::json!(fit)["parameters"]["work"]["value"], work);
         let scene = fit.document.scene();
-        assert_eq!(scene.adhesion.unwrap().work(), Some(fit.parameters[0].value));
+        assert_eq!(scene.adhesion.unwrap().work(), Some(work));
         assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
         // A wrong stiffness does not describe the curve, and says so.
         let mut wrong = made;
@@ -322,6 +324,20 @@ mod tests {
         }
     }
 
+    /// A tension in contact is adhesion where a curve without adhesion costs more by half the square of 1.96, which is 1.9. Such
+    /// a curve costs 2.4 more at a tension of the standard deviation of the noise, and 1.5 more at half that tension.
+    #[test]
+    fn a_tension_beyond_the_noise_is_adhesion() {
+        let bound = |times: f64| {
+            let pulled =
+                |(at, force): (f64, f64)| (at, if at > 2.001e-6 { force - times * 4e-8 } else { force });
+            let mut curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter().map(pulled), Drift::Keep);
+            curve.touch = 2e-6;
+            fit_from(&curve, &on_rubber(1e-3, 2e6), "work,offset").work_at_most
+        };
+        assert!(bound(0.5).is_some() && bound(1.0).is_none());
+    }
+
     /// A contact that stiffens, with hysteresis: parts of one curve have intervals that overlap, and the residual is stated as it
     /// is.
     #[test]
@@ -344,6 +360,21 @@ mod tests {
         }
         let modulus = fits[0].parameters[1];
         assert!(modulus.interval.1 / modulus.interval.0 > 1.02, "{modulus:?}");
+    }
+
+    /// A parameter is not determined if its interval is wider than a factor e either way.
+    #[test]
+    fn a_parameter_is_determined_within_a_factor_e() {
+        let plain = read(rubber(1e-9, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let found = |share: f64| {
+            let mut curve = plain.clone();
+            curve.noise = share * dot(&curve.force, &curve.force).sqrt();
+            let noise = gauss(curve.noise, 4);
+            curve.force.iter_mut().zip(noise).for_each(|(force, noise)| *force += noise);
+            fit_from(&curve, &on_rubber(1e-6, 2e6), "modulus=1e5..1e7").not_distinguished
+        };
+        assert_eq!(found(0.05), []);
+        assert_eq!(found(0.2), [(Parameter::Modulus, Parameter::Modulus)]);
     }
 
     /// The scatter over profiles counts twice: for the profile of the specimen and for the profile of the scene.

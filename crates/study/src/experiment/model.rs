@@ -248,33 +248,44 @@ mod tests {
     /// either side the first point is half way to the next even point, and each further point halves the distance to the fold.
     #[test]
     fn points_are_dense_on_both_sides_of_a_fold() {
-        let scene = random(4, 512).scene;
-        let (contact, _) = Simulation::default().contact(&scene).unwrap();
         let from = 1e-6;
-        let leg = Leg::approach(&contact).unwrap().turn(from).unwrap();
-        let share = |index: usize| (index as f64 / (FEW - 1) as f64).powi(2);
-        let even: Vec<f64> = (0..FEW).map(|index| leg.end() + (from - leg.end()) * share(index)).collect();
-        for times in [0.01, 0.1, 1.0] {
-            let stiffness = times * stiffness(&scene);
-            let curve = leg.curve(&even).unwrap();
-            let at: Vec<f64> = curve.iter().map(|point| point.displacement(stiffness)).collect();
-            let is_fold = |&index: &usize| {
-                at[index] < at[index - 1] && at[index + 1..].iter().all(|before| at[index] < *before)
-            };
-            let folds: Vec<usize> = (1..FEW - 1).filter(is_fold).collect();
-            assert!(!folds.is_empty(), "{times}");
-            let mut dense = even.clone();
-            for (fold, end) in folds.into_iter().flat_map(|fold| [(fold, fold - 1), (fold, fold + 1)]) {
-                let way = even[end] - even[fold];
-                dense.extend((1..=8).map(|halvings| even[fold] + way / 2_f64.powi(halvings)));
+        for (seed, points, presses) in [(4, 512, false), (11, 1024, true)] {
+            let scene = random(seed, points).scene;
+            let (contact, _) = Simulation::default().contact(&scene).unwrap();
+            let approach = Leg::approach(&contact).unwrap();
+            let leg = if presses { approach } else { approach.turn(from).unwrap() };
+            let (sign, power, low) = if presses { (1.0, 1, 0.0) } else { (-1.0, 2, leg.end()) };
+            let share = |index: usize| (index as f64 / (FEW - 1) as f64).powi(power);
+            let even: Vec<f64> = (0..FEW).map(|index| low + (from - low) * share(index)).collect();
+            for times in [0.01, 0.1, 1.0] {
+                let stiffness = times * stiffness(&scene);
+                let curve = leg.curve(&even).unwrap();
+                let at: Vec<f64> = curve.iter().map(|point| sign * point.displacement(stiffness)).collect();
+                let is_fold = |&index: &usize| {
+                    let (next, before) =
+                        if presses { (index + 1, 0..index) } else { (index - 1, index + 1..FEW) };
+                    at[index] > at[next] && at[before].iter().all(|before| at[index] > *before)
+                };
+                let folds: Vec<usize> = (1..FEW - 1).filter(is_fold).collect();
+                assert!(!folds.is_empty(), "{seed} {times}");
+                let mut dense = even.clone();
+                for (fold, end) in folds.into_iter().flat_map(|fold| [(fold, fold - 1), (fold, fold + 1)]) {
+                    let way = even[end] - even[fold];
+                    dense.extend((1..=8).map(|halvings| even[fold] + way / 2_f64.powi(halvings)));
+                }
+                dense.sort_by(f64::total_cmp);
+                let mut points = leg.curve(&dense).unwrap();
+                let sampling = Sampling { stiffness, points: FEW, least_jump: f64::INFINITY };
+                let found = if presses {
+                    sampling.over(&leg, [low, from], power, None)
+                } else {
+                    points.insert(0, CurvePoint { indentation: low, ..CurvePoint::default() });
+                    points.reverse();
+                    sampling.pull(&leg, from)
+                };
+                let expected = DisplacementCurve::new(leg.direction(), &points, stiffness);
+                assert_eq!(found.unwrap(), expected, "{seed} {times}");
             }
-            dense.sort_by(f64::total_cmp);
-            let mut points = vec![CurvePoint { indentation: leg.end(), ..CurvePoint::default() }];
-            points.extend(leg.curve(&dense).unwrap());
-            points.reverse();
-            let expected = DisplacementCurve::new(Direction::Unloading, &points, stiffness);
-            let sampling = Sampling { stiffness, points: FEW, least_jump: f64::INFINITY };
-            assert_eq!(sampling.pull(&leg, from).unwrap(), expected, "{times}");
         }
     }
 

@@ -250,6 +250,15 @@ mod tests {
         assert!((end(Drift::Known(5.99e-9)) - without).abs() < 2e-10);
     }
 
+    /// A retraction alone leaves compression where the force is zero, here at a displacement of zero.
+    #[test]
+    fn a_retraction_alone_touches_where_it_leaves_compression() {
+        let pulled = |at: f64| (at, if at < -50.0 { 0.0 } else { at });
+        let text = lines((0..300).map(|index| pulled(f64::from(100 - index))));
+        let options = CurveOptions { zero: Some(0.0), ..CurveOptions::default() };
+        assert_eq!(from_text(&text, &options).unwrap().touch, 0.0);
+    }
+
     /// Drift over time and tilt over the displacement, separated by the parts before and after contact; a force that differs
     /// before and after contact is neither.
     #[test]
