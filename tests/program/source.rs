@@ -42,7 +42,9 @@ fn modules() -> BTreeMap<Module, String> {
         let inside = path.strip_prefix(root().join(folder)).unwrap().with_extension("");
         let parts = inside.iter().map(|part| part.to_str().unwrap().to_owned());
         let parts = parts.filter(|part| part != "mod" && part != "lib");
-        let code = text.split("#[cfg(test)]\nmod tests ").next().unwrap_or_default();
+        let is_body = |start: &usize| text[*start..].lines().nth(2).is_some_and(|line| line.ends_with('{'));
+        let mut tests = text.match_indices("\n#[cfg(test)]\nmod ").map(|(start, _)| start);
+        let code = &text[..tests.find(is_body).unwrap_or(text.len())];
         let lines: Vec<&str> = code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
         ([name.to_owned()].into_iter().chain(parts).collect(), lines.join("\n"))
     };

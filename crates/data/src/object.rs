@@ -2,7 +2,7 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// An object whose entries are nested pairs, made by [`object!`].
+/// An object whose entries are nested pairs, made by `object!`.
 pub struct Object<E>(pub E);
 
 /// Entries of an object: none, or the first and the others.

@@ -34,6 +34,7 @@ mod tables;
 pub use axis::{Axis, DERIVED, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, USUAL_LEVELS, boundaries, protocol_name};
 pub use error::StudyError;
+pub use experiment::ExperimentError;
 pub use experiment::curve::MeasuredCurve;
 pub use experiment::fit::{Fit, FittedParameter, fit};
 pub use experiment::options::{CurveOptions, Drift, Negate, Tilt};

@@ -83,7 +83,7 @@ impl LiveMap {
         self.failed.contains_key(&cell) || self.results.is_whole(cell)
     }
 
-    /// Sets the values of a cell on a profile, in the order of [`crate::live_plan::MAP_RECORD`].
+    /// Sets the values of a cell on a profile, in the order of `MAP_RECORD`.
     pub fn set(&mut self, cell: u64, line: u64, values: &[f64]) {
         self.results.set(cell * self.plan().lines + line, values);
     }

@@ -59,9 +59,9 @@ pub(super) fn scene_with<'a>(
     }
     let mut scene = tree.scene().map_err(refused)?;
     if let Some((parameter, value)) = by_parameter {
-        if scene.adhesion.is_some_and(|adhesion| adhesion.closing_work().is_some()) {
-            let why = "κ and e_el/γ refer to one work of adhesion: the scene has adhesion.closing_work";
-            return Err(refused(format!("axis {}: {why}; vary adhesion.work", parameter.path())).into());
+        if scene.adhesion.is_some_and(|adhesion| adhesion.has_two_works()) {
+            let why = "κ and e_el/γ refer to one work of adhesion, and the scene has another one on closing";
+            return Err(refused(format!("axis {}: {why}: vary adhesion.work", parameter.path())).into());
         }
         scene.adhesion = Some(with_parameter(&scene, parameter, value));
     }

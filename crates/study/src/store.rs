@@ -47,7 +47,7 @@ pub struct Folder {
 /// Header of a shard file: its first line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    /// [`STORE_VERSION`].
+    /// `STORE_VERSION`.
     pub format: u32,
     /// Checksum of the plan.
     pub plan: String,

@@ -15,6 +15,7 @@ pub use line::rigid_line::{Histogram, Line};
 pub use line::roughness::Synthesizer;
 pub use line::spectrum::{Amplitude, SelfAffine};
 pub use line::table::{FormTable, Rows};
+pub use spectrum::SpectrumError;
 pub use spectrum::analysis::{Analysis, Options, analyse};
 pub use spectrum::fit::PowerLaw;
 pub use spectrum::isotropic::{End, Estimate, IsotropicSpectrum, LineMoments, Moment, Node};

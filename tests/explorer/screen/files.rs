@@ -74,7 +74,7 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
     let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
     let (mut curve, mut figures) = (Vec::new(), Vec::new());
     write(&mut curve, &report, Format::Csv, &provenance).unwrap();
-    write(&mut figures, &report, Format::Json, "").unwrap();
+    write(&mut figures, &report, Format::Json, &provenance).unwrap();
     assert_eq!(exported(&mut driver, "a.csv").into_bytes(), curve);
     assert_eq!(exported(&mut driver, "a.json").into_bytes(), figures);
     assert!(serde_json::from_slice::<serde_json::Value>(&figures).is_ok());

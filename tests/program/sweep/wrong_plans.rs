@@ -33,6 +33,7 @@ fn each_mistake_has_its_message() {
         ("\"roughness.hurst\"", "\"adhesion.work\"", "axis adhesion.work: adhesion.kappa sets it as well"),
         ("\"roughness.hurst\"", "\"loading.7.0\"", "its 2 loading stages are counted from 0"),
         ("\"roughness.hurst\"", "\"preload\"", "axis preload: given twice"),
+        ("(kappa: 1.0)", "(work: 0.05, closing_work: 0.02)", "and the scene has another one on closing"),
         ("[0.8, 0.3]", "[0.8, 1.3]", "cell 4 (adhesion.kappa = 0.5, roughness.hurst = 1.3, "),
         ("[0.8, 0.3]", "[0.8, 1.3]", "roughness.hurst = 1.3: allowed: above 0 and below 1 (Hurst exponent)"),
         ("scene: (", "base: \"jkr-sphere\", scene: (", "`base` and `scene` are given"),

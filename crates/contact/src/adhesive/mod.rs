@@ -1,6 +1,6 @@
 //! Adhesive contact: the exact loop over turning points.
 //!
-//! The gaps of a line give a [`ContactTree`] of their local maxima. A loading pass closes its nodes from below, an
+//! The gaps of a line give a `ContactTree` of their local maxima. A loading pass closes its nodes from below, an
 //! unloading pass opens them from above; both list the *runs* of the leg, fragments whose edges move without a jump.
 //! Curves, extremes and energies are sums over these runs. Only the edge model defines the length of a fragment.
 

@@ -1,8 +1,8 @@
 //! Errors of a scene, and the cost of smaller ones.
 //!
-//! [`estimate()`] is the error of one outcome, [`choose()`] the springs for a tolerance. [`measure()`] tries springs with
+//! [`estimate()`](crate::estimate) is the error of one outcome, [`choose()`](crate::choose) the springs for a tolerance. [`measure()`](crate::measure) tries springs with
 //! both kinds of edges and steps of the stepwise solver, from coarse to fine, and compares errors with times. Errors are
-//! relative to a [`Reference`]: the adhesion force in closed form if the scene has one, otherwise the finest solution with
+//! relative to a [`Reference`](crate::Reference): the adhesion force in closed form if the scene has one, otherwise the finest solution with
 //! edges between springs, whose own error is estimated. Timed runs are separate from compared ones.
 
 pub(crate) mod choice;

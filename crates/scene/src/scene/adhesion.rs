@@ -107,6 +107,11 @@ impl Adhesion {
         if let Strength::Work { closing, .. } = self.strength { closing } else { None }
     }
 
+    /// Returns true with a work of its own on closing.
+    pub fn has_two_works(&self) -> bool {
+        self.closing_work().is_some()
+    }
+
     /// The given parameter and its value; `None` for adhesion by work.
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         if let Strength::Parameter(parameter, value) = self.strength {

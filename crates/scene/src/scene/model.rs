@@ -5,7 +5,7 @@
 use super::adhesion::Adhesion;
 use super::fields::default_of;
 use super::measured::Measured;
-pub use asperity_contact::{Edges, Move};
+use asperity_contact::{Edges, Move};
 use asperity_surface::{Form, MeasuredOptions, SelfAffine};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

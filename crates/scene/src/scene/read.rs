@@ -170,7 +170,7 @@ mod tests {
             "numerics: (points: -5),|24|numerics.points|-5|from 1 to 268435456",
             "title: Hello,|12|title|Hello|text in quotes",
             "adhesion: 0.5,|15|adhesion|0.5|(work: 0.05), (kappa: 2.0) or (elastic_energy_ratio: 0.5)",
-            "adhesion: (work: 0.05, kappa: 2.0),|15|adhesion||type adhesion=(work: 0.05) or adhesion=(kappa: 2.0)",
+            "adhesion: (work: 0.05, kappa: 2.0),|15|adhesion||give (work: 0.05) or (kappa: 2.0)",
             "adhesion: (), // none|15|adhesion||give work, kappa or elastic_energy_ratio",
             "roughness: SelfAffine(hurst: 0.7, modes: (1, 2)),|52|roughness.seed||missing; allowed: a whole number",
             "roughness: SelfAffine(hurst: \"x\"),|34|roughness.hurst|\"x\"|above 0 and below 1",

@@ -90,7 +90,7 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
 }
 
 /// A loading as text, with minor loops that repeat as one item: `10 µN, 3 loops 0 N to 10 µN, separation`. With
-/// [`exact_quantity`](asperity_data::exact_quantity) as format, [`read_loading`] returns the same loading.
+/// [`exact_quantity`](asperity_data::exact_quantity) as format, `read_loading` returns the same loading.
 pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String {
     let (mut items, mut rest) = (Vec::new(), loading);
     while let Some(&first) = rest.first() {

@@ -1,7 +1,7 @@
 //! Measured surfaces: files of instruments and programs, read into heights in m.
 //!
-//! [`read`] finds the format by the content, not by the name. Units are never guessed: if a file states none,
-//! [`ReadOptions`] has to. Every error names the place within the file and the allowed content. A file of n bytes
+//! [`read`](crate::read) finds the format by the content, not by the name. Units are never guessed: if a file states none,
+//! [`ReadOptions`](crate::ReadOptions) has to. Every error names the place within the file and the allowed content. A file of n bytes
 //! takes at most 1 MiB + 64 n bytes of memory, n counted after decompression, and decompression ends at 1 MiB + 32
 //! bytes for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
 

@@ -1,6 +1,6 @@
 //! Text of RON values: places by path, and edits that keep the comments. Independent of the fields of a scene.
 //!
-//! [`Text::span`] finds a value; [`Text::replace`] and [`Text::insert`] return a new text.
+//! [`Text::span`](index::Text::span) finds a value; [`Text::replace`](index::Text::replace) and [`Text::insert`](index::Text::insert) return a new text.
 
 use asperity_data::is_control;
 use ron::error::SpannedError;
