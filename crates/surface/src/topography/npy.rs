@@ -7,7 +7,7 @@
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
 use super::{Place, TopographyError, refused, shown};
-pub(super) use asperity_data::SIGNATURE;
+use asperity_data::SIGNATURE;
 use asperity_data::{emptied, gathered};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {

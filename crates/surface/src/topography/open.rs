@@ -16,7 +16,7 @@ type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
 /// First bytes of the binary formats. All others but SDF and archives are text.
 const SIGNATURES: [(&[u8], BinaryReader); 6] = [
-    (npy::SIGNATURE, |bytes, _| npy::read(bytes)),
+    (asperity_data::SIGNATURE, |bytes, _| npy::read(bytes)),
     (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
     (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
     (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
