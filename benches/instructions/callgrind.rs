@@ -16,7 +16,7 @@ impl Profile {
 
     /// True if instructions are attributed to lines of this project, which requires line tables.
     pub fn has_line_tables(&self) -> bool {
-        self.lines.keys().any(|file| file.contains("src/simulation/"))
+        self.lines.keys().any(|file| file.contains("scene/src/simulation/"))
     }
 
     /// Files as named by the compiler, with the instructions of their lines.

@@ -34,9 +34,9 @@ pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "Hess",
         lines: Lines::Of(&[
-            ("src/contact/springs.rs", "fn largest_stretch("),
-            ("src/contact/adhesive/run.rs", "pub fn attachment("),
-            ("src/contact/adhesive/run.rs", "pub fn holds_to("),
+            ("crates/contact/src/springs.rs", "fn largest_stretch("),
+            ("crates/contact/src/adhesive/run.rs", "pub fn attachment("),
+            ("crates/contact/src/adhesive/run.rs", "pub fn holds_to("),
         ]),
         called_for: Case::is_adhesive,
         counted: |work| work.hess_evaluations,
@@ -44,15 +44,15 @@ pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "unloading",
         lines: Lines::Of(&[
-            ("src/contact/leg/mod.rs", "pub fn turn("),
-            ("src/contact/adhesive/unloading.rs", "pub fn open("),
+            ("crates/contact/src/leg/mod.rs", "pub fn turn("),
+            ("crates/contact/src/adhesive/unloading.rs", "pub fn open("),
         ]),
         called_for: Case::goes_back,
         counted: |work| work.detached,
     },
     Effect {
         name: "histogram",
-        lines: Lines::Of(&[("src/surface/line.rs", "pub fn new(heights: impl Iterator")]),
+        lines: Lines::Of(&[("crates/surface/src/line/rigid_line.rs", "pub fn new(heights: impl Iterator")]),
         called_for: Case::is_observed,
         counted: |work| work.heights_binned,
     },
