@@ -41,9 +41,9 @@ pub enum StudyError {
     /// A study that is asked for in a way that is not allowed.
     #[error("{found}; allowed: {allowed}")]
     NotAllowed {
-        /// What is asked for.
+        /// The request that is refused, in words.
         found: &'static str,
-        /// What is allowed.
+        /// The requests that are allowed, in words.
         allowed: &'static str,
     },
     /// Records are missing.
@@ -72,10 +72,10 @@ pub enum StudyError {
         /// Both files.
         files: [PathBuf; 2],
     },
-    /// The table of so many records does not fit into the memory.
+    /// A table of this number of records does not fit into the memory of the machine.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
-    /// The system has too little memory for so many threads.
+    /// The study on this number of threads needs more memory than the machine has.
     #[error(
         "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
         memory_size(*bytes)

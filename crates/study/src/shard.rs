@@ -22,7 +22,7 @@ impl Shard {
     /// A part of a plan.
     ///
     /// # Errors
-    /// What is allowed.
+    /// The allowed numbers, in words.
     pub(super) fn new(number: u32, count: u32) -> Result<Shard, String> {
         let is_sound = (1..=MOST).contains(&count) && (1..=count).contains(&number);
         let allowed = || format!("shard {number}/{count}: allowed: K/N with K from 1 to N, N at most {MOST}");

@@ -33,7 +33,7 @@ pub struct Case {
     pub name: &'static str,
     /// Family: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of the rules.
     pub family: &'static str,
-    /// What holds for the case.
+    /// Statement that the check of this case judges.
     pub holds: &'static str,
     /// Origin of the known result.
     pub evidence: &'static str,

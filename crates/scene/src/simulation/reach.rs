@@ -60,7 +60,7 @@ impl Reach {
 pub struct BeyondFullContact {
     /// Target of the stage, in `unit`.
     pub found: f64,
-    /// The same quantity at full contact.
+    /// Value of the refused quantity, a force, an indentation or a displacement, at full contact, in its SI unit.
     pub full_contact: f64,
     /// Largest allowed target, rounded to four digits.
     pub allowed: f64,

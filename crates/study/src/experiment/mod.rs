@@ -33,9 +33,9 @@ pub enum ExperimentError {
     /// A curve or a scene that cannot be fitted.
     #[error("{found}; allowed: {allowed}")]
     Refused {
-        /// What is wrong.
+        /// The fault, in words.
         found: String,
-        /// What is allowed.
+        /// The allowed content or values, and the option that helps.
         allowed: String,
     },
     /// A failure of the computation, or a stop.

@@ -40,9 +40,9 @@ pub enum SpectrumError {
     /// The surfaces, or the choices of the analysis, are not allowed.
     #[error("{found}; allowed: {allowed}")]
     Refused {
-        /// What is wrong.
+        /// The fault, in words.
         found: String,
-        /// What is allowed.
+        /// The allowed content or values, and the option that helps.
         allowed: String,
     },
     /// The Fourier transform refused its input.
