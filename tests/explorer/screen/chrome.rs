@@ -65,6 +65,10 @@ fn the_help_pages_to_its_ends_and_is_searched() {
     let text = driver.text();
     assert!(text.contains("Find: dissipated energy") && text.contains("shade the area"), "{text}");
     assert!(!text.contains("quit without saving"), "{text}");
+    // The search is over, its results stay, and a letter is a key again.
+    driver.press("Enter j");
+    let text = driver.text();
+    assert!(text.contains("shade the area") && !text.contains("dissipated energyj"), "{text}");
     driver.press("End Home PageDown Esc");
     assert!(driver.app.prompt.is_none());
 }
