@@ -15,8 +15,7 @@ use asperity::scene::Simulation;
 use asperity::scene::ideal_adhesion_force;
 use asperity::scene::{Adhesion, CheckedScene, Document, RoughnessParameter};
 use asperity::surface::{Line, SelfAffine, Synthesizer};
-use realfft::{RealFftPlanner, RealToComplex};
-use rustfft::num_complex::Complex64;
+use asperity_fourier::{Complex64, RealToComplex, plan_real_forward};
 use std::hint::black_box;
 use std::mem::take;
 use std::sync::Arc;
@@ -374,7 +373,7 @@ struct Transform {
 
 impl Transform {
     fn planned(points: usize) -> Self {
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+        let plan = plan_real_forward(points);
         let (input, output, scratch) =
             (plan.make_input_vec(), plan.make_output_vec(), plan.make_scratch_vec());
         Transform { plan, input, output, scratch }

@@ -9,7 +9,7 @@ use asperity::contact::Move;
 use asperity::scene::Simulation;
 use asperity::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
 use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
-use realfft::RealFftPlanner;
+use asperity_fourier::plan_real_forward;
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -208,7 +208,7 @@ fn one_by_one(plan: &Plan) {
 
 /// Seconds of one real transform.
 fn transform(points: usize, repeats: usize) -> f64 {
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+    let plan = plan_real_forward(points);
     let mut input: Vec<f64> = (0..points).map(|index| (index as f64).sin()).collect();
     let mut output = plan.make_output_vec();
     let mut scratch = plan.make_scratch_vec();

@@ -1,9 +1,7 @@
 //! Isotropic random surfaces with a known spectrum, on maps and along cuts.
 
 use asperity::surface::{ReadOptions, Topography, Unit, parse};
-use realfft::{ComplexToReal, RealFftPlanner};
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
+use asperity_fourier::{Complex64, ComplexToReal, plan_inverse, plan_real_inverse};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -77,7 +75,7 @@ impl Normal {
 pub fn map(spectrum: &Spectrum, points: usize, seed: u64) -> Topography {
     let (all, length) = (2 * points, 2.0);
     let mut normal = Normal::new(seed);
-    let plan = FftPlanner::<f64>::new().plan_fft_inverse(all);
+    let plan = plan_inverse(all);
     let signed = |index: usize| if 2 * index > all { index as f64 - all as f64 } else { index as f64 };
     let wave = |index: usize| {
         let k = signed(index % all).hypot(signed(index / all)) / length;
@@ -116,13 +114,7 @@ impl Profiles {
         let all = 2 * points * stride;
         let power = |wave: usize| cut(spectrum, 0.5 * wave as f64 / length) / length;
         let amplitudes = (0..=all / 2).map(|wave| (0.5 * power(wave)).sqrt()).collect();
-        Profiles {
-            amplitudes,
-            points,
-            length,
-            stride,
-            transform: RealFftPlanner::new().plan_fft_inverse(all),
-        }
+        Profiles { amplitudes, points, length, stride, transform: plan_real_inverse(all) }
     }
 
     /// The profile of a seed.

@@ -12,7 +12,7 @@ use asperity_contact::ContactError;
 use asperity_contact::Edges;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
-use realfft::RealFftPlanner;
+use asperity_fourier::plan_real_forward;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -250,7 +250,7 @@ fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> {
 
 /// Measures the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
 fn time_of_transform() -> Option<f64> {
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(TRANSFORM_POINTS);
+    let transform = plan_real_forward(TRANSFORM_POINTS);
     let mut points = transform.make_input_vec();
     let (mut modes, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
     let run = |_| {

@@ -9,7 +9,7 @@ use crate::topography::reading::ReadOptions;
 use crate::topography::surface::Detrend;
 use crate::topography::surface::{UNEVEN, first_uneven, interpolated};
 use asperity_data::{OutOfMemory, check_room, gathered};
-use realfft::RealFftPlanner;
+use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
 /// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
@@ -97,7 +97,7 @@ impl MeasuredProfile {
         let mut heights = self.heights_from(begins, self.length() / points as f64, points, 0.0)?;
         let curvature = rms_curvature(&heights, self.length() / points as f64);
         join_ends(&mut heights);
-        let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+        let plan = plan_real_forward(points);
         let mut modes = plan.make_output_vec();
         plan.process(&mut heights, &mut modes).map_err(|error| SurfaceError::Transform(error.to_string()))?;
         let squares = (1_u64..).zip(&modes[1..]).map(|(mode, coefficient)| {

@@ -3,9 +3,9 @@
 //! instruction.
 
 use super::spectrum::SelfAffine;
+use asperity_fourier::Complex64;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rustfft::num_complex::Complex64;
 
 /// Modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, independent of the first drawn mode: no result
 /// depends on the number of threads.

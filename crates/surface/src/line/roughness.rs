@@ -5,8 +5,7 @@ use super::modes::{Modes, phases};
 use super::spectrum::SelfAffine;
 use asperity_data::in_parallel;
 use asperity_data::memory;
-use realfft::{ComplexToReal, RealFftPlanner};
-use rustfft::num_complex::Complex64;
+use asperity_fourier::{Complex64, ComplexToReal, plan_real_inverse};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -33,7 +32,7 @@ struct Transform {
 
 impl Transform {
     fn planned(points: usize) -> Result<Self, SurfaceError> {
-        let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(points);
+        let plan = plan_real_inverse(points);
         let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
         let coefficients = zeros(points / 2 + 1)?;
         let scratch = zeros(plan.get_scratch_len())?;

@@ -2,9 +2,7 @@
 
 use super::SpectrumError;
 use asperity_data::{check_room, emptied};
-use realfft::RealFftPlanner;
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
+use asperity_fourier::{Complex64, plan_forward, plan_real_forward};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
@@ -167,7 +165,7 @@ impl MapPower {
         let steps = [TAU / (columns as f64 * along), TAU / (rows as f64 * between)];
         let largest = (PI / along).min(PI / between);
         let scale = along * between / points as f64;
-        let plan = FftPlanner::<f64>::new().plan_fft_forward(rows);
+        let plan = plan_forward(rows);
         let mut scratch = vec![Complex64::ZERO; plan.get_inplace_scratch_len()];
         let mut column = vec![Complex64::ZERO; rows];
         let row_window = window(rows, windowed);
@@ -227,7 +225,7 @@ fn transform(
     windowed: bool,
     mut each: impl FnMut(&[Complex64]),
 ) -> Result<(), SpectrumError> {
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(points);
+    let plan = plan_real_forward(points);
     let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
     let mut scratch = plan.make_scratch_vec();
     let window = window(points, windowed);
