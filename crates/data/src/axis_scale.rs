@@ -1,13 +1,13 @@
 //! Scales of axes.
 
-/// Mapping of numbers to coordinates along an axis.
+/// Scale of an axis: the mapping of numbers to coordinates along it.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
-    /// Equal distances for equal differences.
+    /// Linear: equal distances for equal differences.
     #[default]
     Linear,
-    /// The decimal logarithm; all values are above zero.
+    /// Logarithmic, by the decimal logarithm; all values are above zero.
     Logarithmic,
 }
 
@@ -17,8 +17,8 @@ impl AxisScale {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }
 
-    /// Place of a number among ascending values, the first at 0: linear between two values, extrapolated by the
-    /// last distance beyond the ends.
+    /// Fractional index of a number among ascending values, 0 at the first value: interpolated between two values, and
+    /// extrapolated beyond the ends by the nearest distance.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);

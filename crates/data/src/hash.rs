@@ -1,4 +1,4 @@
-//! SHA-256, comparable with `sha256sum`, which identifies a copy of a file.
+//! SHA-256 of files, the same as `sha256sum` prints, to identify copies of a file.
 
 use super::read::{ReadError, open_regular};
 use sha2::{Digest, Sha256};
@@ -8,7 +8,7 @@ use std::path::Path;
 /// Bytes read at a time.
 const BUFFER: usize = 1 << 16;
 
-/// Hash in 64 hexadecimal digits.
+/// The hash in 64 hexadecimal digits.
 pub fn hexadecimal(hasher: Sha256) -> String {
     hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -6,7 +6,7 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io;
 use std::io::Write;
 
-/// Writes a value as JSON on one line; an object begins with these entries.
+/// Writes a value as JSON on one line. If the value is an object, the entries `head` (a key and a text each) come first.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     value: &impl Serialize,
@@ -22,12 +22,12 @@ pub fn write_json(
     writeln!(out)
 }
 
-/// Escapes characters that JSON allows and a terminal does not; the text is read back unchanged.
+/// JSON format that escapes characters which JSON allows but a terminal may obey; the text reads back unchanged.
 #[derive(Default)]
 struct Printable {
-    /// First entries of the outermost object, until they are written.
+    /// Entries that go first into the outermost object, until they are written.
     head: Vec<u8>,
-    /// True if the next key follows them.
+    /// True if the next key needs a comma, since it follows the first entries.
     follows: bool,
 }
 

@@ -39,5 +39,5 @@ pub use text::{
 };
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
 
-/// First characters of CSV that begins with its scene.
+/// First characters of a CSV file that begins with its scene.
 pub const PROVENANCE: &str = "# asperity ";

@@ -1,23 +1,23 @@
-//! Reused memory of large arrays: fresh memory costs about as much as a pass over it, because the system clears
+//! Reuse of the memory of large arrays: fresh memory costs about as much time as a pass over it, because the system clears
 //! each page at its first access.
 //!
-//! Memory in proportion to input is reserved before use: an allocation that fails elsewhere ends the process.
+//! Memory in proportion to the input is reserved before use, since a failed allocation elsewhere ends the process.
 
 use std::hint::black_box;
 use thiserror::Error;
 
-/// Factor of the required memory above which a buffer is released.
+/// Ratio of the capacity of a buffer to the required number of values above which the buffer is released.
 const MOST_SPARE: usize = 4;
-/// Size of arrays that are never released.
+/// Number of values; a buffer with room for up to [`MOST_SPARE`] times as many is never released.
 const SMALL: usize = 1 << 16;
 
-/// Bytes in addition to the known arrays: stacks of threads and small arrays. More than any block that the
+/// Bytes checked in addition to the known arrays, for stacks of threads and small arrays. More than any block that the
 /// allocator of glibc keeps for reuse, so that the check has no side effect.
 const BESIDE: u64 = 33 << 20;
-/// Fewest bytes that are checked.
+/// Number of bytes below which no check is made.
 const FEW: u64 = 1 << 20;
 
-/// Insufficient memory for this number of bytes.
+/// Error: the system cannot provide this number of bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("not enough memory for {} MiB", .0.div_ceil(1 << 20))]
 pub struct OutOfMemory(u64);
@@ -28,7 +28,7 @@ impl OutOfMemory {
     }
 }
 
-/// Checks that the system can provide this many more bytes now, and releases them untouched.
+/// Checks that the system can provide this many more bytes now; the bytes are neither used nor kept.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());
@@ -41,7 +41,7 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     Ok(())
 }
 
-/// An empty vector with room for `count` values, in this memory if it suffices.
+/// An empty vector with room for `count` values, in the memory of `values` if that suffices.
 pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
@@ -49,7 +49,7 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
     Ok(values)
 }
 
-/// `count` values in this memory if it suffices: the previous ones, then `fill`.
+/// A vector of `count` values, in the memory of `values` if that suffices: the previous values, then copies of `fill`.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());
@@ -58,21 +58,21 @@ pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Ve
     Ok(values)
 }
 
-/// Collects `count` values.
+/// Collects `count` values into a vector; returns an error instead of ending the process for lack of memory.
 pub fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
     let mut gathered = emptied(Vec::new(), count)?;
     gathered.extend(values);
     Ok(gathered)
 }
 
-/// Adds a value.
+/// Appends a value; returns an error for lack of memory.
 pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
     reserve(values, 1)?;
     values.push(value);
     Ok(())
 }
 
-/// Makes room for `more` values, with some to spare.
+/// Reserves room for `more` values, and some to spare; returns an error for lack of memory.
 pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     values.try_reserve(more).map_err(|_| OutOfMemory::of::<T>(values.len() + more))
 }

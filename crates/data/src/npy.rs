@@ -1,4 +1,4 @@
-//! Header of the file of a NumPy array: exactly the type, the order and the shape of the array, or NumPy refuses the file.
+//! Header of a file of a NumPy array, which states its type, order and shape.
 
 use std::io;
 use std::io::Write;
@@ -6,17 +6,17 @@ use std::io::Write;
 /// First bytes of an array.
 pub const SIGNATURE: &[u8] = b"\x93NUMPY";
 
-/// Versions in which the length of a header has two bytes.
+/// Version of the format in which the length of the header has two bytes.
 const SHORT_HEADER: [u8; 2] = [1, 0];
 
-/// Bytes before a header of that version.
+/// Number of bytes before the header in that version.
 const PREFIX: usize = SIGNATURE.len() + SHORT_HEADER.len() + 2;
 
-/// Multiple of bytes that header and prefix fill together.
+/// Prefix and header together are a multiple of this number of bytes.
 const ALIGNMENT: usize = 64;
 
-/// Writes the header of an array. `descr` is its type in Python's notation, `shape` the numbers in the brackets of
-/// its shape.
+/// Writes the prefix and the header of an array. `descr` is its type in Python's notation, `shape` its lengths as between
+/// the brackets of a Python tuple.
 pub fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;

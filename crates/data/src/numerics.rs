@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
-/// Sum that keeps its rounding errors (Neumaier): error below 2u |Σ t| + O(n u²) Σ |t|.
+/// Compensated sum (Neumaier), with an error below 2u |Σ t| + O(n u²) Σ |t|.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CompensatedSum {
     value: f64,
@@ -26,25 +26,25 @@ impl CompensatedSum {
     }
 }
 
-/// Mean of values; NaN of none.
+/// Mean of values; NaN for an empty slice.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Root mean square of values; `None` of none.
+/// Root mean square of values; `None` without values.
 pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let (count, squares) =
         values.into_iter().fold((0_u64, 0.0), |(n, sum), value| (n + 1, sum + value.powi(2)));
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 
-/// Standard deviation of several values, with n − 1, about their mean.
+/// Sample standard deviation of values (divisor n − 1) about their mean.
 pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
     let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// Median of values in any order, which it reorders; between two middle values their mean. `None` of none.
+/// Median of values, which it reorders; the mean of the two middle values of an even number. `None` without values.
 pub fn median(values: &mut [f64]) -> Option<f64> {
     let count = values.len();
     if count == 0 {
@@ -55,8 +55,8 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
 }
 
-/// Quantile of ascending values, at least one of them, at this share of the way from the first to the last one:
-/// interpolated between neighbours.
+/// Quantile of ascending values, of which there is at least one: `share` is 0 at the first value and 1 at the last, with
+/// interpolation between neighbours.
 pub fn quantile(ascending: &[f64], share: f64) -> f64 {
     let last = ascending.len() - 1;
     let place = share * last as f64;
@@ -64,13 +64,13 @@ pub fn quantile(ascending: &[f64], share: f64) -> f64 {
     between(ascending[low], ascending[(low + 1).min(last)], place - low as f64)
 }
 
-/// The value at this share of the way from one to another.
+/// Linear interpolation: `from` at share 0, `to` at share 1.
 #[inline]
 pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + share * (to - from)
 }
 
-/// Slope of the straight line of least squares through points; `None` for fewer than two different points.
+/// Slope of the least-squares line through points (x, y); `None` for fewer than two different x.
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
     let (x, y) = (mean(|point| point.0), mean(|point| point.1));
@@ -89,7 +89,7 @@ pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT
     gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))
 }
 
-/// A zero of the Legendre polynomial of this degree, and its weight.
+/// Zero number `index` of the Legendre polynomial of this degree, and the weight of this quadrature node.
 fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
     let count = degree as f64;
     let mut x = (PI * (index as f64 + 0.75) / (count + 0.5)).cos();
@@ -107,11 +107,11 @@ fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
 }
 
 thread_local! {
-    /// The last quantile of Student's distribution: most samples in a row have the same size.
+    /// Cache of the last quantile, with its degrees of freedom: most samples in a row have the same size.
     static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-/// The two-sided 5 % quantile of Student's distribution: the t that |t| exceeds with a probability of 5 %.
+/// Two-sided 5 % quantile of Student's distribution: |t| exceeds it with a probability of 5 %.
 pub fn student_quantile(freedom: u32) -> f64 {
     if KNOWN.get().0 != freedom {
         KNOWN.set((freedom, student_t(freedom)));
@@ -132,7 +132,7 @@ fn student_t(freedom: u32) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Probability that |t| of Student's distribution is at most this (Abramowitz and Stegun, 26.7.3 and 26.7.4).
+/// Probability that |t| of Student's distribution is at most `t` (Abramowitz and Stegun, 26.7.3 and 26.7.4).
 fn share_within(t: f64, freedom: u32) -> f64 {
     let angle = (t / f64::from(freedom).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();
@@ -154,7 +154,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Small numbers added to a large one, which is then subtracted, are kept.
+        /// A compensated sum keeps small numbers that are added to a large one, which is then subtracted.
         #[test]
         fn a_sum_keeps_its_rounding_errors(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
             let large = 2.0_f64.powi(power);

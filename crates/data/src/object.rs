@@ -1,11 +1,11 @@
-//! JSON objects from a list of keys and values, in the order of the list.
+//! JSON objects made from a list of keys and values, whose order they keep.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// An object whose entries are nested pairs, made by `object!`.
+/// A JSON object made by `object!`; its entries are nested pairs.
 pub struct Object<E>(pub E);
 
-/// Entries of an object: none, or the first and the others.
+/// Entries of an object: none, or a first entry and the others.
 pub(crate) trait Entries {
     fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error>;
 }
@@ -16,10 +16,10 @@ impl Entries for () {
     }
 }
 
-/// A name with its value.
+/// A key with its value.
 pub struct Entry<T>(pub &'static str, pub T);
 
-/// Key and value, omitted without a value.
+/// A key with an optional value; the entry is omitted for `None`.
 pub struct Optional<T>(pub &'static str, pub Option<T>);
 
 impl<T: Serialize, R: Entries> Entries for (Entry<T>, R) {
@@ -46,7 +46,7 @@ impl<E: Entries> Serialize for Object<E> {
     }
 }
 
-/// An object with these keys and values, for serialisation; an entry `"key"?: option` is omitted for `None`.
+/// A JSON object of these keys and values, for serialisation; an entry `"key"?: option` is omitted for `None`.
 #[macro_export]
 macro_rules! object {
     (@entries) => { () };

@@ -1,4 +1,4 @@
-//! Parallel computations, independent of each other, so that their results do not depend on the threads.
+//! Independent computations in parallel, with results that do not depend on the number of threads.
 
 use std::cell::Cell;
 use std::io;
@@ -8,11 +8,11 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
 thread_local! {
-    /// True if this thread is one of as many as cores.
+    /// True on one of several threads that already keep all cores busy.
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `work` on this thread alone, as one of many threads that keep all cores busy.
+/// Runs `work` on this thread; functions of this module then start no further threads inside `work`.
 pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     let before = ONE_OF_MANY.replace(true);
     let result = work();
@@ -20,10 +20,10 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Runs `work` on `count` threads of a scope, or on fewer if the system starts fewer; `work` starts no threads itself.
+/// Runs `work` on `count` threads of a scope, or on fewer if the system refuses some; none of them starts threads itself.
 ///
 /// # Errors
-/// The error of the system if it starts none of at least one.
+/// The error of the system if it starts none of at least one thread.
 pub(crate) fn begin_threads<'scope>(
     scope: &'scope Scope<'scope, '_>,
     count: usize,
@@ -37,11 +37,11 @@ pub(crate) fn begin_threads<'scope>(
     if begun.iter().any(Result::is_ok) { Ok(()) } else { begun.into_iter().collect() }
 }
 
-/// Results for the numbers below `count`, in their order, computed on `jobs` threads, each with its own `worker`; on
-/// fewer threads if the system starts fewer. Results of numbers that precede a failed one are not affected by it.
+/// Results for the numbers below `count`, in their order, computed on `jobs` threads (fewer if the system refuses some),
+/// each with its own `worker`. A failed number does not affect the results of the numbers before it.
 ///
 /// # Errors
-/// Of several numbers that fail, the error of the first.
+/// The error of the smallest number that fails.
 pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     count: u64,
     jobs: usize,
@@ -74,13 +74,13 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Number of threads for work of this thread: one for each core, or this one alone.
+/// Number of threads to use for a computation started on this thread: one for each core, or 1 if this thread is one of many.
 pub fn threads() -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
-/// Runs both, the first on a thread of its own if that is `worth` it, the system has one and the thread begins first.
+/// Runs both functions, the first on a second thread if that is `worth` it and the system starts one in time.
 pub fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,

@@ -1,11 +1,11 @@
-//! Numbers with prefixes and units: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
+//! Numbers with SI prefixes and units: `2.5 MPa`, `10 µm`, `50 mJ/m²`.
 
 use crate::text::{SI_PREFIXES, shown, si_prefix};
 
-/// Digits of a written number.
+/// Number of significant digits of a quantity written for readers.
 const DIGITS: usize = 4;
 
-/// Accepted units: their name, and units to choose from.
+/// Units with their names and with units to choose from, for messages.
 const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("m", "unit of length", "m, mm, µm, nm"),
     ("N", "unit of force", "N, mN, µN, nN"),
@@ -69,13 +69,13 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     value.filter(|value| value.is_finite()).ok_or_else(too_large)
 }
 
-/// A typed number without prefix and unit in a unit: `50` in `mJ/m²` is `50 mJ/m²`; any other text as it is.
+/// Adds a unit to a typed number that has none: `50` with the unit `mJ/m²` becomes `50 mJ/m²`. Any other text stays as it is.
 pub fn in_unit(typed: &str, unit: &str) -> String {
     let is_number = split_number(typed.trim()).is_some_and(|(.., suffix)| suffix.trim().is_empty());
     if is_number && !unit.is_empty() { format!("{} {unit}", typed.trim()) } else { typed.to_owned() }
 }
 
-/// The unit of a quantity as it is shown, with its prefix: `mJ/m²` of `50 mJ/m²`; empty for a number without a unit.
+/// The unit, with its prefix, of a written quantity: `mJ/m²` for `50 mJ/m²`; empty for a number without a unit.
 pub fn unit_of(shown: &str) -> &str {
     shown.trim_start_matches(['=', ' ']).split_once(' ').map_or("", |(_, unit)| unit)
 }
@@ -109,7 +109,8 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     Some((digits, 0, rest))
 }
 
-/// Power of ten and further factor of the text after a number.
+/// Power of ten and further factor to SI units that the text after a number means, in a field of this unit; `None` for
+/// another unit.
 fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
     let suffix = canonical(suffix);
     let unit = canonical(unit);
@@ -134,27 +135,27 @@ fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
     })
 }
 
-/// A unit in one spelling: `J/m²`, `J/m^2` and `J / m2` are the same.
+/// A unit in one spelling: `J/m²`, `J/m^2` and `J / m2` become the same.
 fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// Returns true for a unit that takes SI prefixes: any but powers of a metre, whose prefix has the power too.
+/// Returns true if a unit may have an SI prefix: not powers of a metre, for which the power would apply to the prefix too.
 fn has_prefixes(unit: &str) -> bool {
     !unit.contains(['−', '(', '³'])
 }
 
 /// A value with its unit for readers, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
 ///
-/// Numbers without unit have no prefix; those much smaller or larger than one have an exponent.
+/// Numbers without a unit have no prefix; where they are much smaller or larger than one they have an exponent.
 pub fn format_quantity(value: f64, unit: &str) -> String {
     format_rounded(value, DIGITS, unit)
 }
 
-/// Magnitude below which a quantity with a unit is a zero with rounding: far below the smallest prefix.
+/// Magnitude below which a quantity with a unit is written as zero: far below the smallest prefix, so the result of rounding.
 const ROUNDING: f64 = 1e-36;
 
-/// Formats with fewer significant digits.
+/// A value with its unit, to this number of significant digits.
 pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     // The number next to zero is a state just after a jump at zero.
     let least = if unit == "1" || unit.is_empty() { f64::MIN_POSITIVE } else { ROUNDING };
@@ -163,7 +164,7 @@ pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits.clamp(1, DIGITS) - 1), unit)
 }
 
-/// A value with its unit, to two digits of an uncertainty: `50.05 mJ/m²` of ± 0.13 mJ/m².
+/// A value with its unit, to the second digit of its uncertainty: `50.05 mJ/m²` for ± 0.13 mJ/m².
 pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     if !(uncertainty > 0.0 && uncertainty.is_finite() && value.is_finite()) {
         return format_quantity(value, unit);
@@ -177,12 +178,12 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     }
 }
 
-/// A range with its unit, which both ends share where they have the same prefix: `0.33 to 35 µN`, `26 nN to 35 µN`.
+/// A range with its unit, written once where both ends have the same prefix: `0.33 to 35 µN`, `26 nN to 35 µN`.
 pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> String {
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }
 
-/// The ends of a range, which are values with units.
+/// Joins the ends of a range, each a value with its unit; a unit that both share is written once.
 pub fn one_unit([low, high]: [String; 2]) -> String {
     match (low.split_once(' '), high.split_once(' ')) {
         (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => format!("{number} to {high}"),
@@ -190,12 +191,12 @@ pub fn one_unit([low, high]: [String; 2]) -> String {
     }
 }
 
-/// A value with its unit and all its digits: [`parse_quantity`] returns the same value.
+/// A value with its unit and all its digits: [`parse_quantity`] reads the same value back.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)
 }
 
-/// A value, with its decimal digits and exponent, in the usual unit and prefix.
+/// A value, given its digits and exponent as `scientific`, with the usual prefix of its unit.
 fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let plain = unit == "1" || unit.is_empty();
     let unit_after = if plain { String::new() } else { format!(" {unit}") };

@@ -1,8 +1,7 @@
-//! Reading of files named by users: regular files only, and only up to a limit.
+//! Reading of files that users name: regular files only, up to a limit of their size.
 //!
-//! Opening a pipe waits for its writer, a terminal waits for its user, and a device may never end. The metadata of
-//! a file are no bound either: a file grows while it is read, and some systems state a size of zero for files with
-//! content.
+//! Opening a pipe waits for its writer, a terminal waits for its user, and a device may never end. The size in the metadata
+//! of a file is no bound: a file may grow while it is read, and some systems state a size of zero for files with content.
 
 use std::fs::{File, OpenOptions};
 use std::io;
@@ -10,7 +9,7 @@ use std::io::Read;
 use std::path::Path;
 use thiserror::Error;
 
-/// Reason why a file was not read. The caller puts the name of the file in front.
+/// Reason why a file was not read. The caller prepends the name of the file.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The path is a folder.
@@ -19,10 +18,10 @@ pub enum ReadError {
     /// The path is a pipe, a socket, a terminal or another device.
     #[error("this is not a regular file")]
     NotRegular,
-    /// An array where a scene is asked for.
+    /// The file is a NumPy array where a scene is expected.
     #[error("an array of NumPy holds no scene; allowed: a scene, or a table of results in CSV")]
     Array,
-    /// The file is too long.
+    /// The file is longer than allowed.
     #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
     TooLong {
         /// Largest allowed length, bytes.
@@ -34,12 +33,12 @@ pub enum ReadError {
         /// Index of the first invalid byte.
         byte: usize,
     },
-    /// The system refused, or has no memory for the content.
+    /// The system refused to read, or has no memory for the content.
     #[error("cannot be read: {}", reason(.0))]
     Failed(#[from] io::Error),
 }
 
-/// Reason of the system, without the error number for a plain reason.
+/// Message of the system, in plain words where the reason is simple.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -47,7 +46,7 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Opens a regular file for reading. Never waits for a writer or for a terminal.
+/// Opens a regular file for reading; never waits for a writer or for a terminal.
 pub fn open_regular(path: &Path) -> Result<File, ReadError> {
     // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
     // as far as its kind is known in advance.
@@ -68,7 +67,7 @@ pub fn open_regular(path: &Path) -> Result<File, ReadError> {
     Ok(file)
 }
 
-/// Content of a regular file of at most `limit` bytes.
+/// Reads a regular file of at most `limit` bytes.
 pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     let file = open_regular(path)?;
     // A longer file is refused before it is read; one may also grow while it is read.
@@ -79,13 +78,12 @@ pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     }
 }
 
-/// Text of a regular file of at most `limit` bytes.
+/// Reads a regular file of at most `limit` bytes as text.
 pub fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError> {
     into_text(read_regular(path, limit)?)
 }
 
-/// The content of a source up to its end, of at most `limit` bytes: for standard input and other streams that the
-/// caller is ready to wait for.
+/// Reads a source up to its end, at most `limit` bytes: for standard input and other streams that the caller can wait for.
 pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     // One more byte distinguishes a file of the limit from a longer one.

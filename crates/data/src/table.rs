@@ -1,6 +1,6 @@
-//! Tables of results: as CSV, as an array of NumPy, and as JSON objects.
+//! Tables of results, written as CSV, as a NumPy array or as JSON objects.
 //!
-//! CSV begins with its provenance in comments. An array has a field for each column.
+//! CSV begins with comments that state how it was made. An array has one field for each column.
 
 use super::npy;
 use serde::ser::{Serialize, Serializer};
@@ -11,30 +11,30 @@ use std::io;
 use std::io::Write;
 use std::rc::Rc;
 
-/// Values of a column.
+/// Kind of the values in a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A real number.
     Real,
-    /// Integers from 0.
+    /// An integer, at least 0.
     Whole,
     /// Text of at most this many characters.
     Text(usize),
 }
 
-/// Value of a row in a column.
+/// Function that gives the value of a row in one column.
 type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
-/// Named columns, and rows that are made one by one while they are written.
+/// Named columns, and rows that are made one by one as they are written.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
-    /// Number of rows, counted without their values, which may take time.
+    /// Counts the rows without computing their values, which may take time.
     count: Box<dyn Fn() -> usize + 'a>,
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table in the making: the rows, and the columns so far with their values of a row.
+/// A table under construction: its rows, and the columns added so far.
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
@@ -42,14 +42,14 @@ pub struct TableOf<'a, T> {
 }
 
 impl<'a> Table<'a> {
-    /// Begins a table with its rows.
+    /// Begins a table; `rows` gives an iterator over its rows each time it is called.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
         TableOf { rows: Rc::new(move || Box::new(rows())), columns: Vec::new(), values: Vec::new() }
     }
 }
 
 impl<'a, T: 'a> TableOf<'a, T> {
-    /// Adds a column; a missing value is empty in CSV, `null` in JSON and NaN in an array.
+    /// Adds a column. A missing value is empty in CSV, `null` in JSON and NaN in an array.
     pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -66,7 +66,7 @@ impl<'a, T: 'a> TableOf<'a, T> {
         self.with(name, Kind::Real, value)
     }
 
-    /// Adds a column of integers from 0.
+    /// Adds a column of integers that are at least 0.
     pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
         self.with(name, Kind::Whole, value)
     }
@@ -94,7 +94,7 @@ impl Table<'_> {
         (self.rows)()
     }
 
-    /// Writes comma-separated values after the provenance.
+    /// Writes comma-separated values after comments with the lines of `provenance`, which say how the table was made.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))?;
         let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
@@ -120,7 +120,7 @@ impl Table<'_> {
         Ok(())
     }
 
-    /// Writes an array of NumPy.
+    /// Writes the table as a NumPy array with one field for each column.
     pub fn write_npy(&self, out: &mut dyn Write) -> io::Result<()> {
         let descr = |kind: Kind| match kind {
             Kind::Real => "<f8".to_owned(),
@@ -153,7 +153,7 @@ impl Table<'_> {
     }
 }
 
-/// A cell of CSV, by RFC 4180 in quotes where it contains a separator.
+/// A CSV cell; in quotes by RFC 4180 if it contains a separator, a quote or a line break.
 fn quoted(text: &str) -> Cow<'_, str> {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\"")).into()
@@ -162,7 +162,7 @@ fn quoted(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// A JSON array with an object for each row.
+/// A JSON array with one object for each row.
 impl Serialize for Table<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq((self.rows)().map(|row| Object(&self.columns, row)))

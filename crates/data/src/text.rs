@@ -1,13 +1,13 @@
-//! Text: prefixes of units, grouped digits, and foreign text for a terminal, a picture or a message: titles, names of
-//! files, headers, arguments.
+//! Text: SI prefixes, grouped digits, and text of foreign origin (titles, names of files, headers, arguments) made safe for
+//! a terminal, a picture or a message.
 //!
 //! A control character can clear a screen, write to the clipboard or invalidate the XML of a picture. A bidirectional
-//! control changes the apparent order of text. Both are shown by their numbers; all other characters are kept.
+//! control changes the apparent order of text. Both are replaced by their numbers; all other characters are kept.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Accepted SI prefixes, with their powers of ten. Every third power is written, with the first of its prefixes.
+/// SI prefixes that are read, with their powers of ten. Only the first prefix of every third power is written.
 pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
     ("z", -21),
@@ -29,18 +29,18 @@ pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("E", 18),
 ];
 
-/// Written SI prefix of a power of ten, if there is one.
+/// The SI prefix that is written for a power of ten; `None` for a power without one.
 pub fn si_prefix(power: i32) -> Option<&'static str> {
     SI_PREFIXES.iter().find(|(_, of)| *of == power).map(|(prefix, _)| *prefix)
 }
 
-/// A number to some significant digits.
+/// A number rounded to `digits` significant digits.
 pub fn round_to(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
-/// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and
-/// marks, separators of lines and paragraphs, and signs that nobody sees, to which terminals give different widths.
+/// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and marks,
+/// separators of lines and paragraphs, and invisible characters, which terminals give different widths.
 pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -63,7 +63,7 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
 
-/// Name of a file or folder, on one line.
+/// Name of a file or folder on one line, with control characters escaped.
 pub fn path_name(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
@@ -83,7 +83,7 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// An integer with separated thousands.
+/// An integer with its thousands separated by blanks.
 pub fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut grouped = String::new();
@@ -96,7 +96,7 @@ pub fn grouped(count: u64) -> String {
     grouped
 }
 
-/// A number of bytes in binary units.
+/// A number of bytes in binary units, as `1.5 MiB`.
 pub fn memory_size(bytes: u64) -> String {
     let units = ["B", "KiB", "MiB", "GiB", "TiB"];
     let mut size = bytes as f64;
@@ -109,7 +109,7 @@ pub fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// A relative error in per cent, with one digit, or two after a leading one: the accuracy of an estimate.
+/// A relative error in per cent, to one significant digit, or two if the first is 1: as accurate as an estimate is.
 pub fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {
@@ -124,10 +124,10 @@ pub fn per_cent(error: f64) -> String {
     format!("{} %", if leads_with_one { two } else { one })
 }
 
-/// Symbols of units after a number, without prefixes.
+/// Units, without prefixes, that stay on one line with the number before them.
 const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
 
-/// Returns true for a unit, with or without a prefix.
+/// Returns true for one of the units, with or without a prefix, and with punctuation after it.
 fn is_unit(word: &str) -> bool {
     let word = word.trim_end_matches([',', ';', ':', '.', ')']);
     let without_prefix =
@@ -135,14 +135,14 @@ fn is_unit(word: &str) -> bool {
     UNITS.contains(&word) || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
 }
 
-/// Returns true if no line may end between two words: within a number with separated thousands, and before its unit.
+/// Returns true if no line may break between two words: within a number with separated thousands, or before its unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
     word.ends_with(|c: char| c.is_ascii_digit()) && (is_group || is_unit(next))
 }
 
-/// Words of a text, with a number and its unit as one.
+/// Words of a text; a number and its unit are one word.
 fn words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for next in text.split_whitespace() {
@@ -180,10 +180,10 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Longest value or name in messages; longer ones are shortened.
+/// Number of characters from which on a value or name is shortened in messages.
 const MOST_SHOWN: usize = 80;
 
-/// Foreign text for a message: one line, shortened, without control characters.
+/// Text of foreign origin for a message: one line, shortened, with escaped control characters.
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

@@ -1,4 +1,4 @@
-//! Atomic writing of a file, never over an existing one without a request.
+//! Atomic writing of files, which overwrites an existing file only on request.
 
 use crate::text::path_name;
 use std::fs;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempPath;
 use thiserror::Error;
 
-/// Bytes gathered before a write to a file.
+/// Size in bytes of the buffer before a file.
 const BUFFER: usize = 1 << 18;
 
 /// Reason why a file was not written.
@@ -18,7 +18,7 @@ pub enum WriteError {
     /// The file exists, and overwriting was not requested.
     #[error("{}: there is a file of that name already", path_name(.0))]
     Exists(PathBuf),
-    /// The path is not one of a file that can be written.
+    /// The path does not name a file that can be written.
     #[error("{}: {fault}", path_name(path))]
     Unsuitable {
         /// Path of the file.
@@ -26,7 +26,7 @@ pub enum WriteError {
         /// Reason why it cannot be written.
         fault: String,
     },
-    /// The system has refused to write.
+    /// The system refused to write.
     #[error("{}: cannot be written: {reason}", path_name(path))]
     Failed {
         /// Path of the file.
@@ -46,13 +46,12 @@ impl WriteError {
     }
 }
 
-/// Checks before a long computation that [`write_new`] could write a file now, without a trace.
+/// Checks before a long computation that [`write_new`] could write a file now; nothing is left behind.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
 
-/// Writes a file as [`write_new_file`] does, or into a pipe or a device, which cannot be overwritten: that waits for a
-/// reader.
+/// Writes a file as [`write_new_file`] does, or into a pipe or a device, where it waits for a reader.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -98,12 +97,12 @@ pub fn write_new_file(
 /// A file that is being written, removed unless it is given a name.
 struct Temporary {
     file: File,
-    /// Its present name; on Linux there is none, so that the system removes the file at any end of the process.
+    /// Temporary path of the file. On Linux the file has none, so that the system removes it however the process ends.
     name: Option<TempPath>,
 }
 
 impl Temporary {
-    /// The file under a temporary name in the folder of another file.
+    /// Gives the file a temporary name in the folder of `path`.
     fn named(self, path: &Path) -> io::Result<TempPath> {
         match self.name {
             Some(name) => Ok(name),
@@ -112,7 +111,7 @@ impl Temporary {
     }
 }
 
-/// Makes a temporary file in the folder of another one.
+/// Makes a temporary file in the folder of `path`.
 fn temporary(path: &Path) -> Result<Temporary, WriteError> {
     let folder = folder_of(path);
     if let Some(file) = unnamed(folder) {
@@ -138,7 +137,7 @@ fn names() -> tempfile::Builder<'static, 'static> {
     names
 }
 
-/// A file without a name in a folder, where the system and the file system have such files.
+/// Makes a file without a name in a folder; `None` where the system or the file system has no such files.
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path) -> Option<File> {
     use rustix::fs::{CWD, Mode, OFlags, openat};
@@ -152,11 +151,10 @@ fn unnamed(_: &Path) -> Option<File> {
     None
 }
 
-/// Folder of the open files of this process.
+/// Folder in which the open files of this process have names.
 #[cfg(target_os = "linux")]
 const DESCRIPTORS: &str = "/proc/self/fd";
 
-/// Gives a name to a file without one.
 #[cfg(target_os = "linux")]
 fn link(file: &File, name: &Path) -> io::Result<()> {
     use rustix::fs::{AtFlags, CWD, linkat};
@@ -170,7 +168,7 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Waits until the names in a folder have reached the disk.
+/// Waits until the entries of a folder have reached the disk.
 pub fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
@@ -195,7 +193,8 @@ fn fill(
     buffered.flush()
 }
 
-/// The file behind a name, existing or not, with the permissions of the one that it replaces; `None` for a pipe or a device.
+/// Path to which `path` leads through links, existing or not, with the permissions of the file that it replaces; `None` for
+/// a pipe or a device.
 fn target(path: &Path, overwrite: bool) -> Result<Option<(PathBuf, Option<Permissions>)>, WriteError> {
     let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
     let found = fs::metadata(path);
