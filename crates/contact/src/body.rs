@@ -19,35 +19,35 @@ pub trait Solver {
     /// For a target out of reach; the body then stays in place.
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
 
-    /// Returns the contact at all indentations of the present leg.
+    /// Returns the contact at all indentations of the present motion.
     fn leg(&self) -> Leg;
 
     /// Work counts since the start.
     fn work(&self) -> Work;
 
-    /// Seconds spent on curves and extremes since the start, without the thresholds.
+    /// Seconds spent on force curves and their extremes since the start, without the search of the thresholds.
     fn curve_seconds(&self) -> f64;
 }
 
-/// A body on its foundation: the present leg and the position on it, all the memory that the model has.
+/// A body on its foundation: the present leg and the position on it, the whole state of the model.
 pub struct Body {
     leg: Leg,
     state: ContactState,
     samples: usize,
-    /// Extreme force of contact and instrument on the present motion; see [`Leg::jump_energy`].
+    /// Extreme force of contact and instrument so far on the present motion; see [`Leg::jump_energy`].
     extreme: Option<f64>,
     work: Work,
     curve_time: Duration,
 }
 
-/// A motion of a body.
+/// A motion of a body without a curve, as [`Body::move_to`] returns it.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// Leg of the motion.
+    /// Contact at all indentations of the motion.
     pub leg: Leg,
-    /// Smallest and largest indentation of the motion, m.
+    /// Smallest indentation of the motion, m.
     pub low: f64,
-    /// See `low`.
+    /// Largest indentation of the motion, m.
     pub high: f64,
     goal: Goal,
 }
@@ -59,10 +59,10 @@ impl Body {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at an indentation of a leg, m.
+    /// Creates a body at an indentation (m) of a leg.
     ///
     /// # Errors
-    /// [`ContactError::Stepwise`], [`ContactError::OutOfMemory`].
+    /// [`ContactError::Stepwise`] for a leg of the stepwise solver, [`ContactError::OutOfMemory`].
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -73,12 +73,12 @@ impl Body {
         Body { leg, state, samples: samples.max(2), extreme: None, work, curve_time: Duration::ZERO }
     }
 
-    /// Present point of the curve.
+    /// Present point of the force curve.
     pub fn point(&self) -> CurvePoint {
         self.point_of(self.state)
     }
 
-    /// Moves the body to a target without a curve; `None` for a body that is there.
+    /// Moves the body to a target without recording a curve; returns `None` if the body is there already.
     ///
     /// # Errors
     /// For a target out of reach; the body then stays in place.
@@ -106,7 +106,7 @@ impl Body {
         state.point(self.leg.contact().foundation)
     }
 
-    /// The present leg in its direction, else the one that begins here.
+    /// The present leg if it has this direction, else the leg that begins at the present indentation.
     fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
         let leg = if self.is_separated() && direction == Direction::Loading {
             Leg::approach(self.leg.contact())?
@@ -138,7 +138,7 @@ impl Body {
         Ok(Some(Motion { leg, low, high, goal }))
     }
 
-    /// Grid of a curve: every `stride`-th point is a sample, those between sharpen the search.
+    /// Grid of a motion for the search of extremes, and the stride at which its points are samples of the curve.
     fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
         let stride = SEARCH_INTERVALS.div_ceil(intervals);
@@ -214,13 +214,13 @@ impl Body {
         Ok(record)
     }
 
-    /// Loads this separated body once and unloads it from each of these targets, which begin separated at d = 0. A force is
-    /// reached where the loading is first at least as large: a pulling one at first touch, or while the bodies are still
-    /// drawn together. Calls `see` with the index of the target and its reversal, from the shallowest on; the forces are
-    /// those at `points`, ascending indentations in m. The body stays separated.
+    /// Loads this separated body once and unloads it from the turning point of each target, which is reached from
+    /// separation at d = 0. A force is reached where the loading first has at least that force; a tensile force at first
+    /// touch or while attraction draws the bodies together. Calls `see` with the index of each target and its reversal, the
+    /// shallowest first; the reversal has the forces at the ascending indentations `points`, m. The body stays separated.
     ///
     /// # Errors
-    /// A target out of reach or without contact, [`ContactError::OutOfMemory`]; the first error of `see`.
+    /// A target that is out of reach or without contact, [`ContactError::OutOfMemory`], or the first error of `see`.
     pub fn reversals(
         &mut self,
         targets: &[Move],
@@ -251,8 +251,8 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces after a turn at first touch and after one where the force is back at zero, N; `None` where
-    /// the contact does not pull, or never reaches zero force. Both turns begin separated; the body stays in place.
+    /// Returns the adhesion forces, N, after a turn at first touch and after a turn where the force is back at zero, both
+    /// from separation; `None` where the contact does not pull or never reaches zero force. The body stays in place.
     pub fn zero_load_adhesion(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -274,7 +274,7 @@ impl Body {
         Ok([at_touch, at_zero_force])
     }
 
-    /// Unloads from a turning point of a loading.
+    /// Unloads from a turning point of a loading to separation.
     fn reverse(
         &mut self,
         loading: &Leg,
@@ -354,19 +354,18 @@ pub fn run(
     Ok(history)
 }
 
-/// The unloading from one turning point to separation, exact to rounding.
+/// The unloading from one turning point to separation, without an error of discrete steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reversal {
-    /// Turning point.
+    /// Point of the force curve at which the unloading begins.
     pub turn: CurvePoint,
-    /// Smallest force on the way back.
+    /// Point of the smallest force on the unloading.
     pub smallest: CurvePoint,
     /// Indentation at which the last patch detaches, m.
     pub separation: f64,
     /// Energy dissipated from separation to separation, J.
     pub dissipated_energy: f64,
-    /// Forces, N, at those indentations asked of [`Body::reversals`] that are not above the turning point; empty from
-    /// the front of the library, which asks for none.
+    /// Forces, N, at the indentations given to [`Body::reversals`] that are not above the turning point.
     pub forces: Vec<f64>,
 }
 

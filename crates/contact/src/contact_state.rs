@@ -1,5 +1,4 @@
-//! Contact at one indentation and along a grid of indentations, and bounds of the
-//! force between two indentations.
+//! The contact at one indentation and along a grid of indentations, and bounds of the force between two indentations.
 
 use super::ContactError;
 use super::adhesive::levels::{EdgeCells, EdgeSum, Slider};
@@ -13,17 +12,17 @@ use std::ops::Range;
 pub struct ContactState {
     pub indentation: f64,
     pub totals: ContactTotals,
-    /// Contact length in units of the distance between springs.
+    /// Contact length, in units of the spring spacing.
     pub length: f64,
-    /// Compression ∫ (d − c) dx in units of that distance, m: the force in units of the stiffness of one spring.
+    /// Compression ∫ (d − c) dx in units of the spring spacing, m: the force over the stiffness of one spring.
     pub compression: f64,
-    /// ∫ (d − c)² dx in units of that distance, m²: twice the stored energy over that stiffness.
+    /// ∫ (d − c)² dx in units of the spring spacing, m²: twice the stored energy over the stiffness of one spring.
     pub squares: f64,
 }
 
 impl ContactState {
-    /// The contact of whole springs, or of whole cells and edge cells where edges slide between springs, at an
-    /// indentation, m.
+    /// The contact at an indentation (m), from the totals of its whole springs, or with `slides` of its whole cells and
+    /// edge cells.
     #[inline]
     pub fn new(
         slides: bool,
@@ -48,8 +47,8 @@ impl ContactState {
         ContactState { indentation, ..ContactState::default() }
     }
 
-    /// The contact with this number of springs beside it that are compressed by the indentation: their force is
-    /// F + k d. An instrument of stiffness k, displaced by D, holds the body where that force is k D.
+    /// The contact together with `springs` springs parallel to it, compressed by the indentation: the force of both is F +
+    /// k d. An instrument of stiffness k at the displacement D holds the body where this force is k D.
     #[inline]
     pub fn beside(&self, springs: f64) -> Self {
         if springs == 0.0 {
@@ -71,21 +70,21 @@ impl ContactState {
     }
 }
 
-/// Returns a number of springs or patches in contact.
+/// Converts a number of springs or patches in contact to an unsigned one.
 ///
 /// # Panics
-/// For a negative number, a defect of the sums: it must not pass for a result.
+/// For a negative number, which only a defect of the sums can cause: it must not pass for a result.
 pub fn counted(number: i64) -> u64 {
     assert!(number >= 0, "internal error, please report it: {number} springs or patches in contact");
     number.unsigned_abs()
 }
 
-/// Sums along a grid over the parts of a contact, each of which carries at some of the points.
+/// Sums along a grid over parts of a contact, each of which is in contact at some of the points.
 pub struct Tally {
     pub grid: Grid,
-    /// Change of the totals from one point to the next.
+    /// Change of the totals from each point to the next.
     changes: Vec<ContactTotals>,
-    /// Edge cells at each point, where edges slide.
+    /// Sum of the edge cells at each point, where edges slide.
     edges: Vec<EdgeSum>,
 }
 
@@ -97,7 +96,7 @@ impl Tally {
         Ok(Tally { grid, changes, edges })
     }
 
-    /// Index of the first point of at least this indentation, m; the number of points if there is none.
+    /// Index of the first point with at least this indentation, m; the number of points if there is none.
     #[inline]
     pub fn place(&self, indentation: f64) -> usize {
         if indentation > self.grid.high() {
@@ -107,27 +106,27 @@ impl Tally {
         }
     }
 
-    /// The indentations for which [`Tally::place`] returns this index, m: above the first, up to the second.
+    /// Range of indentations for which [`Tally::place`] returns this index, m: above the first and up to the second.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
         let below = place.checked_sub(1).map_or(f64::NEG_INFINITY, |before| points[before]);
         (below, points.get(place).copied().unwrap_or(f64::INFINITY))
     }
 
-    /// Adds whole springs or cells that carry from this point on.
+    /// Adds whole springs or cells that are in contact from this point on.
     #[inline]
     pub fn begin(&mut self, place: usize, totals: ContactTotals) {
         self.changes[place] += totals;
     }
 
-    /// Adds whole springs or cells that carry at these points.
+    /// Adds whole springs or cells that are in contact at these points.
     #[inline]
     pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {
         self.changes[carries.start] += totals;
         self.changes[carries.end] += -totals;
     }
 
-    /// Adds edge cells that carry at these points.
+    /// Adds edge cells that are in contact at these points.
     #[inline]
     pub fn slide(&mut self, carries: Range<usize>, slider: &Slider) {
         for (sums, &point) in self.edges[carries.clone()].iter_mut().zip(&self.grid.points[carries]) {
@@ -148,7 +147,7 @@ impl Tally {
     }
 }
 
-/// Chooses the intervals of a sampled leg whose contact at both ends passes `may_lie`.
+/// Intervals between neighbouring points of a sampled leg for whose ends `may_lie` returns true.
 pub fn intervals(
     leg: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
@@ -164,8 +163,8 @@ pub enum Extreme {
 }
 
 impl Extreme {
-    /// Returns true for a contact with a smaller or a larger force than another one. Of equal forces the smallest is taken
-    /// at its first place and the largest at its last, whichever is found first.
+    /// Returns true if `state` has a smaller (larger) force than `best`. Of equal forces the smallest is taken at the least
+    /// indentation and the largest at the greatest, in whichever order they are found.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
         let (one, other) = match self {
             Extreme::Smallest => (state, best),
@@ -174,12 +173,12 @@ impl Extreme {
         (one.compression, one.indentation) < (other.compression, other.indentation)
     }
 
-    /// Returns the extreme force at the points of a sampled leg, at least one.
+    /// Returns the contact of the extreme force at the points of a sampled leg, of which there is at least one.
     pub fn of(self, leg: &[ContactState]) -> ContactState {
         leg.iter().fold(leg[0], |best, next| if self.is_beyond(next, &best) { *next } else { best })
     }
 
-    /// Returns true where the bounds of the force between two indentations allow one beyond the best.
+    /// Returns true if the bounds of the force between two indentations allow a force beyond `best`.
     pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
         match self {
             Extreme::Smallest => lower_bound(low, high) < best.compression,
@@ -202,8 +201,7 @@ fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
 
-/// A grid of ascending indentations, evenly spaced with both ends exact but for a shorter last interval, or at given
-/// points.
+/// A grid of ascending indentations: evenly spaced between exact ends, but for a shorter last interval, or at given points.
 #[derive(Clone, Debug)]
 pub struct Grid {
     pub points: Vec<f64>,
@@ -211,7 +209,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// `intervals` equal intervals from `low` to `high`; a single point where they coincide.
+    /// A grid of `intervals` equal intervals from `low` to `high`, m; a single point where both coincide.
     pub fn new(low: f64, high: f64, intervals: usize) -> Self {
         let width = (high - low) / intervals as f64;
         // A range too narrow for two different points is also one point at each end.
@@ -227,19 +225,19 @@ impl Grid {
         Grid { points, intervals_per_metre: if even { width.recip() } else { 0.0 } }
     }
 
-    /// Grid at these ascending indentations, at least one, m.
+    /// A grid at these ascending indentations, m, at least one.
     pub fn at(points: Vec<f64>) -> Self {
         Grid { points, intervals_per_metre: 0.0 }
     }
 
-    /// Every `stride`-th of its points, and the last.
+    /// The grid of every `stride`-th point and the last point.
     pub fn coarser(&self, stride: usize) -> Self {
         let last = self.points.len() - 1;
         let points = (0..last).step_by(stride).chain([last]).map(|index| self.points[index]).collect();
         Grid { points, intervals_per_metre: self.intervals_per_metre / stride as f64 }
     }
 
-    /// Returns false for a grid of given points, or of its two ends alone.
+    /// Returns false for a grid at given points or of two ends without points between.
     pub fn is_even(&self) -> bool {
         self.intervals_per_metre > 0.0
     }

@@ -1,39 +1,40 @@
-//! Loading histories: targets, the motion to a target, legs with their curves, patches and work counts.
+//! Loading histories: targets, records of motions with their force curves, contact patches and work counts.
 
 use super::ContactError;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of one leg.
+/// Record of the motion to one target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegRecord {
     /// Target of the motion.
     pub target: Move,
     /// Direction of the motion.
     pub direction: Direction,
-    /// The curve along the leg: its samples, and the points of the smallest force and the smallest displacement of an
-    /// unloading leg. A jump into or out of contact has the points before and after.
+    /// Force curve: samples, and on an unloading leg the points of the smallest force and of the smallest displacement. A
+    /// jump into or out of contact has a point before and a point after it.
     pub curve: Vec<CurvePoint>,
-    /// Largest force on a loading leg, exact to rounding; the beginning of an unloading leg.
+    /// Point of the largest force on a loading leg, exact to rounding; on an unloading leg its beginning.
     pub largest: CurvePoint,
-    /// Smallest force on an unloading leg, exact to rounding; the smallest of `curve` on a loading leg.
+    /// Point of the smallest force on an unloading leg, exact to rounding; on a loading leg the smallest of `curve`.
     pub smallest: CurvePoint,
-    /// Springs that attached.
+    /// Number of springs that attached.
     pub attached: u64,
-    /// Springs that detached.
+    /// Number of springs that detached.
     pub detached: u64,
-    /// Released elastic energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same over those
-    /// that attached, and so negative where adhesion stretches springs. It is the work ∫F dd of the leg less the growth
-    /// of the stored elastic energy; over a closed loop the sum is the dissipated energy.
+    /// Released elastic energy, J: ½ Δk Σ e² over the springs that detached with a stretch e, less the same sum over the
+    /// springs that attached, and so negative where adhesion stretches springs. It is the work ∫F dd of the leg less the
+    /// growth of the stored elastic energy; over a closed loop it sums to the dissipated energy.
     pub released_energy: f64,
     /// Energy that a compliant instrument and the moving body lose in the jumps of the leg, J, exact for any number of
-    /// samples: ∮F dD of a history is the sum of both energies. Legs in one direction are one motion.
+    /// samples: ∮F dD over a history is the sum of `released_energy` and `jump_energy`. Consecutive legs in one direction
+    /// are one motion.
     pub jump_energy: f64,
 }
 
 impl LegRecord {
-    /// A leg that ends where it begins.
+    /// Record of a leg that ends where it begins.
     pub fn still(target: Move, here: CurvePoint) -> Self {
         LegRecord {
             target,
@@ -48,14 +49,14 @@ impl LegRecord {
         }
     }
 
-    /// A leg of a separated body that does not touch.
+    /// Record of a motion of a separated body that touches nothing, from one indentation to another, m.
     pub fn free(target: Move, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(CurvePoint::free);
         let direction = if to > from { Direction::Loading } else { Direction::Unloading };
         LegRecord { direction, curve: vec![start, end], ..LegRecord::still(target, end) }
     }
 
-    /// Inserts a point into an ascending curve, unless the curve has one there.
+    /// Inserts a point into a curve of ascending indentations, unless the curve has a point there.
     pub(super) fn insert(curve: &mut Vec<CurvePoint>, point: CurvePoint) {
         let place = curve.partition_point(|other| other.indentation < point.indentation);
         if curve.get(place).is_none_or(|other| other.indentation > point.indentation) {
@@ -63,8 +64,8 @@ impl LegRecord {
         }
     }
 
-    /// Records a motion in a direction: ascending points of its curve, its smallest and largest force, the body before
-    /// and after it, and the released elastic energy, J.
+    /// Record of a motion: the ascending points of its curve, the points of its smallest and largest force, the points
+    /// before and after the motion, and the released elastic energy, J.
     pub(super) fn moved(
         (target, direction): (Move, Direction),
         mut curve: Vec<CurvePoint>,
@@ -92,7 +93,7 @@ impl LegRecord {
         LegRecord { direction, curve, largest, smallest, attached, detached, released_energy, ..still }
     }
 
-    /// The last point, unless the body is separated there.
+    /// Last point of the curve; `None` if the body is separated there.
     pub fn end_in_contact(&self) -> Option<CurvePoint> {
         self.curve.last().copied().filter(|point| point.springs > 0)
     }
@@ -111,7 +112,7 @@ impl LegRecord {
 /// A whole loading history.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    /// Its legs, in order.
+    /// Records of the legs, in order.
     pub legs: Vec<LegRecord>,
     /// Patches in contact after the last leg, from left to right.
     pub contacts: Vec<Patch>,
@@ -122,37 +123,37 @@ pub struct History {
 /// Work counts: the same on every machine, unlike times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Work {
-    /// Springs under the body.
+    /// Number of springs of the line.
     pub springs: u64,
-    /// Random phases drawn.
+    /// Number of random phases drawn.
     pub random_phases: u64,
-    /// Fourier transforms of the whole line.
+    /// Number of Fourier transforms of the whole line.
     pub transforms: u64,
-    /// Nodes of the tree.
+    /// Number of nodes of the contact tree.
     pub tree_nodes: u64,
-    /// Passes over the tree for loading legs.
+    /// Number of passes over the tree for loading legs.
     pub loading_passes: u64,
-    /// Passes over the tree for unloading legs.
+    /// Number of passes over the tree for unloading legs.
     pub unloading_passes: u64,
-    /// Passes from first touch and from zero force, for F_a(0).
+    /// Number of passes from first touch and from zero force, for the zero-load adhesion F_a(0).
     pub zero_load_passes: u64,
-    /// Evaluations of the rule of Hess.
+    /// Number of evaluations of the rule of Hess.
     pub hess_evaluations: u64,
-    /// Springs sorted by threshold in the intervals that may hold an extreme of the force.
+    /// Number of springs sorted by threshold in the intervals that may hold an extreme of the force.
     pub events_sorted: u64,
-    /// Springs attached on the legs of the loading; `joins` in files.
+    /// Number of springs attached on the legs of the loading history; `joins` in files.
     #[serde(rename = "joins")]
     pub attached: u64,
-    /// Springs detached on the legs of the loading; `leaves` in files.
+    /// Number of springs detached on the legs of the loading history; `leaves` in files.
     #[serde(rename = "leaves")]
     pub detached: u64,
-    /// Steps of the stepwise solver.
+    /// Number of steps of the stepwise solver.
     pub steps: u64,
-    /// Sweeps of relaxation over the line.
+    /// Number of relaxation sweeps of the stepwise solver over the line.
     pub relaxation_sweeps: u64,
-    /// Springs visited in those sweeps.
+    /// Number of springs visited in relaxation sweeps.
     pub spring_updates: u64,
-    /// Heights counted into the histogram.
+    /// Number of heights counted into the histogram of heights.
     pub heights_binned: u64,
 }
 
@@ -182,21 +183,21 @@ pub struct CurvePoint {
     pub force: f64,
     /// Length in contact, m.
     pub contact_length: f64,
-    /// Springs in contact.
+    /// Number of springs in contact.
     pub springs: u64,
-    /// Contact fragments.
+    /// Number of contact patches.
     pub fragments: u64,
     /// Stored elastic energy, J: ½ Δk Σ (d − c)² over the springs in contact, compressed or stretched.
     pub stored_energy: f64,
 }
 
 impl CurvePoint {
-    /// A body that touches nothing at an indentation, m.
+    /// The point of a body that touches nothing at an indentation, m.
     pub(crate) fn free(indentation: f64) -> Self {
         CurvePoint { indentation, ..CurvePoint::default() }
     }
 
-    /// Displacement D = d + F/k, m, of an instrument of this stiffness k, N/m, that holds the body here.
+    /// Displacement D = d + F/k, m, of an instrument of stiffness k, N/m, that holds the body at this point.
     pub fn displacement(&self, stiffness: f64) -> f64 {
         self.indentation + self.force / stiffness
     }
@@ -213,17 +214,17 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Returns the indices of the springs.
+    /// Returns the indices of the springs in contact.
     pub fn springs(self) -> Range<usize> {
         self.first..self.last + 1
     }
 
-    /// Returns the spring in the middle.
+    /// Returns the index of the spring in the middle.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Returns the patches of a line that is in contact or not spring by spring, from left to right.
+    /// Returns the contact patches from left to right; `contact` is true for each spring of the line in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {
@@ -249,12 +250,12 @@ pub enum Move {
     ToForce(f64),
     /// To this indentation, m (0 at first touch).
     ToIndentation(f64),
-    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, k the loading stiffness of the
-    /// contact. Of a rigid instrument D is the indentation.
+    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, where k is the loading stiffness
+    /// of the contact. For a rigid instrument D is the indentation.
     ToDisplacement(f64),
     /// To the indentation of first touch, d = 0.
     ToTouch,
-    /// Until the force is zero; from separation, beyond touch until the force is back at zero.
+    /// Until the force is zero; from separation, past first touch until the force is back at zero.
     ToZeroForce,
     /// To separation.
     ToSeparation,
@@ -266,7 +267,7 @@ pub(super) enum Goal {
     Force(f64),
     /// A displacement of an instrument that is not rigid, m.
     Displacement(f64),
-    /// The loss of the last contact, and the indentation of the body after it where it is given, m.
+    /// Detachment of the last patch; the indentation of the body afterwards, m, where the target gives one.
     Separation(Option<f64>),
 }
 
@@ -283,8 +284,8 @@ impl From<Move> for Goal {
     }
 }
 
-/// Returns the direction and the end of the motion of a body at `here` to a target, with an instrument of this stiffness,
-/// N/m; `None` for a body that is there.
+/// Returns the direction and the goal of the motion of a body at `here` to a target, with an instrument of this stiffness,
+/// N/m; `None` if the body is there already.
 pub(super) fn plan(
     target: Move,
     here: CurvePoint,
@@ -318,7 +319,6 @@ pub(super) fn plan(
     })
 }
 
-/// Order of finite numbers, in which −0 equals 0.
 fn order(a: f64, b: f64) -> Ordering {
     a.partial_cmp(&b).unwrap_or(Ordering::Equal)
 }

@@ -1,6 +1,6 @@
-//! Intervals of indentations of a leg, searched for extremes and crossings of the force.
+//! Intervals of indentations of a leg, in which extremes and crossings of the force are searched.
 //!
-//! An interval is divided at its middle event until bounds exclude a part or nothing happens inside.
+//! An interval is divided at its middle event until the bounds of the force exclude a part or a part has no event inside.
 
 use super::adhesive::levels::{EdgeSum, Slider};
 use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
@@ -8,14 +8,14 @@ use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 use std::rc::Rc;
 
-/// Whole springs or cells in contact from this indentation on, until the next step.
+/// Totals of the whole springs or cells in contact from this indentation up to the next step.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     threshold: f64,
     totals: ContactTotals,
 }
 
-/// Edge cells of a fragment, while it fills one span.
+/// Edge cells of a fragment over the indentations at which it fills one span.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece {
     pub slider: Slider,
@@ -23,13 +23,13 @@ pub struct Piece {
     pub to: f64,
 }
 
-/// Part of a leg between two indentations, with its events.
+/// Part of a leg between two indentations, with the events inside.
 pub struct Interval {
     slides: bool,
-    /// Springs of the instrument beside the contact; see [`ContactState::beside`].
+    /// Instrument as a number of springs parallel to the contact; see [`ContactState::beside`].
     instrument: f64,
     scale: GapScale,
-    /// First its contact at the lowest indentation; then, once sorted, its events.
+    /// The contact at the lowest indentation, then the events; sorted by [`Interval::sort`].
     steps: Rc<Vec<Step>>,
     pieces: Vec<Piece>,
     /// Contact at the lowest and at the highest indentation.
@@ -37,11 +37,11 @@ pub struct Interval {
     high: ContactState,
 }
 
-/// Intervals of a sampled leg in which a force is sought, ascending, at least one.
+/// At least one interval of a sampled leg, ascending, in which a force is searched.
 pub struct Intervals(Vec<Interval>);
 
 impl Intervals {
-    /// Takes intervals between the contact at their ends, with springs of an instrument beside it.
+    /// Creates intervals from the contact at the ends of each; `instrument` is a number of springs parallel to the contact.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let of = |&[low, high]: &[ContactState; 2]| {
             let steps = Rc::new(vec![Step { threshold: low.indentation, totals: low.totals }]);
@@ -54,7 +54,7 @@ impl Intervals {
         (self.0[0].low.indentation, self.0[self.0.len() - 1].high.indentation)
     }
 
-    /// Range of the intervals that reach up to `from` and begin below `to`, m.
+    /// Index range of the intervals that overlap the indentations from `from` to `to`, m.
     pub fn between(&self, from: f64, to: f64) -> Range<usize> {
         let first = self.0.partition_point(|interval| interval.high.indentation < from);
         let end = self.0.partition_point(|interval| interval.low.indentation < to);
@@ -62,7 +62,7 @@ impl Intervals {
         first..end.max(first)
     }
 
-    /// Adds springs or cells that carry from one indentation up to another, m.
+    /// Adds springs or cells that are in contact from one indentation up to another, m.
     pub fn add_events(&mut self, from: f64, to: f64, totals: ContactTotals) {
         for (threshold, totals) in [(from, totals), (to, -totals)] {
             // At most one, which does not begin there.
@@ -78,7 +78,7 @@ impl Intervals {
         self.0[range].iter_mut().for_each(|interval| interval.pieces.push(piece));
     }
 
-    /// Returns the intervals, and adds the number of their events to `sorted`.
+    /// Returns the intervals with sorted events, and adds the number of events to `sorted`.
     pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval> {
         for interval in &mut self.0 {
             *sorted += interval.steps.len() as u64 - 1;
@@ -89,7 +89,7 @@ impl Intervals {
 }
 
 impl Interval {
-    /// Sorts its steps, each with the totals of all before it.
+    /// Sorts the events; each step then has the totals of all steps up to it.
     fn sort(&mut self) {
         let steps = Rc::make_mut(&mut self.steps);
         steps[1..].sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
@@ -121,8 +121,8 @@ impl Interval {
         self.pieces.iter().filter(move |piece| piece.is_at(indentation)).map(|piece| piece.slider)
     }
 
-    /// The contact from an indentation on, m, at another one up to the next event: whole springs or cells and the edge
-    /// cells of some fragments, none of which jumps, merges or splits. The force is convex in the indentation.
+    /// The contact at the indentation `at`, if no event lies between `from` and `at` (m): no edge jumps and no fragment
+    /// merges or splits. The force is convex in `at`.
     fn steady(&self, from: f64, at: f64) -> ContactState {
         let mut edges = EdgeSum::default();
         self.sliders(from).for_each(|slider| edges.add(slider.edge_cells(at)));
@@ -130,14 +130,15 @@ impl Interval {
             .beside(self.instrument)
     }
 
-    /// Growth of the compression of the contact from the lower end on with the indentation, in cells.
+    /// Derivative of the compression with respect to the indentation, in cells, at `at` (m), if no event lies between the
+    /// lower end and `at`.
     fn stiffness(&self, at: f64) -> f64 {
         let from = self.low.indentation;
         let edges: f64 = self.sliders(from).map(|slider| slider.stiffness(at)).sum();
         self.totals(from).whole(self.slides) as f64 + edges + self.instrument
     }
 
-    /// Indentation of the smallest force of the contact from the lower end on, up to `last`, m.
+    /// Indentation of the smallest force between the lower end and `last`, m, if no event lies between.
     fn flattest(&self, last: f64) -> f64 {
         let low = self.low.indentation;
         if self.stiffness(low) >= 0.0 {
@@ -146,7 +147,7 @@ impl Interval {
         if self.stiffness(last) <= 0.0 { last } else { bisect(low, last, |at| self.stiffness(at) >= 0.0) }
     }
 
-    /// Contact at the middle one of all events inside.
+    /// The contact at the middle event inside; `None` without an event.
     fn middle(&self) -> Option<ContactState> {
         let ((low, high), steps) = (self.ends(), &self.steps);
         let first = steps.partition_point(|step| step.threshold <= low);
@@ -162,7 +163,7 @@ impl Interval {
         Interval { steps: Rc::clone(&self.steps), pieces, low, high, ..*self }
     }
 
-    /// Makes `best` the extreme force inside, which the ends do not exceed.
+    /// Replaces `best` by the contact of the extreme force inside, if that is beyond `best`; neither end is.
     pub fn extreme(&self, extreme: Extreme, best: &mut ContactState) {
         let (from, to) = self.ends();
         if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
@@ -187,9 +188,9 @@ impl Interval {
         self.between(self.low, middle).extreme(extreme, best);
     }
 
-    /// ∫ |C − E| dd over the interval, in cells times m², on the way up (`loads`) or down: C is the compression with the instrument
-    /// beside the contact and E its extreme so far, the largest on the way up and the smallest on the way down. Where C turns back
-    /// from E the body jumps.
+    /// ∫ |C − E| dd over the interval, in cells times m², on loading (`loads`) or unloading. C is the compression of
+    /// contact and instrument; E is its extreme so far, on loading the largest and on unloading the smallest. Where C turns
+    /// back from E the body jumps.
     pub fn jumped(&self, loads: bool, extreme: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let [low, high] = [self.between(self.low, middle), self.between(middle, self.high)];
@@ -227,8 +228,8 @@ impl Interval {
         (self.work(back, to) - level * (to - back)) + (self.work(from, flattest) - least * (flattest - from))
     }
 
-    /// ∫ of the compression of the contact from the lower end on over a range of indentations, m, without an event inside: the
-    /// growth of half of its squares, less what the attachment of stretched edges adds to them.
+    /// ∫ C dd over a range of indentations without an event inside, m, where C is the compression: half of the growth of
+    /// its squares, less the squared stretch with which springs attach at the sliding edges.
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
         let surface = |at: f64| self.sliders(from).map(|slider| slider.surface(at)).sum::<f64>();
@@ -236,8 +237,8 @@ impl Interval {
         0.5 * (squares - (surface(high) - surface(low)) + self.instrument * (high - low) * (high + low))
     }
 
-    /// Returns the smallest indentation above the lower end, up to the higher one, with at least this compression; at the
-    /// lower end it is smaller.
+    /// Returns the smallest indentation in the interval with at least this compression; the compression at the lower end is
+    /// smaller.
     pub fn first_at_least(&self, wanted: f64) -> Option<f64> {
         if upper_bound(&self.low, &self.high) < wanted {
             return None;
@@ -253,8 +254,8 @@ impl Interval {
         found.or_else(|| (self.high.compression >= wanted).then_some(to))
     }
 
-    /// Returns the largest indentation below the higher end, down to the lower one, with at most this compression; at the
-    /// higher end it is larger.
+    /// Returns the largest indentation in the interval with at most this compression; the compression at the upper end is
+    /// larger.
     pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
         let (from, to) = self.ends();
         if lower_bound(&self.low, &self.high) > wanted || from >= to {
@@ -284,12 +285,12 @@ impl Piece {
     }
 }
 
-/// Halvings of an interval in which a crossing or a flat place is searched: enough for any two numbers.
+/// Limit of the halvings of an interval in a search: more than any two floating-point numbers need.
 const HALVINGS: usize = 2200;
-/// Guesses by interpolation before a crossing is halved down to neighbouring numbers.
+/// Number of guesses by interpolation before a crossing is searched by halving alone.
 const GUESSES: usize = 20;
 
-/// The smallest number above `low`, up to `high`, for which `is_past` is true; `is_past(high)` is true.
+/// The smallest number in (low, high] for which `is_past` is true; `is_past(high)` is true.
 pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = low + 0.5 * (high - low);
@@ -301,24 +302,24 @@ pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64
     high
 }
 
-/// The smallest number above `low`, up to `high`, at which `value`, which rises through zero once, is at least
-/// zero; at `low` it is below.
+/// The smallest number in (low, high] at which `value`, which rises through zero once, is at least zero; at `low` it is
+/// negative.
 pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (low, high) = enclose(low, high, &value, |value| value >= 0.0);
     bisect(low, high, |at| value(at) >= 0.0)
 }
 
-/// The largest number in `low..high` at which `value`, which rises through zero once, is at most zero; at `high` it is
-/// above.
+/// The largest number in [low, high) at which `value`, which rises through zero once, is at most zero; at `high` it is
+/// positive.
 pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (from, to) = enclose(low, high, &value, |value| value > 0.0);
     bisect(from, to, |at| value(at) > 0.0).next_down().max(low)
 }
 
-/// Narrows an interval by interpolation: its lower end remains before the crossing and its upper end past it.
+/// Narrows an interval around a crossing by interpolation: its lower end stays before the crossing and its upper end past it.
 ///
-/// The value at an end that has stayed is halved (the Illinois rule), so that both ends move; an interval that narrows
-/// slowly is halved as well.
+/// The value at an end that stays is halved (the Illinois rule), so that both ends move; an interval that narrows slowly is
+/// halved as well.
 fn enclose(
     mut low: f64,
     mut high: f64,

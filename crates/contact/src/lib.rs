@@ -42,10 +42,10 @@ pub use totals::{ContactTotals, GapScale};
 use asperity_data::OutOfMemory;
 use thiserror::Error;
 
-/// Most steps of one motion of the stepwise solver.
+/// Limit of the steps of one motion of the stepwise solver.
 const STEP_LIMIT: u64 = 10_000_000;
 
-/// Number of springs from which a second thread costs less than it saves.
+/// Number of springs above which a second thread saves more time than it costs.
 const TWO_THREADS: usize = 1 << 17;
 
 /// Reason why a body does not move to a target.
@@ -54,7 +54,7 @@ pub enum ContactError {
     /// A stage of a loading is refused.
     #[error("loading.{index} = {target:?}: {reason}")]
     Stage {
-        /// Index of the stage.
+        /// Index of the stage, from 0.
         index: usize,
         /// Target of the stage.
         target: Move,
@@ -64,16 +64,16 @@ pub enum ContactError {
     /// An array does not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// A target that is not a number, or infinite.
+    /// The value of the target, which is infinite or not a number.
     #[error("{0} is not finite; allowed: finite numbers")]
     NotFinite(f64),
-    /// A pulling force on a separated body.
+    /// A tensile force is the target of a separated body.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
-    /// A turning point without contact.
+    /// A turning point lies in separation.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
-    /// The contact detaches above this force.
+    /// The contact detaches before it falls to the force of the target.
     #[error("the contact detaches before that force; smallest force within reach: {smallest:e} N")]
     DetachesBefore {
         /// Smallest force the contact bears, N.
@@ -87,10 +87,10 @@ pub enum ContactError {
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
     TooManySteps(f64),
-    /// A motion or a search on a leg of the stepwise solver.
+    /// A motion or a search needs an exact leg, but the leg is of the stepwise solver.
     #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
     Stepwise,
-    /// A state that the program excludes: a defect.
+    /// A state that the program excludes, with its description: a defect.
     #[error("internal error, please report it: {0}")]
     Internal(&'static str),
     /// The computation was stopped.
@@ -99,14 +99,15 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// Returns true for a stage with a force that the contact does not reach.
+    /// Returns true if the contact cannot reach the force of the target.
     pub fn is_out_of_reach(&self) -> bool {
         use ContactError::{DetachesBefore, NothingToPull, OutOfReach, Stage};
         let reason = if let Stage { reason, .. } = self { reason } else { self };
         matches!(reason, NothingToPull | DetachesBefore { .. } | OutOfReach)
     }
 
-    /// Names the stage that is refused; memory, stops and defects concern the whole loading.
+    /// Adds the stage to the reason; lack of memory, interruptions and defects concern the whole loading and stay as they
+    /// are.
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }

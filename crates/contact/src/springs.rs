@@ -1,5 +1,5 @@
-//! The springs under a rigid line, their elastic foundation by the method of dimensionality reduction, the rule of Hess on it,
-//! and the contact that they form: all that stays the same while the body moves.
+//! The springs under a rigid line, their elastic foundation by the method of dimensionality reduction, the rule of Hess,
+//! and the contact of all three: what stays the same while the body moves.
 
 use super::ContactError;
 use super::adhesive::levels::Edges;
@@ -9,14 +9,14 @@ use super::history::{CurvePoint, Direction, Patch};
 use super::totals::GapScale;
 use std::sync::{Arc, OnceLock};
 
-/// Springs under a rigid line: their gaps, and the trees that depend on the gaps and the edge model alone.
+/// Springs under a rigid line: their gaps, and the contact trees, which depend on the gaps and the edge model alone.
 ///
 /// A tree is built when a contact first needs it.
 #[derive(Debug, Default)]
 pub struct Springs {
     pub(super) gaps: Arc<Vec<f64>>,
     deepest: f64,
-    /// For whole springs and for edges between springs.
+    /// One tree for each edge model, by its number.
     trees: [OnceLock<Arc<ContactTree>>; 2],
 }
 
@@ -27,13 +27,13 @@ pub struct Contact {
     pub(super) foundation: Foundation,
     pub(super) edges: Edges,
     pub(super) hess: Option<HessRule>,
-    /// Stiffness k of the instrument that moves the body, N/m; infinite: rigid.
+    /// Stiffness k of the instrument that moves the body, N/m; infinite for a rigid one.
     pub(super) loading_stiffness: f64,
     closing: Arc<OnceLock<Closing>>,
 }
 
 impl Springs {
-    /// Creates springs of these gaps (m, finite, the smallest 0, at least one, at most 2^28).
+    /// Creates springs with these gaps, m: 1 to 2^28 finite numbers, the smallest of which is 0.
     pub fn new(gaps: impl Into<Arc<Vec<f64>>>) -> Self {
         let gaps = gaps.into();
         let deepest = crate::adhesive::tree::largest(&gaps);
@@ -50,17 +50,18 @@ impl Springs {
         self.deepest
     }
 
-    /// Scale of exact sums over the gaps.
+    /// Fixed-point scale of exact sums over the gaps.
     pub fn scale(&self) -> GapScale {
         GapScale::for_gaps_up_to(self.deepest)
     }
 
-    /// Returns the tree of the gaps with the sums of an edge model.
+    /// Returns the contact tree of the gaps for an edge model.
     pub fn tree(&self, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
         self.tree_in(ContactTree::default(), edges)
     }
 
-    /// Returns the tree of [`Springs::tree`], built in the memory of one that is no longer needed.
+    /// Returns the tree as [`Springs::tree`] does; where it is not built yet, `memory` is a former tree whose memory it
+    /// reuses.
     pub fn tree_in(&self, memory: ContactTree, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
         let tree = &self.trees[edges as usize];
         if let Some(tree) = tree.get() {
@@ -70,7 +71,7 @@ impl Springs {
         Ok(tree.get_or_init(|| built))
     }
 
-    /// Returns the memory of a tree that nothing else uses.
+    /// Returns a tree that nothing else uses, for the reuse of its memory; an empty one if there is none.
     pub fn into_tree(self) -> ContactTree {
         let trees = self.trees.into_iter().filter_map(OnceLock::into_inner);
         trees.filter_map(Arc::into_inner).next().unwrap_or_default()
@@ -100,7 +101,7 @@ impl Contact {
         Contact { springs, foundation, edges, hess, loading_stiffness, closing: Arc::default() }
     }
 
-    /// Sets the stiffness of the instrument, N/m, above zero; infinite: rigid.
+    /// Sets the stiffness of the instrument, N/m, above zero; infinite for a rigid instrument.
     pub fn with_loading_stiffness(self, loading_stiffness: f64) -> Self {
         Contact { loading_stiffness, ..self }
     }
@@ -115,7 +116,7 @@ impl Contact {
         Self::of(Arc::clone(&self.springs), self.edges, foundation, hess)
     }
 
-    /// Springs along the line.
+    /// Springs of the contact, shared with other contacts.
     pub fn springs(&self) -> &Arc<Springs> {
         &self.springs
     }
@@ -130,17 +131,17 @@ impl Contact {
         self.foundation
     }
 
-    /// Returns true with a rule of Hess.
+    /// Returns true if the contact has a rule of Hess.
     pub fn has_adhesion(&self) -> bool {
         self.hess.is_some()
     }
 
-    /// Rule of Hess, without adhesion the one of no stretch.
+    /// Rule of Hess; without adhesion the rule with no stretch.
     pub(super) fn rule(&self) -> HessRule {
         self.hess.unwrap_or(HessRule::NO_ADHESION)
     }
 
-    /// Returns the closing thresholds of a loading from separation, computed by `close` at first.
+    /// Returns the closing thresholds of a loading from separation; `close` computes them at the first call.
     pub(super) fn closing(
         &self,
         close: impl FnOnce() -> Result<Closing, ContactError>,
@@ -174,16 +175,16 @@ impl Foundation {
         Foundation { spacing, effective_modulus, length: f64::INFINITY }
     }
 
-    /// Length in contact of this number of cells, m: never more than the length of the foundation, and exactly that
-    /// length where the cells cover the foundation, which N times Δx may miss by a rounding.
+    /// Length in contact of this number of cells, m. It is never above the length of the foundation, and equals it where
+    /// the cells cover the foundation, although N times Δx may differ by a rounding.
     #[inline]
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
         if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
     }
 
-    /// Half the distance between the outermost edges of a contact in these patches, m; zero in separation. Gaps between
-    /// patches are whole cells; the outermost edges may lie inside theirs.
+    /// Half the distance between the outermost edges of the contact, m; zero in separation. `patches` and `point` describe
+    /// one state. Separated regions between patches are whole cells; the outermost edges may lie inside a cell.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let outermost = patches.first().zip(patches.last()).map(|(one, other)| other.last - one.first + 1);
         let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
@@ -202,19 +203,19 @@ impl Foundation {
 /// from it by the opening rule; between both limits the edges of the patch do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
-    /// Largest stretch of a single spring on detaching, m.
+    /// Largest stretch of a single spring before it detaches, m.
     opening: f64,
-    /// Largest stretch of a single spring on attaching, m; at most `opening`.
+    /// Largest stretch with which a single spring attaches, m; at most `opening`.
     closing: f64,
 }
 
 impl HessRule {
-    /// The rule without adhesion: no stretch.
+    /// The rule without adhesion: the largest stretch is zero.
     pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
 
     /// The rule for a work of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
     ///
-    /// A smaller γ₂ counts as γ₁: a spring would detach where it had just attached.
+    /// A γ₂ smaller than γ₁ is replaced by γ₁: a spring would detach where it had just attached.
     pub fn from_works(foundation: Foundation, closing_work: f64, opening_work: f64) -> Self {
         let stretch = |work: f64| {
             // The quotient γ/E* first: scaling both by one power of two then changes no bit.
@@ -225,7 +226,7 @@ impl HessRule {
         HessRule { opening: stretch(opening_work).max(closing), closing }
     }
 
-    /// Largest stretch of a fragment of unit length, m, before it detaches, or as it attaches on a loading.
+    /// Largest stretch of a fragment of one spring, m: on unloading before it detaches, on loading as it attaches.
     pub fn stretch(&self, direction: Direction) -> f64 {
         match direction {
             Direction::Loading => self.closing,
@@ -233,12 +234,12 @@ impl HessRule {
         }
     }
 
-    /// Returns true if springs attach and detach by one rule.
+    /// Returns true if springs attach and detach by the same rule.
     pub fn is_one(&self) -> bool {
         self.opening == self.closing
     }
 
-    /// Largest stretch Δl_max = sqrt(π n Δx γ/E*) of a fragment of `springs` springs, m, eq. (10).
+    /// Largest stretch Δl_max = √(π n Δx γ/E*) of a fragment of n = `springs` springs, m, eq. (10).
     ///
     /// Rounding keeps the order: the value never falls with the number of springs.
     pub fn largest_stretch(&self, direction: Direction, springs: usize) -> f64 {

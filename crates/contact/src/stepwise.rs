@@ -1,7 +1,7 @@
-//! The stepwise solver: move by a small step, relax to equilibrium, repeat, as the paper does.
+//! The stepwise solver: it moves by a small step, relaxes to equilibrium and repeats, as the paper does.
 //!
-//! The step Δd is its accuracy; each step costs a few sweeps over the whole line. The solver shares only the rules and
-//! the sums with the exact solver.
+//! The error is of the order of the step Δd; each step costs a few sweeps over the whole line. The solver shares only the
+//! rules and the sums with the exact solver.
 
 use super::adhesive::levels::EdgeCells;
 use super::body::Solver;
@@ -14,7 +14,7 @@ use super::totals::ContactTotals;
 use super::{ContactError, STEP_LIMIT};
 use asperity_data::resized;
 
-/// A body moved by small steps and relaxed after each.
+/// A body that moves by small steps and relaxes after each.
 #[derive(Clone)]
 pub struct Stepwise<'a> {
     contact: &'a Contact,
@@ -24,18 +24,18 @@ pub struct Stepwise<'a> {
     direction: Direction,
     indentation: f64,
     totals: ContactTotals,
-    /// Σ e² over the springs detached, less that over the springs attached, on the present leg, m².
+    /// Σ e² over the springs detached on the present leg, less the same sum over the springs attached, m².
     squared_stretch: f64,
-    /// True for each spring in contact.
+    /// Whether each spring is in contact.
     holds: Vec<bool>,
-    /// Indentation at which each spring attached or detached on the present leg, m.
+    /// Indentation at which each spring last attached or detached, m.
     thresholds: Vec<f64>,
     work: Work,
 }
 
 impl<'a> Stepwise<'a> {
-    /// Creates a separated body of whole springs, moved by steps of `step` m. `stop` returns true after a step to end
-    /// the run.
+    /// Creates a separated body of whole springs that moves by steps of `step`, m. `samples` is the number of curve points
+    /// of each motion. The run ends as soon as `stop` returns true after a step.
     pub fn new(
         contact: &'a Contact,
         step: f64,
@@ -58,8 +58,8 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    /// Attaches a spring, or detaches it where it has been held to this indentation, m: the overshoot of a step is no
-    /// property of the contact.
+    /// Attaches or detaches a spring at the indentation `at`, m; a spring that detaches was held to exactly `at`, since the
+    /// overshoot of a step is no property of the contact.
     fn change(&mut self, index: usize, attaches: bool, at: f64) {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;
@@ -144,7 +144,7 @@ impl<'a> Stepwise<'a> {
         state.point(self.contact.foundation)
     }
 
-    /// Refuses a motion that certainly takes more steps than allowed, before its first step.
+    /// Returns an error, before the first step, for a motion that certainly needs more steps than allowed.
     fn check_steps(&self, direction: Direction, goal: Goal) -> Result<(), ContactError> {
         let start = self.indentation;
         let end = match goal {

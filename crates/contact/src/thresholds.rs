@@ -1,10 +1,10 @@
-//! Springs that touch one by one: contact without adhesion, where a spring carries exactly while its gap is closed, and
-//! that of the stepwise solver.
+//! Springs that touch one by one: contact without adhesion, where a spring is in contact exactly while its gap is closed,
+//! and the contact of the stepwise solver.
 //!
-//! Without adhesion the contact depends on the indentation alone and has no memory; the force does not decrease as the
-//! indentation grows. A *cell*, the line between two neighbouring springs, then fills from its smaller gap to its larger
-//! one. Full cells are summed exactly, as whole numbers of quanta; a partly filled cell adds its part at each point
-//! inside it, which keeps every digit for any slope and any indentation.
+//! Without adhesion the contact depends on the indentation alone, and the force does not decrease with the indentation. A
+//! *cell*, the line between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are summed
+//! exactly, as whole numbers of quanta; a partly filled cell adds its part at each point inside it, which is accurate for
+//! any slope and indentation.
 
 use super::ContactError;
 use super::adhesive::levels::Edges;
@@ -15,12 +15,12 @@ use super::springs::Contact;
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 
-/// Springs in contact each from an indentation of its own on.
+/// Springs each of which is in contact from an indentation of its own on.
 #[derive(Clone, Copy, Debug)]
 pub struct Thresholds<'a> {
     gaps: &'a [f64],
-    /// Indentations, m: −∞ always, +∞ never. With edges between springs they are the gaps. Empty for a body that touches
-    /// nothing.
+    /// Indentation from which each spring is in contact, m: −∞ always, +∞ never; the gaps where edges lie between springs.
+    /// Empty for a body that touches nothing.
     thresholds: &'a [f64],
     slides: bool,
     scale: GapScale,
@@ -57,7 +57,7 @@ impl<'a> Thresholds<'a> {
         tally.finish(&self.scale)
     }
 
-    /// Adds the events and the partly filled cells to the intervals of a search.
+    /// Adds the events and the partly filled cells to the intervals in which a crossing is searched.
     pub fn search(&self, intervals: &mut Intervals) {
         let (low, high) = intervals.ends();
         for (spring, &threshold) in self.thresholds.iter().enumerate() {
@@ -76,16 +76,16 @@ impl<'a> Thresholds<'a> {
         }
     }
 
-    /// The half cells beyond the first and the last spring, as level as these springs, and their gaps, m.
+    /// The half cells at both ends of the foundation, each with the gap of its spring, m; none for whole springs.
     fn ends(&self) -> impl Iterator<Item = (f64, Slider)> {
         let ends = [self.thresholds.first(), self.thresholds.last()].into_iter().flatten();
         ends.filter(|_| self.slides).map(|&gap| (gap, Slider::half_cell(gap)))
     }
 
-    /// Contribution of neighbouring springs once all of them are in contact.
+    /// What a range of neighbouring springs adds to the totals once all of them are in contact.
     ///
-    /// They add a fragment, less one for each neighbour that touches earlier; among equals the left one counts as the
-    /// later. With edges between springs they also add the cells to these neighbours.
+    /// They add one fragment, less one for each neighbour that touches earlier; of equal thresholds the left spring counts
+    /// as the later. Where edges lie between springs they also add the cells to these neighbours.
     #[inline]
     fn totals(&self, springs: Range<usize>) -> ContactTotals {
         let Range { start, end } = springs;

@@ -1,7 +1,6 @@
 //! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
 
-/// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the power of two above its largest
-/// gap.
+/// Fixed-point scale of the gaps of one line: a quantum is 2⁻⁶² of the smallest power of two above its largest gap.
 ///
 /// Sums of quanta are integers: they do not depend on the order of the springs, and a spring that attaches and
 /// detaches again changes no bit, so that loading and unloading agree bit for bit on the same contact.
@@ -17,7 +16,7 @@ impl Default for GapScale {
     }
 }
 
-/// Gaps below 2^62 quanta fit an `i64`, and 2^28 of them an `i128`.
+/// Number of bits of a gap in quanta: gaps below 2^62 quanta fit an `i64`, and a sum of 2^28 gaps an `i128`.
 const GAP_BITS: i32 = 62;
 
 /// Largest exponent of the scale, so that scale and quantum are both normal numbers.
@@ -38,17 +37,17 @@ impl GapScale {
         (gap * self.quanta_per_metre) as i64
     }
 
-    /// Size of a quantum, m: the error of one gap in a sum is below it.
+    /// Size of a quantum, m; a gap in a sum is rounded by less than a quantum.
     pub fn quantum(&self) -> f64 {
         self.quantum
     }
 }
 
-/// Bits of squared quanta that a sum of squares leaves out: 2^28 squares then fit an `i128`.
+/// Number of low bits that squared quanta lose in a sum of squares, so that 2^28 squares fit an `i128`.
 const SQUARE_BITS: u32 = 28;
 
-/// Sums of the gaps and of their squares over at most four springs, or over the cells between at most five, in the units of
-/// [`ContactTotals`].
+/// Sums of the gaps and of their squares over at most four springs, or over at most four cells (five springs), in the units
+/// of [`ContactTotals`].
 ///
 /// Four quanta below 2^62 fit into 64 bits, and four of their squares into 128. The line is straight between springs: the
 /// mean square along a cell is (mean gap)² + (difference)²/12.
@@ -72,28 +71,29 @@ pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     [i128::from(sum), ((squares + twelfth(squared_differences)) >> SQUARE_BITS).cast_signed()]
 }
 
-/// A twelfth, at most 13 too small; a division of 128 bits would take longer than all other sums.
+/// A twelfth of a number, up to 13 too small; a division of 128 bits would take longer than all other sums.
 #[inline]
 fn twelfth(number: u128) -> u128 {
     let [high, low] = [(number >> 64) as u64, number as u64];
     (u128::from(high / 12) << 64) + u128::from(high % 12) * u128::from(u64::MAX / 12) + u128::from(low / 12)
 }
 
-/// The springs in contact at one indentation: their number, their fragments, and the sums of their gaps and squared gaps.
+/// The springs in contact at one indentation: their number, the number of fragments, and the sums of their gaps and squared
+/// gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTotals {
-    /// Springs in contact.
+    /// Number of springs in contact.
     pub springs: i64,
-    /// Contact fragments.
+    /// Number of fragments.
     pub fragments: i64,
-    /// Sum of their gaps, or of the mean gaps of their cells, in quanta of a [`GapScale`].
+    /// Sum of the gaps of the springs, or of the mean gaps of their cells, in quanta of a [`GapScale`].
     pub quanta: i128,
-    /// Sum of their squared gaps, in 2^28 squared quanta.
+    /// Sum of the squared gaps, in units of 2^28 squared quanta.
     pub squares: i128,
 }
 
 impl ContactTotals {
-    /// Sums the springs of one patch, or its cells where edges slide between springs.
+    /// Totals of one patch: of its springs, or with `slides` of the cells between its springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals { springs: gaps.len() as i64, fragments: 1, ..Self::default() };
         let mut add = |[quanta, squares]: [i128; 2]| {
@@ -107,15 +107,14 @@ impl ContactTotals {
         totals
     }
 
-    /// Number of whole springs that carry, or of whole cells where edges slide between springs: one less than its springs
-    /// in each fragment.
+    /// Number of whole springs, or with `slides` of whole cells: in each fragment one less than its springs.
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
         self.springs - if slides { self.fragments } else { 0 }
     }
 
-    /// Sum of the compressions Σ (d − c_i), m, of this number of springs, or of cells where the quanta are sums of their mean
-    /// gaps: ∫ (d − c) dx over them, in cells times metres. The force in units of the spring stiffness.
+    /// Compression Σ (d − c_i), m, of `count` springs, or ∫ (d − c) dx in cells times metres of `count` cells. It is the
+    /// force over the stiffness of one spring.
     ///
     /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
     /// 2u |result| + n 2^(e−62): the gaps are summed exactly, n d is taken as an exact product of two
@@ -137,9 +136,9 @@ impl ContactTotals {
         difference + (error + (product_error - low))
     }
 
-    /// Squared compressions Σ (d − c)² of this number of springs or cells, in m².
+    /// Sum of squared compressions Σ (d − c)² of `count` springs or cells, m².
     ///
-    /// Sums over nested spans at one indentation are integers that differ by the squares of the springs between, each
+    /// Sums of nested spans at one indentation are integers that differ by the squares of the springs between them, each
     /// with an error below 2^28 squared quanta: a relative error of 1e-15 for a stretch of 1e-7 of the largest gap.
     pub(super) fn squares_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let scale = SquareScale::new(*scale, indentation.abs());
@@ -168,7 +167,7 @@ impl std::ops::AddAssign for ContactTotals {
     }
 }
 
-/// Unit of squared stretches: coarser than that of the gaps where an indentation is far larger than all gaps.
+/// Unit of sums of squared stretches: coarser than the quantum of the gaps where an indentation far exceeds all gaps.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareScale {
     quanta_per_metre: f64,
@@ -177,7 +176,7 @@ pub struct SquareScale {
 }
 
 impl SquareScale {
-    /// Scale for gaps of a scale and indentations up to this size, m.
+    /// Unit for gaps of this scale and indentations of at most `largest` in magnitude, m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let GapScale { mut quanta_per_metre, mut quantum } = scale;
         let mut coarser = 0;
@@ -187,7 +186,7 @@ impl SquareScale {
         SquareScale { quanta_per_metre, quantum, coarser }
     }
 
-    /// Σ (c − θ)² over this number of springs or cells at the indentation θ, m, as an integer and a remainder, m².
+    /// Σ (c − θ)² over `count` springs or cells at the indentation θ (m), as an integer in this unit and a remainder in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
         let shifted = |sum: i128, bits: u32| sum.checked_shr(bits).unwrap_or(0);
         let (first, second) =
@@ -204,7 +203,7 @@ impl SquareScale {
         (sum, remainder * self.quantum * self.quantum)
     }
 
-    /// Sum of squares, m².
+    /// Converts a sum of squares from this unit to m².
     pub fn in_metres(&self, squares: i128) -> f64 {
         squares as f64 * self.quantum * self.quantum * f64::from(1 << SQUARE_BITS)
     }

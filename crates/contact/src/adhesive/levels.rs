@@ -33,8 +33,8 @@ pub struct Span {
 }
 
 impl Span {
-    /// The largest span of its branch within these first and last springs whose walls lie above a level, m; itself if its
-    /// walls do already.
+    /// The largest span around this one within the springs `lowest..=highest` whose two neighbours have gaps above `level`,
+    /// m; this span where they do already.
     #[inline]
     pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
         let Span { gap, mut first, mut last } = *self;
@@ -47,7 +47,8 @@ impl Span {
         Span { gap: larger(gap, larger(gaps[first], gaps[last])), first, last }
     }
 
-    /// The spring that attaches next, the lower one beside the span; `None` where it fills the line.
+    /// Index of the wall, the spring beside the span with the smaller gap, which attaches next; `None` if the span fills
+    /// the line.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
@@ -58,14 +59,14 @@ impl Span {
         }
     }
 
-    /// The span extended by the spring beside it that attaches next.
+    /// This span extended by `wall`, the spring beside it that attaches next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let gap = gaps[wall];
         if wall > self.last { Span { gap, last: wall, ..*self } } else { Span { gap, first: wall, ..*self } }
     }
 
-    /// The next larger span, if there is one.
+    /// This span extended by its wall; unchanged if it fills the line.
     #[inline]
     pub fn grown(&self, gaps: &[f64]) -> Self {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
@@ -101,7 +102,7 @@ pub struct Levels {
     pub gap: f64,
     /// Length at this level, in cells.
     pub length: f64,
-    /// Growth with the level, cells per metre.
+    /// Growth of the length with the level, cells per metre.
     pub growth: f64,
     /// Gap of the wall, m; infinite where the span fills the line.
     pub top: f64,
@@ -110,15 +111,15 @@ pub struct Levels {
 /// Contribution of the two cells at the edges of a fragment, beside its full ones, at one indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCells {
-    /// Their length in contact, in cells.
+    /// Length of both cells in contact, in cells.
     pub length: f64,
-    /// The compression ∫ (d − c) dx over that, in cells times metres.
+    /// Compression ∫ (d − c) dx over the length in contact, in cells times metres.
     pub compression: f64,
-    /// ∫ (d − c)² dx over that, in cells times m².
+    /// ∫ (d − c)² dx over the length in contact, in cells times m².
     pub squares: f64,
 }
 
-/// Edge cells of many fragments, summed without loss.
+/// Compensated sum of the edge cells of many fragments.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EdgeSum {
     pub length: CompensatedSum,
@@ -147,16 +148,17 @@ pub struct EdgeCell {
     outside: f64,
     /// Share of the cell at or below the level.
     pub share: f64,
-    /// Growth of the share with the level, 1/m; zero where it does not grow, or all at once.
+    /// Growth of the share with the level, 1/m; zero where the share is constant or jumps.
     growth: f64,
-    /// Twice ∫ (t − c) dx over that part for the level t, in cells times metres.
+    /// 2 ∫ (t − c) dx over the part of the cell below the level t, in cells times metres.
     carries: f64,
-    /// ∫ (t − c)² dx over that part, in cells times m².
+    /// ∫ (t − c)² dx over the part of the cell below the level t, in cells times m².
     squares: f64,
 }
 
 impl EdgeCell {
-    /// Left and right edge cell of a span up to a level from its largest gap to that of its wall, m.
+    /// Left and right edge cell of a span with its edges at `level`, m, between the largest gap of the span and the gap of
+    /// its wall.
     #[inline]
     pub fn of(gaps: &[f64], &Span { first, last, .. }: &Span, level: f64) -> [Self; 2] {
         let before = if first > 0 { gaps[first - 1] } else { f64::INFINITY };
@@ -188,14 +190,14 @@ impl EdgeCell {
         EdgeCell { outside, share, growth, carries, squares: carries * above * (1.0 / 3.0) }
     }
 
-    /// ∫ (c − θ)² dx over that part for a level `above` θ, m, in cells times m².
+    /// ∫ (c − θ)² dx over the part of the cell below the level t = θ + `above` (m), in cells times m².
     pub fn squares_below(&self, above: f64) -> f64 {
         (above * self.share - self.carries) * above + self.squares
     }
 }
 
 impl Levels {
-    /// Levels of a span on a line that is straight between springs, and its edge cells at its largest gap.
+    /// Levels of a span on a line that is straight between springs, and its two edge cells at the level of its largest gap.
     #[inline]
     pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
         let cells = EdgeCell::of(gaps, span, span.gap);
@@ -205,19 +207,20 @@ impl Levels {
         (Levels { gap: span.gap, length, growth, top }, cells)
     }
 
-    /// Length at a level of this rise above the gap, in cells.
+    /// Length at the level `gap + rise` (m), in cells.
     #[inline]
     pub fn length_at(&self, rise: f64) -> f64 {
         self.length + self.growth * rise
     }
 
-    /// Height of the level of edges of this stretch (m) at an indentation above the gap, m.
+    /// Height above the largest gap, m, at which edges under the rule of Hess with this stretch of a unit fragment (m) lie
+    /// at an indentation, m.
     #[inline]
     pub fn rise(&self, stretch: f64, indentation: f64) -> f64 {
         if self.growth <= 0.0 { 0.0 } else { self.free_rise(stretch, indentation - self.gap) }
     }
 
-    /// √ℓ for free edges of this stretch at an indentation `above` the gap, m.
+    /// √ℓ of a fragment with free edges, for the stretch of a unit fragment (m) and an indentation `above` the gap (m).
     ///
     /// With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic in y.
     #[inline]
@@ -228,7 +231,7 @@ impl Levels {
         half + if square > 0.0 { square.sqrt() } else { 0.0 }
     }
 
-    /// Height of the level of free edges above the gap, m.
+    /// Height of free edges above the gap, m, limited to the range of the span.
     #[inline]
     fn free_rise(&self, stretch: f64, above: f64) -> f64 {
         let rise = above + stretch * self.root(stretch, above);
@@ -237,8 +240,8 @@ impl Levels {
         if rise < most { rise } else { most }
     }
 
-    /// Indentation at which edges of this stretch (m), pinned at this rise (m), begin to move, and true if they then
-    /// slide instead of running away.
+    /// Indentation at which edges pinned at this rise (m) begin to move, m, and true if they then slide rather than jump.
+    /// `stretch` is the largest stretch of a unit fragment, m.
     #[inline]
     pub fn release(&self, stretch: f64, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -252,19 +255,21 @@ impl Levels {
 #[derive(Clone, Copy, Debug)]
 pub struct Slider {
     levels: Levels,
-    /// Largest stretch of a fragment of one cell, m.
+    /// Largest stretch of a fragment one cell long, m.
     stretch: f64,
-    /// Whole cells between its springs.
+    /// Number of whole cells between the springs of the span.
     cells: f64,
-    /// Part of its edge cells in contact at its lowest level, in cells.
+    /// Length of the edge cells in contact at the level of the largest gap, in cells.
     edges: f64,
-    /// Compression of the edge cells there at the indentation of the gap of the span, and their squared compression.
+    /// Compression and squared compression of the edge cells at the level and the indentation of the largest gap, in cells
+    /// times m and cells times m².
     compression: f64,
     squares: f64,
 }
 
 impl Slider {
-    /// The edge cells of a span under this stretch (m) of a fragment of one cell, pinned at a rise, m, if there is one.
+    /// The edge cells of a span. `stretch` is the largest stretch of a fragment one cell long, m; `pin` is the height above
+    /// the gap, m, at which the edges are pinned, or `None` if they slide.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, stretch: f64, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);
@@ -287,7 +292,7 @@ impl Slider {
         slider
     }
 
-    /// A cell between two springs that fills from its smaller gap to its larger one without adhesion, m.
+    /// A cell between two springs with these gaps, m, without adhesion: it fills from the smaller gap to the larger one.
     #[inline]
     pub fn of_cell(one: f64, other: f64) -> Self {
         let (gap, top) = if one < other { (one, other) } else { (other, one) };
@@ -295,7 +300,7 @@ impl Slider {
         Self::without_adhesion(Levels { gap, length: 0.0, growth, top })
     }
 
-    /// Half a cell at the end of the foundation, as level as its spring of this gap, m, without adhesion.
+    /// The half cell at an end of the foundation, without adhesion; its gap is the gap of the last spring, m, throughout.
     pub fn half_cell(gap: f64) -> Self {
         Self::without_adhesion(Levels { gap, length: 0.5, growth: 0.0, top: f64::INFINITY })
     }
@@ -320,18 +325,17 @@ impl Slider {
         }
     }
 
-    /// Twice the energy that the rule of Hess gives a fragment of its length ℓ at an indentation, m, over the stiffness of a
-    /// spring, in cells times m²: ½ (stretch ℓ)², the sum of the squared stretches at which its edges have grown.
+    /// Twice the surface energy of the fragment at an indentation (m) over the stiffness of a spring, in cells times m²: ½
+    /// (stretch ℓ)², the sum of the squared stretches with which springs attached as its edges moved.
     pub fn surface(&self, indentation: f64) -> f64 {
         let length = self.stretch * (self.cells + self.edge_cells(indentation).length);
         0.5 * length * length
     }
 
-    /// Growth of the compression of the edge cells with the indentation, in cells.
+    /// Derivative of the compression of the edge cells with respect to the indentation (m), in cells.
     ///
-    /// The length times (2y − 3k)/(2y − k) with y = √ℓ and k = stretch × growth, as the edges move with the
-    /// indentation, less the whole cells. This stiffness only grows with the indentation: between events the force is
-    /// convex.
+    /// It is ℓ (2y − 3k)/(2y − k) less the whole cells, with y = √ℓ and k = stretch × growth, since the edges move with the
+    /// indentation. It only grows with the indentation: between events the force is convex.
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let (levels, above) = (self.levels, indentation - self.levels.gap);
         let (rise, fall) = (levels.free_rise(self.stretch, above), self.stretch * levels.growth);

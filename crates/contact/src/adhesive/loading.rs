@@ -1,4 +1,4 @@
-//! Loading: the indentation at which each part of the line closes, and the fragments between.
+//! Loading: the indentation at which each node of the contact tree closes, and the fragments between these events.
 
 use super::levels::{Levels, Span, larger, smaller};
 use super::run::{Ground, Held, Listed, Run};
@@ -15,22 +15,21 @@ use std::borrow::Cow;
 pub struct Closing {
     /// Indentation at which each node closes, m.
     closes: Vec<f64>,
-    /// Springs that surely attach with each node; bounds that grow as the chains above the node are walked.
+    /// First and last spring that certainly attach with each node; the range widens while the branches above are walked.
     known: Vec<[u32; 2]>,
     pub evaluations: u64,
 }
 
-/// A loading from fragments in contact.
+/// A loading leg that begins with fragments in contact.
 struct Loading<'a, const SLIDES: bool> {
     ground: &'a Ground<'a, SLIDES>,
     held: &'a [Held],
-    /// Indentation at which each node closes, m.
     closes: Cow<'a, [f64]>,
     known: &'a [[u32; 2]],
     listed: Listed,
 }
 
-/// A branch followed from its beginning upwards.
+/// Beginning of a branch, from which it is followed upwards.
 #[derive(Clone, Copy)]
 struct Start {
     closes: f64,
@@ -96,7 +95,7 @@ impl Closing {
         Ok(closing)
     }
 
-    /// Lists the runs of a loading from these fragments in contact, from left to right.
+    /// Lists the runs of a loading leg, from left to right; `held` are the fragments in contact at its beginning.
     pub fn list<const SLIDES: bool>(
         &self,
         ground: &Ground<'_, SLIDES>,
@@ -115,19 +114,19 @@ impl Closing {
 }
 
 impl<const SLIDES: bool> Loading<'_, SLIDES> {
-    /// Parts of these fragments on the left and on the right of a spring.
+    /// Splits the range `begin..end` of held fragments into the fragments left and right of a spring.
     fn split(&self, [begin, end]: [usize; 2], spring: usize) -> [[usize; 2]; 2] {
         let inside = &self.held[begin..end];
         let middle = begin + inside.partition_point(|held| (held.first as usize) < spring);
         [[begin, middle], [middle, end]]
     }
 
-    /// The fragment in contact on a branch itself, not in a part of it, among these.
+    /// The held fragment of the range `begin..end` that lies on this very branch, not on a branch below it.
     fn held_on(&self, [begin, end]: [usize; 2], branch: Branch) -> Option<&Held> {
         self.held.get(begin).filter(|held| end - begin == 1 && held.branch == branch)
     }
 
-    /// Closes the nodes around the fragments in contact, and no others.
+    /// Finds when the nodes around held fragments close; all other nodes close as on a loading from separation.
     fn close_around(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let mut waiting = vec![(tree.root(), [0, self.held.len()])];
@@ -156,7 +155,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         Ok(())
     }
 
-    /// Beginning of a branch: a fragment in contact, else the span at which the branch closes.
+    /// Beginning of a branch: the fragment held on it, else the span at which the branch closes.
     fn start(&self, branch: Branch, held: Option<&Held>) -> Start {
         let Ground { tree, gaps, .. } = *self.ground;
         if let Some(held) = held {
@@ -174,7 +173,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         }
     }
 
-    /// Lists the runs, and finds the smallest indentation of full contact.
+    /// Lists the runs of the leg and finds the smallest indentation of full contact, m.
     fn list(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let held = [0, self.held.len()];
@@ -204,7 +203,8 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         Ok(())
     }
 
-    /// Lists the runs of one branch, the largest first; the edges of a fragment in contact may be pinned at a rise, m.
+    /// Lists the runs of one branch, the largest first. `pin` is the height, m, of pinned edges of a held fragment above
+    /// its largest gap.
     fn climb(&mut self, climb: &Climb, start: Start, mut pin: Option<f64>) -> Result<(), ContactError> {
         let (ground, Listed { runs, end: complete, evaluations }) = (self.ground, &mut self.listed);
         let gaps = ground.gaps;
@@ -260,10 +260,10 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Largest φ from the beginning of a branch up to the spring `parent`, not below its own threshold; and the springs
-    /// that the branch surely holds at its lowest span.
+    /// Largest φ (m) of a branch from its beginning up to the spring `parent`, at least its own threshold; and the first
+    /// and last spring that the branch certainly holds at its smallest span.
     ///
-    /// No φ below a gap b exceeds b − s√n with n cells known inside, so that most chains need no evaluation.
+    /// On a span with n cells known inside, φ at a gap b is at most b − s√n, so that most spans need no evaluation.
     #[inline(never)]
     fn climb(&self, start: Start, parent: usize, evaluations: &mut u64) -> (f64, [u32; 2]) {
         let gaps = self.gaps;
@@ -295,7 +295,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         (closes, ends)
     }
 
-    /// The lowest span of a branch, around springs that attach with it.
+    /// The smallest span of a branch, around the springs that attach at its beginning.
     #[inline]
     fn lowest(&self, Start { gap, known, .. }: Start) -> Span {
         let [mut first, mut last] = known.map(|spring| spring as usize);
@@ -308,7 +308,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Span { gap, first, last }
     }
 
-    /// The largest span of a branch, with the spring `parent` next to it.
+    /// The largest span of a branch, which ends beside the spring `parent`.
     fn below(&self, span: &Span, parent: usize) -> Span {
         let (at, end) = (parent as u32, self.gaps.len() as u32 - 1);
         if parent > span.last {
@@ -319,5 +319,5 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 }
 
-/// Gap and lowest gap of a node are read together.
+/// A node fits half a cache line, so that its gap and lowest gap are read together.
 const _: () = assert!(size_of::<Node>() == 32);

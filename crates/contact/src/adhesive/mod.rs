@@ -1,4 +1,4 @@
-//! Adhesive contact: the exact loop over turning points.
+//! Adhesive contact: the exact force curve of a loading history with turning points.
 //!
 //! The gaps of a line give a `ContactTree` of their local maxima. A loading pass closes its nodes from below, an
 //! unloading pass opens them from above; both list the *runs* of the leg, fragments whose edges move without a jump.
@@ -25,8 +25,8 @@ pub struct Runs<'a, const SLIDES: bool> {
 }
 
 impl<const SLIDES: bool> Runs<'_, SLIDES> {
-    /// Patches in contact at an indentation (m), from left to right, with their pinned edges where the next leg `pins`
-    /// them.
+    /// Fragments in contact at an indentation (m), from left to right, with the height of their edges if these are `pins`
+    /// on the next leg.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
         let ground = &self.ground;
         self.runs.iter().rev().filter(move |run| run.is_at(indentation)).map(move |run| {
@@ -37,7 +37,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         })
     }
 
-    /// The smallest indentation at which each spring is in contact, m, along the line: −∞ always, +∞ never.
+    /// Smallest indentation at which each spring along the line is in contact, m: −∞ always, +∞ never.
     pub fn thresholds(&self) -> Vec<f64> {
         let mut thresholds = vec![f64::INFINITY; self.ground.gaps.len()];
         // Larger patches come first; those inside have smaller thresholds.
@@ -77,7 +77,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         tally.finish(&ground.tree.scale)
     }
 
-    /// Adds the events and the sliding edges of a leg to the intervals of a search.
+    /// Adds the events and the sliding edges of the leg to the intervals in which an extreme or a crossing is searched.
     pub fn search(&self, intervals: &mut Intervals) {
         let (ground, (low, high)) = (&self.ground, intervals.ends());
         for run in self.runs {
@@ -97,7 +97,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     }
 }
 
-/// Sum of squared stretches ∫ (c − θ)² dx, in cells times m²: whole springs or cells as integers, edge cells as numbers.
+/// Sum of squared stretches ∫ (c − θ)² dx, in cells times m²: whole springs or cells as exact integers, edge cells as
+/// floating-point numbers.
 struct SquaredStretch {
     scale: SquareScale,
     whole: i128,
@@ -105,13 +106,14 @@ struct SquaredStretch {
 }
 
 impl SquaredStretch {
-    /// Creates an empty sum for indentations θ up to this size, m.
+    /// Creates an empty sum for indentations θ of at most `largest` in magnitude, m.
     fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>, largest: f64) -> Self {
         let scale = SquareScale::new(ground.tree.scale, largest);
         SquaredStretch { scale, whole: 0, edges: CompensatedSum::default() }
     }
 
-    /// Adds (`sign` 1) or subtracts (−1) the squares over a span with edges at a level, m, at the indentation θ, m.
+    /// Adds (`sign` 1) or subtracts (−1) the squared stretches, at the indentation `at` (m), over a span whose edges lie at
+    /// `level` (m).
     fn add<const SLIDES: bool>(
         &mut self,
         ground: &Ground<'_, SLIDES>,
@@ -138,7 +140,7 @@ impl SquaredStretch {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Level of the edges of a span at the upper end of its run or below, m.
+    /// Level of the edges of a span at an indentation up to the upper end of its run, m.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
             return span.gap + rise;
@@ -156,9 +158,9 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high`, m,
     /// in cells times m²: the energy that springs release as they detach, and take as they attach under a stretch.
     ///
-    /// A patch that forms at an indentation θ attaches all springs between its edges but those of the patches inside, each of
+    /// A patch that forms at an indentation θ attaches all springs between its edges except springs of patches inside, each of
     /// which ends at θ; a patch that splits detaches them. So the energy of a leg telescopes over its runs: the squared
-    /// stretches at the beginning of each run, less those at its end, and the squares along its sliding edges.
+    /// stretches at the beginning of each run, less the squared stretches at its end, and the squares along its sliding edges.
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         let ground = &self.ground;
         if ground.stretch == 0.0 {
@@ -182,7 +184,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         sum.total()
     }
 
-    /// The smallest and the largest span of a run on a range, with the levels of its edges there, m.
+    /// The smallest and the largest span of a run in the range `low..high` of indentations, m, each with the level of its
+    /// edges there, m.
     fn ends_of(&self, run: &Run, low: f64, high: f64) -> [(Span, f64); 2] {
         let ground = &self.ground;
         let top = if run.to > high { ground.span_at(run, high) } else { ground.span(run.branch, run.top) };

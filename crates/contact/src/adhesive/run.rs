@@ -1,7 +1,7 @@
-//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump; and the edge
-//! models of a fragment, its length, its next attachment and detachment.
+//! Runs: the fragments of a leg, each over the range of indentations in which its edges move without a jump. Also the edge
+//! models of a fragment: its length, its next attachment and its next detachment.
 //!
-//! A fragment grows from span to span. On each it has levels from its own largest gap up to that of its wall, and on each
+//! A fragment grows from span to span. On each it has levels from its own largest gap up to the gap of its wall, and on each
 //! level a length ℓ, the only input of the rule of Hess: its largest stretch is Δl_max = s √ℓ, eq. (10), with the stretch s
 //! of a fragment of unit length.
 //!
@@ -16,51 +16,50 @@ use super::levels::{EdgeCell, Levels, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
 use crate::totals::ContactTotals;
 
-/// Margin of bounds for rounding.
+/// Relative margin for rounding in bounds.
 const ROUNDING: f64 = 1e-12;
 
-/// One fragment over the range of indentations up to its next jump, merging or parting: on the way from its bottom to
-/// its top each span passes into the next.
+/// One fragment over the range of indentations in which it grows from span to span, until it jumps, merges or parts.
 ///
-/// The runs of a leg are in the order of a walk through the tree from its root, right parts first, and on each branch
-/// the larger ones first: a run comes before those inside it, and of two others the right one comes first.
+/// The runs of a leg are in the order of a walk through the tree from its root, right parts first, and on each branch the
+/// larger fragment first: a run comes before the runs inside it, and of two others the right one comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Lower bound (inclusive) of its indentations, m; −∞ for a fragment in contact when a loading leg begins.
+    /// Lower bound (inclusive) of the indentations of the run, m; −∞ for a fragment in contact when a loading leg begins.
     pub from: f64,
-    /// Upper bound (exclusive), m; +∞ for a fragment in contact when an unloading leg begins.
+    /// Upper bound (exclusive) of the indentations, m; +∞ for a fragment in contact when an unloading leg begins.
     pub to: f64,
     /// Height of the level of pinned edges above the largest gap, m; NaN for edges that are free to move.
     pub pin: f64,
-    /// First and last spring of its smallest span.
+    /// First and last spring of the smallest span.
     pub bottom: [u32; 2],
-    /// First and last spring of its largest span.
+    /// First and last spring of the largest span.
     pub top: [u32; 2],
     pub branch: Branch,
 }
 
-/// A fragment in contact between two legs.
+/// A fragment in contact at the end of one leg, with which the next leg begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
-    /// Height of the level of pinned edges above its largest gap, m.
+    /// Height of pinned edges above the largest gap, m; `None` for free edges.
     pub pin: Option<f64>,
 }
 
 #[derive(Debug)]
 pub struct Listed {
     pub runs: Vec<Run>,
-    /// Smallest indentation of full contact of a loading, or of contact of an unloading, m.
+    /// On loading the smallest indentation of full contact, on unloading the smallest indentation with contact, m.
     pub end: f64,
     pub evaluations: u64,
 }
 
-/// Gaps and contact tree under the rule of one direction: the input of all passes of a leg.
+/// Gaps, contact tree and the rule of Hess in one direction: the input of all passes of a leg.
 ///
-/// Edges that `SLIDES` between springs curve the force between two events. Whole springs have one length at all levels of a
-/// span, and no edge cells.
+/// With `SLIDES` edges move between springs, so that the force is curved between two events. Without it a fragment of whole
+/// springs has one length at all levels of a span, and no edge cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, const SLIDES: bool> {
     pub gaps: &'a [f64],
@@ -75,7 +74,7 @@ impl Run {
         Run { from, to, pin: f64::NAN, bottom: span.ends(), top: span.ends(), branch }
     }
 
-    /// Rise of pinned edges, m.
+    /// Height of pinned edges above the largest gap, m; `None` for free edges.
     #[inline]
     pub fn pin(&self) -> Option<f64> {
         Some(self.pin).filter(|pin| !pin.is_nan())
@@ -107,25 +106,25 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Slider::new(self.gaps, span, self.stretch, run.pin())
     }
 
-    /// Smallest indentation at which a span attaches its wall of this gap, m.
+    /// Smallest indentation at which a span attaches its wall, m; `wall` is the gap of that spring, m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
         self.attachment(&self.levels(span), wall)
     }
 
-    /// Level of the edges of a span at an indentation, m, pinned at a rise, m, if there is one.
+    /// Level of the edges of a span at an indentation, m; `pin` is the height, m, of pinned edges above the largest gap.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
-    /// Height of the level of the edges above the largest gap, m, pinned or not.
+    /// Height of the edges above the largest gap at an indentation, m; `pin` is the height of pinned edges.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.stretch, indentation))
     }
 
-    /// Whole springs or cells of a span, and the fragment they form.
+    /// Totals of the whole springs of a span, or of its whole cells with `SLIDES`, counted as one fragment.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!SLIDES);
@@ -135,7 +134,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         ContactTotals { springs: span.springs() as i64, fragments: 1, quanta, squares }
     }
 
-    /// Upper end of the indentations over which a run fills a span, m: where the span `above` takes its place.
+    /// Upper end of the indentations over which a run fills a span, m; beyond it the run fills the span `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
         // Unloading, the span above parts where this one would go on.
@@ -151,23 +150,22 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Lower bound of the gaps of springs outside a span that do not belong to its fragment at this indentation (m), on
-    /// either leg: a spring with a smaller gap needs no evaluation of the rule.
+    /// Level below which every spring beside a span belongs to its fragment at this indentation (both in m) on either leg:
+    /// such a spring needs no evaluation of the rule.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let root = (self.square() * self.least_length(span.first, span.last)).sqrt();
         (indentation + root) - ROUNDING * (indentation.abs() + root)
     }
 
-    /// Squared stretch of a fragment of unit length, m², rounded down.
+    /// Squared largest stretch of a fragment of unit length, m², rounded down.
     #[inline]
     pub fn square(&self) -> f64 {
         self.stretch * self.stretch * (1.0 - ROUNDING)
     }
 
-    /// Calls `see` with each span of a run from the smallest one on and the range of indentations (m) over which the
-    /// run fills it, until `see` returns true. Ranges that end at `low` (m) or below are left out; the first of the others
-    /// then begins at `low`.
+    /// Calls `see` with each span of a run, from the smallest on, and the range of indentations (m) over which the run fills
+    /// the span, until `see` returns true. Ranges below `low` (m) are left out, and a range around `low` begins there.
     #[inline]
     pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
@@ -182,7 +180,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         }
     }
 
-    /// The span of a run at an indentation, from one that it fills at a smaller indentation on.
+    /// The span of a run at an indentation (m); `from` is a span that the run fills at a smaller indentation.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let (mut span, top) = (from, run.top);
         while span.ends() != top {
@@ -217,21 +215,22 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Levels { gap: span.gap, length, growth: 0.0, top: f64::INFINITY }
     }
 
-    /// Smallest length that a span has at its highest level, in cells.
+    /// Length that a span has at least at its highest level, in cells.
     #[inline]
     pub fn least_length(&self, first: usize, last: usize) -> f64 {
         // One of two edge cells is full at the highest level.
         (last + usize::from(!SLIDES) - first).max(1) as f64
     }
 
-    /// Smallest indentation at which a span of these levels attaches its wall of this gap, m.
+    /// Smallest indentation at which a span with these levels attaches its wall, m; `wall` is the gap of that spring, m.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
         let length = if SLIDES { levels.length_at(wall - levels.gap) } else { levels.length };
         wall - self.stretch * length.sqrt()
     }
 
-    /// Smallest indentation at which a span of these levels holds its most stretched spring, m; at most its gap.
+    /// Smallest indentation at which a span with these levels still holds its most stretched spring, m; at most its largest
+    /// gap.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let (gap, stretch) = (levels.gap, self.stretch);
@@ -252,7 +251,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         if holds < gap { holds } else { gap }
     }
 
-    /// Returns true if the edges pass from a span to the next larger one without a jump.
+    /// Returns true if the edges pass without a jump from a span to the span extended by its wall.
     #[inline]
     pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
         if !SLIDES {
@@ -264,8 +263,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         root * root < upper.length && upper.length - reached < 0.25
     }
 
-    /// ∫ (c − θ)² dx over the places passed while the edges move between two spans and levels, each place at its own
-    /// indentation θ, in cells times ½ s².
+    /// ∫ (c − θ)² dx over the part of the line that the edges pass between two spans and levels, each point at the
+    /// indentation θ at which an edge passes it; in cells times ½ s².
     pub fn passed_squares(&self, [lower, upper]: [(Span, f64); 2]) -> f64 {
         if !SLIDES {
             let [fewer, more] = [lower, upper].map(|(span, _)| span.springs() as f64);

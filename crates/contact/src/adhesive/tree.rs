@@ -7,9 +7,9 @@ use crate::totals::sums_of_few;
 use asperity_data::in_parallel;
 use asperity_data::{OutOfMemory, emptied, push, reserve};
 
-/// Springs between two kept sums.
+/// Number of springs from one stored prefix sum to the next.
 const BLOCK: usize = 4;
-/// Springs compared at once.
+/// Number of springs whose gaps are compared together.
 const LANES: usize = 64;
 
 /// Merge tree of the local maxima of the gap, the turning points, and prefix sums along the line.
@@ -26,9 +26,9 @@ pub struct ContactTree {
     /// Local minima and maxima in turn along the line; the first and the last are minima.
     pub(super) turns: Vec<u32>,
     pub(super) nodes: Vec<Node>,
-    /// Sums before each `BLOCK`-th spring: of the gaps, or of the mean gaps of cells, in quanta; and of their squares.
+    /// Sums before each `BLOCK`-th spring: of the gaps (or of the mean gaps of cells) in quanta, and of their squares.
     sums: Vec<[i128; 2]>,
-    /// True for sums of cells between springs.
+    /// True if the sums are over the cells between springs rather than over springs.
     of_cells: bool,
     pub(super) scale: GapScale,
 }
@@ -37,22 +37,22 @@ pub struct ContactTree {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     pub gap: f64,
-    /// Smallest gap of its subtree, m.
+    /// Smallest gap in its subtree, m.
     pub lowest: f64,
     /// Its number among the local maxima along the line.
     pub rank: u32,
-    /// Nodes in its subtree, itself included.
+    /// Number of nodes in its subtree, itself included.
     pub size: u32,
-    /// Nodes in the right part of its subtree.
+    /// Number of nodes in the right part of its subtree.
     pub right: u32,
 }
 
-/// The component that grows from a local minimum or from the merging of two, up to the next merging.
+/// A component below the rising level, from its local minimum or the merging that creates it up to its next merging.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
 impl Branch {
-    /// From the local minimum of this number along the line.
+    /// The branch that begins at the local minimum with this number along the line.
     #[inline]
     pub fn leaf(rank: usize) -> Self {
         Branch((rank as u32) << 1 | 1)
@@ -63,7 +63,7 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Its node, or the number of its local minimum as the error.
+    /// The node at which the branch begins, or as the error the number of its local minimum.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -83,7 +83,7 @@ struct Pending {
 
 impl ContactTree {
     /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero), the largest of which is `deepest`, with the sums of
-    /// an edge model. The memory of the former tree is used again.
+    /// an edge model, in the memory of the former tree.
     pub(crate) fn rebuild(mut self, gaps: &[f64], deepest: f64, edges: Edges) -> Result<Self, OutOfMemory> {
         let scale = GapScale::for_gaps_up_to(deepest);
         (self.scale, self.of_cells) = (scale, edges == Edges::SubCell);
@@ -99,7 +99,7 @@ impl ContactTree {
         Ok(self)
     }
 
-    /// Nodes: local maxima of the gap inside the line.
+    /// Number of nodes: local maxima of the gap inside the line.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
@@ -109,13 +109,13 @@ impl ContactTree {
         self.nodes.len().checked_sub(1).map_or(Branch::leaf(0), Branch::node)
     }
 
-    /// Spring of the local minimum of this number.
+    /// Index of the spring at the local minimum with this number.
     #[inline]
     pub(crate) fn minimum(&self, rank: usize) -> usize {
         self.turns[2 * rank] as usize
     }
 
-    /// Spring of a node.
+    /// Index of the spring at the local maximum of a node.
     #[inline]
     pub(crate) fn maximum(&self, node: &Node) -> usize {
         self.turns[2 * node.rank as usize + 1] as usize
@@ -133,7 +133,7 @@ impl ContactTree {
         ]
     }
 
-    /// Sums of the gaps and of their squares from the first spring to this one, in the units of
+    /// Sums of the gaps and of their squares over all springs (or cells) before this spring, in the units of
     /// [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
@@ -215,7 +215,7 @@ impl ContactTree {
     }
 }
 
-/// Sums before each `BLOCK`-th spring, in quanta of the scale.
+/// Prefix sums before each `BLOCK`-th spring, in quanta of the scale.
 fn sums_along(
     mut sums: Vec<[i128; 2]>,
     gaps: &[f64],
@@ -242,7 +242,7 @@ fn sums_along(
     Ok(sums)
 }
 
-/// Largest of finite numbers that are at least zero; zero of none.
+/// Largest of finite numbers that are at least zero; zero of an empty slice.
 pub fn largest(gaps: &[f64]) -> f64 {
     let (blocks, rest) = gaps.as_chunks::<8>();
     let mut lanes = [0.0; 8];
@@ -254,7 +254,7 @@ pub fn largest(gaps: &[f64]) -> f64 {
     lanes.iter().chain(rest).fold(0.0, |one, &other| larger(one, other))
 }
 
-/// Returns true if the gap rises from each spring to the next, one bit for each.
+/// One bit for each spring: 1 if the gap rises from it to the next spring.
 #[inline]
 fn rises_of(gaps: &[f64; LANES + 1]) -> u64 {
     let mut rises = 0;

@@ -1,4 +1,4 @@
-//! Unloading: the indentation at which each part of a contact detaches, and the fragments between.
+//! Unloading: the indentation at which each node of a contact parts, and the fragments between these events.
 
 use super::levels::{Levels, Span, smaller};
 use super::run::{Ground, Held, Listed, Run};
@@ -6,18 +6,18 @@ use super::tree::Branch;
 use crate::ContactError;
 use asperity_data::push;
 
-/// Margin of the bounds for rounding.
+/// Factor that widens bounds by a margin for rounding.
 const ABOVE: f64 = 1.0 + 1e-12;
 
-/// Part of the contact still to be listed.
+/// Part of the contact at the beginning of the leg whose runs are not listed yet.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     branch: Branch,
     first: u32,
     last: u32,
-    /// Indentation at which the fragment around it parts, m.
+    /// Indentation at which the larger fragment around this part splits, m.
     opens: f64,
-    /// True for a fragment at the beginning of the leg.
+    /// True for a whole fragment held at the beginning of the leg.
     is_whole: bool,
 }
 
@@ -25,8 +25,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// Lists the runs of an unloading leg from indentation `from` (m) on; `held` are the fragments in contact there, from
     /// left to right.
     ///
-    /// A fragment parts, and its most stretched spring detaches, as soon as the fragment around it has parted and the
-    /// rule no longer holds that spring: t_v = min(t of the fragment around it, smallest φ of v).
+    /// A fragment splits, and its most stretched spring detaches, as soon as the larger fragment around it has split and
+    /// the rule no longer holds the spring: t_v = min(t of the fragment around v, smallest φ of v).
     pub fn open(&self, held: &[Held], from: f64) -> Result<Listed, ContactError> {
         let mut listed = Listed { runs: Vec::new(), end: f64::INFINITY, evaluations: 0 };
         let mut parts = Vec::new();
@@ -41,15 +41,16 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Ok(listed)
     }
 
-    /// Returns true if a fragment within `springs` springs, the smallest or largest gap of which is `gap`, may hold that
-    /// spring below the indentation `opens`: its length is at most that of these springs and their edge cells.
+    /// Returns false if a fragment within `springs` springs, with `gap` (m) as its smallest or largest gap, certainly
+    /// cannot hold the spring of that gap below the indentation `opens` (m): its length is at most the length of these springs
+    /// and two edge cells.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
         let need = gap - opens;
         need <= 0.0 || need * need < self.stretch * self.stretch * ABOVE * (springs + 1) as f64
     }
 
-    /// The parts into which the smallest span of a branch parts at an indentation (m), when a spring detaches.
+    /// The two parts of the smallest span of a branch after `spring` detaches at an indentation (m).
     fn parts_of(&self, branch: Branch, span: &Span, spring: usize, opens: f64) -> [Option<Part>; 2] {
         let Ok(node) = branch.origin() else { return [None; 2] };
         let [left, right] = self.tree.parts(node);
@@ -58,8 +59,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         [part(left, first, spring - 1), part(right, spring + 1, last)]
     }
 
-    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the parts of its node that
-    /// are left; the edges of a fragment at the beginning of the leg may be pinned at a rise, m.
+    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the two parts that are left
+    /// below its node. `pin` is the height, m, of pinned edges of a held fragment above its largest gap.
     fn descend(
         &self,
         part: Part,

@@ -1,9 +1,8 @@
 //! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force is reached.
 //!
-//! Between two events the force is convex; at an event, read upwards in d, it falls or stays. From the contact at two
-//! indentations follow bounds of the force between them: springs that attach there are stretched, or just touch and are
-//! then compressed by no more than the width of the interval. Only intervals of a grid with suitable bounds are
-//! searched.
+//! Between two events the force is convex; with growing d it falls or stays at an event. The contact at two indentations
+//! bounds the force between: springs that attach there are stretched, or they just touch and are then compressed by at most
+//! the width of the interval. Only intervals whose bounds allow the sought force are searched.
 
 use super::{Leg, Patches};
 use crate::ContactError;
@@ -15,11 +14,11 @@ use crate::interval::{Interval, Intervals};
 use crate::thresholds::Thresholds;
 use asperity_data::CompensatedSum;
 
-/// Intervals in which extremes are searched: each patch is evaluated at each of their ends.
+/// Number of intervals of the grid on which extremes are searched; each patch is evaluated at each grid point.
 pub(crate) const SEARCH_INTERVALS: usize = 256;
-/// Intervals whose events are listed at once.
+/// Number of intervals whose events are listed together.
 const AT_ONCE: usize = 16;
-/// Points of a grid from one to the next of those evaluated first.
+/// Distance, in grid points, between the points that are evaluated first.
 const STRIDE: usize = 16;
 
 impl Leg {
@@ -37,13 +36,13 @@ impl Leg {
         Ok(sampled.iter().map(|state| state.point(self.contact.foundation)).collect())
     }
 
-    /// Returns the energy that springs release on the indentations from `low` to `high`, m, in J; see
+    /// Returns the energy, J, that springs release at indentations in the range `low..high`, m; see
     /// [`LegRecord::released_energy`](crate::history::LegRecord::released_energy).
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }
 
-    /// Energy that springs of these squared stretches, m², release on the leg, J.
+    /// Energy released on the leg, J, for this sum of the squared stretches of springs, m².
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // Not −0 where nothing attaches with a stretch.
@@ -54,15 +53,15 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// The leg with the instrument beside the contact, in springs: the force of both is k D where D = d + F/k. Of a rigid
-    /// one, whose displacement is the indentation, there are none.
+    /// The leg with the instrument as springs parallel to the contact: the force of both is k D where D = d + F/k. A rigid
+    /// instrument, whose displacement is the indentation, adds none.
     fn with_instrument(&self) -> Self {
         let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
         Leg { instrument: if springs.is_infinite() { 0.0 } else { springs }, ..self.clone() }
     }
 
-    /// Finds the indentation at which a motion from another one reaches its goal, m, and that goal: the separation where
-    /// the contact is lost on the way.
+    /// Finds the indentation, m, at which a motion from the indentation `from` (m) reaches its goal. The returned goal is
+    /// the separation if the contact is lost on the way.
     pub(crate) fn reach(&self, goal: Goal, from: f64, work: &mut Work) -> Result<(f64, Goal), ContactError> {
         let lost = self.end.min(from);
         let end = match goal {
@@ -82,7 +81,7 @@ impl Leg {
         Ok((end, goal))
     }
 
-    /// The contact at the smallest displacement of the instrument on a sampled unloading.
+    /// The contact of a sampled unloading at which the displacement of the instrument is smallest.
     pub(crate) fn least_displaced(
         &self,
         sampled: &[ContactState],
@@ -93,9 +92,9 @@ impl Leg {
         self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
     }
 
-    /// Energy that a compliant instrument and the moving body lose in the jumps of a sampled motion, J: ∫ (k (D − d) − F) dd
-    /// over them. `extreme` is the extreme compression with the instrument so far, `None` where the motion begins; the motion
-    /// may begin or end in separation.
+    /// Energy that a compliant instrument and the moving body lose in the jumps of a sampled motion, J: ∫ (k (D − d) − F)
+    /// dd over the jumps. `extreme` is the extreme compression of contact and instrument so far, `None` at the beginning of
+    /// a motion. `from_separation` and `to_separation` are true if it begins or ends separated.
     pub(crate) fn jump_energy(
         &self,
         sampled: &[ContactState],
@@ -180,8 +179,8 @@ impl Leg {
         Ok(sampled)
     }
 
-    /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ in a range, m, without its lower
-    /// end, in cells times m².
+    /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high` (m),
+    /// in cells times m².
     pub(crate) fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         match &self.patches {
             // No spring is stretched.
@@ -192,7 +191,7 @@ impl Leg {
         }
     }
 
-    /// The events between the ends of these ascending intervals.
+    /// Intervals between these ascending ends, with the events inside each.
     fn events(&self, ends: &[[ContactState; 2]], work: &mut Work) -> Vec<Interval> {
         if ends.is_empty() {
             return Vec::new();
@@ -206,7 +205,7 @@ impl Leg {
         intervals.finish(&mut work.events_sorted)
     }
 
-    /// Extreme force on the range of a sampled leg.
+    /// The contact of the extreme force between the first and the last point of a sampled leg.
     pub(crate) fn extreme(&self, extreme: Extreme, leg: &[ContactState], work: &mut Work) -> ContactState {
         let mut best = extreme.of(leg);
         // Without adhesion the force never falls.
@@ -217,8 +216,8 @@ impl Leg {
         best
     }
 
-    /// Smallest force of an unloading on the range of a grid. Most points of the grid are left out: those between two
-    /// neighbours of a coarser grid whose bounds exclude a smaller force.
+    /// The contact of the smallest force of an unloading between the ends of a grid. Points of the grid are evaluated only
+    /// between neighbours of a coarser grid whose bounds allow a smaller force.
     pub(crate) fn smallest(&self, grid: &Grid, work: &mut Work) -> Result<ContactState, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let best = Extreme::Smallest.of(&coarse);
@@ -226,7 +225,7 @@ impl Leg {
         Ok(self.extreme(Extreme::Smallest, &leg, work))
     }
 
-    /// Smallest indentation of a grid, m, at which the compression is at least `wanted`.
+    /// Smallest indentation between the ends of a grid, m, at which the compression is at least `wanted`, m.
     fn first_at_least(&self, grid: &Grid, wanted: f64, work: &mut Work) -> Result<Option<f64>, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
         let reached = |leg: &[ContactState]| {
@@ -246,7 +245,8 @@ impl Leg {
         Ok(self.events(&chosen, work).iter().find_map(|interval| interval.first_at_least(wanted)).or(end))
     }
 
-    /// Adds those points of a grid to a coarser one that lie in intervals whose contact at both ends passes `may_lie`.
+    /// Evaluates a finer grid where needed: adds to the sampled points `coarse` the points of `grid` between two neighbours
+    /// for which `may_lie` is true.
     fn refined(
         &self,
         grid: &Grid,
@@ -266,7 +266,7 @@ impl Leg {
         Ok(coarse)
     }
 
-    /// Largest indentation of a sampled leg, m, at which the compression is at most `wanted`.
+    /// Largest indentation between the ends of a sampled leg, m, at which the compression is at most `wanted`, m.
     fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
         let reached = leg.iter().rfind(|state| state.compression <= wanted);
         let start = reached.map(|state| state.indentation);

@@ -15,41 +15,41 @@ use std::sync::Arc;
 
 /// Contact at all indentations of a motion in one direction.
 ///
-/// A leg is a value: it stays valid after the body has moved on, and its copies share their memory.
+/// A leg is a value: it stays valid after the body has moved on, and its clones share their memory.
 #[derive(Clone, Debug)]
 pub struct Leg {
     contact: Contact,
     direction: Direction,
     patches: Patches,
     end: f64,
-    /// Springs of the instrument beside the contact in searches; see [`ContactState::beside`].
+    /// Instrument as a number of springs parallel to the contact, in searches; see [`ContactState::beside`].
     instrument: f64,
-    /// Evaluations of the rule of Hess that its patches took.
+    /// Number of evaluations of the rule of Hess that the search of its patches took.
     pub(super) evaluations: u64,
 }
 
 #[derive(Clone, Debug)]
 enum Patches {
-    /// Each spring touches at a threshold, m: without adhesion at its gap. Empty where nothing touches.
+    /// Indentation from which each spring is in contact, m: without adhesion its gap. Empty where nothing touches.
     Springs(Arc<Vec<f64>>),
-    /// The patches of an adhesive contact, each as long as its edges move without a jump.
+    /// The contact patches of an adhesive contact, as runs: each patch over the indentations in which its edges do not jump.
     Runs(Arc<ContactTree>, Arc<Vec<Run>>),
 }
 
-/// Length, load and stretch of one patch.
+/// Length, force and stretch of one contact patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchState {
-    /// Length, m.
+    /// Length of the patch, m.
     pub length: f64,
-    /// Force, N.
+    /// Force of the patch, N; compression positive.
     pub force: f64,
-    /// Largest stretch Δl_max at this length, m, eq. (10).
+    /// Largest stretch Δl_max at this length, m, by eq. (10).
     pub largest_stretch: f64,
-    /// Stretch of its edges, or of its most stretched spring, m.
+    /// Stretch at its edges, or of its most stretched spring, m.
     pub most_stretched: f64,
 }
 
-/// Evaluates an expression with the runs of a leg, under the edge model of its contact.
+/// Evaluates an expression on the runs of a leg, with the edge model of its contact as a constant.
 macro_rules! along_runs {
     ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
         match $leg.contact.edges {
@@ -68,7 +68,7 @@ macro_rules! along_runs {
 pub(crate) mod forces;
 
 impl Leg {
-    /// Counts the passes of the leg and, with adhesion, its evaluations of the rule of Hess.
+    /// Adds the pass over the tree for this leg and its evaluations of the rule of Hess to the work counts.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
@@ -95,7 +95,7 @@ impl Leg {
         }
     }
 
-    /// Creates a leg on which each spring touches at a threshold, m, −∞ always, +∞ never, known up to the indentation
+    /// Creates a leg on which each spring touches at its threshold, m (−∞ always, +∞ never), known up to the indentation
     /// `end`, m.
     pub(super) fn of_thresholds(
         contact: &Contact,
@@ -145,7 +145,7 @@ impl Leg {
         }
     }
 
-    /// Lists the runs of this leg from the patches in contact at an indentation, m.
+    /// Lists the runs of this leg; `held` are the fragments in contact at the indentation `from`, m, where it begins.
     fn list(self, tree: &Arc<ContactTree>, held: &[Held], from: f64) -> Result<Self, ContactError> {
         let mut evaluations = 0;
         let listed = along_runs!(self, tree, &[], along => match self.direction {
@@ -168,12 +168,12 @@ impl Leg {
         matches!(&self.patches, Patches::Springs(thresholds) if self.contact.hess.is_some() && !thresholds.is_empty())
     }
 
-    /// Refuses a leg of the stepwise solver, which is known at its steps alone.
+    /// Returns an error for a leg of the stepwise solver, which is known only at its steps.
     pub(super) fn refuse_stepwise(&self) -> Result<(), ContactError> {
         if self.is_stepwise() { Err(ContactError::Stepwise) } else { Ok(()) }
     }
 
-    /// Contact of which this is a leg.
+    /// The contact that moves on this leg.
     pub fn contact(&self) -> &Contact {
         &self.contact
     }
@@ -183,13 +183,13 @@ impl Leg {
         self.direction
     }
 
-    /// Smallest indentation of full contact of a loading, or the smallest one with contact of an unloading, m; of the
-    /// stepwise solver, the indentation that it has reached.
+    /// On loading the smallest indentation of full contact, on unloading the smallest indentation with contact, m; for the
+    /// stepwise solver the indentation reached so far.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Bytes of its own.
+    /// Bytes of memory that this leg holds itself, without its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => size_of::<f64>() * thresholds.capacity(),
@@ -211,8 +211,8 @@ impl Leg {
         }
     }
 
-    /// Returns the indentations in a range, m, at which the force of an adhesive contact jumps by about this force or more, N:
-    /// where patches grow or shrink at once, merge or part. Ascending.
+    /// Returns the indentations between `low` and `high`, m, at which the force of an adhesive contact jumps by about
+    /// `least` (N) or more, since patches jump in size, merge or split. Ascending.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
         let Patches::Runs(_, runs) = &self.patches else { return Vec::new() };
         let springs = |[first, last]: [u32; 2]| f64::from(last - first + 1);
@@ -230,7 +230,7 @@ impl Leg {
         together.filter(|events| jump(events) >= least).map(|events| events[0].0).collect()
     }
 
-    /// Returns the smallest indentation at which each spring along the line is in contact, m: −∞ always, +∞ never.
+    /// Returns the smallest indentation at which each spring of the line is in contact, m: −∞ always, +∞ never.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {
@@ -241,7 +241,8 @@ impl Leg {
         }
     }
 
-    /// Evaluates the patch of this number, from the left, at an indentation, m; `None` without such a patch.
+    /// Evaluates one patch at an indentation, m; patches are numbered from the left, from 0. `None` if there is no such
+    /// patch.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         let Contact { springs, foundation, edges, .. } = &self.contact;
         let patch = *self.patches(indentation).get(number)?;
@@ -271,8 +272,8 @@ impl Leg {
         })
     }
 
-    /// Returns true where the edges of patches keep their place at first when the direction turns, since the rules of
-    /// loading and of unloading differ. Between springs alone an edge has a place of its own to keep.
+    /// Returns true if the edges of patches keep their places at first when the direction changes, since the rules of
+    /// loading and unloading differ. Only edges between springs have a place of their own to keep.
     fn pins(&self) -> bool {
         self.contact.edges == Edges::SubCell && !self.contact.rule().is_one()
     }
