@@ -1,4 +1,4 @@
-//! The equivalent line of measured surfaces: its waves, their amplitudes and its moments.
+//! The equivalent line of measured surfaces: its modes, their amplitudes, and its moments.
 
 use super::SurfaceError;
 use super::measured::{Face, MeasuredOptions, MeasuredProfile};
@@ -6,10 +6,10 @@ use super::spectrum::Amplitude;
 use crate::spectrum::isotropic::{IsotropicSpectrum, LineMoments, line_moments};
 use std::f64::consts::TAU;
 
-/// Relative excess of a wavelength over the scan that counts as rounding.
+/// Relative excess of a wavelength over the length of the scan that is attributed to rounding.
 const ROUNDING: f64 = 1.0e-9;
 
-/// Equivalent line of the measured surfaces of one or both faces: the spectra of the faces add.
+/// Equivalent line of the measured surfaces of one or two faces in contact; the spectra of the faces are added.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
     /// Spectra of the measured faces.
@@ -26,8 +26,8 @@ impl EquivalentLine {
         Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
     }
 
-    /// Equivalent line of spectra moved by a share of steps drawn from the uncertainty of their fits; equal numbers
-    /// have equal steps.
+    /// Equivalent line of spectra changed at random within the uncertainty of their fits; `share` scales the change, and
+    /// `number` selects it: equal numbers give equal changes.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
@@ -36,7 +36,7 @@ impl EquivalentLine {
         EquivalentLine { faces: (0..).zip(&self.faces).map(of_face).collect() }
     }
 
-    /// Moments of the line, over the waves known of all faces, with their standard errors.
+    /// Moments of the line, with their standard errors, over the wave numbers for which the spectra of all faces are known.
     pub fn moments(&self) -> LineMoments {
         line_moments(&self.faces)
     }
@@ -46,14 +46,15 @@ impl EquivalentLine {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// First and last wave number, rad/m, known of all faces. Each spectrum ends at its own limit.
+    /// First and last wave number, rad/m, of the line: it begins where the spectra of all faces are known; each spectrum
+    /// ends at its own limit.
     pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| [first.max(low), last.max(high)])
     }
 
-    /// First and last mode k, q = 2πk/L, of a line of a length (m) on `points` springs: the waves of the spectrum
-    /// that fit the line and are resolved by the springs. Waves longer than the scan are unknown and omitted.
+    /// First and last mode k (q = 2πk/L) of a line of this length (m) on `points` springs: the waves of the spectrum that
+    /// fit the line and that the springs resolve. Waves longer than the scan are unknown and omitted.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -70,7 +71,7 @@ impl EquivalentLine {
         Ok((first as u64, last as u64))
     }
 
-    /// Amplitude A_k, m, of a mode of a line of a length (m): A_k² = 4 C_line(q_k)/L.
+    /// Amplitude A_k, m, of a mode k of a line of this length (m): A_k² = 4 C_line(q_k)/L.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         let wave_number = TAU * mode as f64 / length;
         let power = |face: &IsotropicSpectrum| {
@@ -81,7 +82,7 @@ impl EquivalentLine {
         2.0 * (self.faces.iter().map(power).sum::<f64>() / length).sqrt()
     }
 
-    /// Amplitude of the modes from a first to a last one on a length (m).
+    /// Roughness amplitude of the modes `first..=last` on a line of this length (m).
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
@@ -89,12 +90,12 @@ impl EquivalentLine {
     }
 }
 
-/// A measured surface as the roughness of a line.
+/// Roughness of a line from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
-    /// The profile itself.
+    /// The measured profile itself is the line.
     Profile(MeasuredProfile),
-    /// The equivalent line.
+    /// The equivalent line of the measured surfaces.
     Equivalent(EquivalentLine),
 }
 

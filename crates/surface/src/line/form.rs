@@ -1,4 +1,4 @@
-//! Macroscopic forms, and their MDR transforms g(x) of profiles f(r): waves become a Struve function.
+//! Macroscopic forms f(r) and their MDR transforms g(x), which for waves contain a Struve function.
 
 use super::SurfaceError;
 use super::table::{FormTable, Rows};
@@ -36,7 +36,7 @@ pub enum Form {
     WavySphere {
         /// Radius of curvature R, m.
         radius: f64,
-        /// Amplitude A of the waves, m; their height is twice that.
+        /// Amplitude A of the waves, m; from trough to crest they are 2A high.
         amplitude: f64,
         /// Wavelength λ, m.
         wavelength: f64,
@@ -48,20 +48,20 @@ pub enum Form {
     },
     /// Body of revolution from a file of radii and depths.
     Table {
-        /// The file, relative to the scene file.
+        /// Path of the file, relative to the scene file.
         file: String,
-        /// Unit where the file states none; empty: m.
+        /// Unit of the numbers where the file states none; empty for m.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         unit: String,
-        /// Its rows; see [`Form::load`].
+        /// Rows of the table, once [`Form::load`] has read them.
         #[serde(skip)]
         rows: Rows,
     },
 }
 
 impl Form {
-    /// Reads the table of a form from a folder, unless it is known, for a profile of this length, m. All copies of the form
-    /// then have the table; other forms have none. Without its table a form is flat.
+    /// Reads the table of a form from a folder, unless it is read already, and checks that it covers a profile of this length
+    /// (m). All clones of the form then have the table; other forms need none. Until its table is read, a form is flat.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
         let refused = |reason: &dyn ToString| SurfaceError::File {
@@ -83,7 +83,7 @@ impl Form {
         Err(refused(&format!("the table ends at r = {reach:e} m; allowed: length at most {allowed:e} m")))
     }
 
-    /// The table of a form, if it has one that is read.
+    /// The table of a form that has one and has read it.
     pub fn table(&self) -> Option<&FormTable> {
         if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
     }
@@ -94,15 +94,16 @@ impl Form {
         points / 2
     }
 
-    /// Displacement of the body along the foundation, in cells, that puts its axis from L/2 onto a spring: ½ for an even
-    /// number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position
-    /// does not depend on the number of springs. A punch has no tip and is not displaced.
+    /// Displacement of the body along the foundation, in cells, that moves its axis from L/2 onto a spring: ½ for an even
+    /// number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position does
+    /// not depend on the number of springs. A punch has no tip and is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 
-    /// Indices of the springs under the form, of `points` springs on `length` m: all of them, except under a punch.
-    /// A punch covers its diameter rounded to whole cells, centred on the axis to half a cell; below half a cell none.
+    /// Index range of the springs under the form, of `points` springs on `length` (m): all springs, except for a punch,
+    /// which covers its diameter rounded to whole cells and centred on the axis to half a cell. Empty for a diameter below
+    /// half a cell.
     pub fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
         let Some(radius) = self.flat_end() else { return 0..points };
         let cells = (2.0 * radius / (length / points as f64)).round() as u64;
@@ -111,7 +112,7 @@ impl Form {
         first..first + cells
     }
 
-    /// Radius of the flat end, m, outside of which there are no springs; `None` for all forms but a punch.
+    /// Radius of the flat end of a punch, m, outside of which no spring touches; `None` for all other forms.
     pub fn flat_end(&self) -> Option<f64> {
         match *self {
             Form::Punch { radius } => Some(radius),
@@ -127,7 +128,7 @@ impl Form {
         }
     }
 
-    /// Radius that scales the form, m; `None` for all but spheres and punches.
+    /// Radius of a sphere or a punch, m, as a mutable reference; `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius } | Form::WavySphere { radius, .. } | Form::Punch { radius } => {
@@ -142,8 +143,7 @@ impl Form {
         if let Form::Paraboloid { radius } = self { Some(*radius) } else { None }
     }
 
-    /// Curvature at the summit, 1/m; `None` for cones and power laws, and for tables alike, which have none or none at their
-    /// tip.
+    /// Curvature at the summit, 1/m; `None` for cones, power laws and tables without a finite curvature at the tip.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
@@ -156,8 +156,8 @@ impl Form {
         }
     }
 
-    /// Depth g(|x|), m, of the equivalent profile below its apex, at a distance, m, from the axis; for a punch that under
-    /// its flat face ([`Form::springs_under`]).
+    /// Depth g(|x|), m, of the equivalent profile below its apex at a distance from the axis, m; for a punch the depth
+    /// under its flat face ([`Form::springs_under`]).
     ///
     /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr: a paraboloid r²/2R becomes x²/R, a cone r tan θ becomes
     /// (π/2)|x| tan θ, a power law b rⁿ becomes κₙ b |x|ⁿ ([`power_law_factor`]), and waves A (1 − cos 2πr/λ) become
@@ -190,7 +190,7 @@ impl Form {
         }
     }
 
-    /// Bound of the waves in the profile at a distance from the axis, m: π A √(r/λ).
+    /// Upper bound of the contribution of the waves to the profile at a distance from the axis, m: π A √(r/λ).
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {
@@ -201,19 +201,18 @@ impl Form {
     }
 }
 
-/// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor of a power law rⁿ on the equivalent profile.
+/// κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2), the factor between a power law rⁿ and its equivalent profile.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // Logarithms of Γ: the quotient remains finite where its parts would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
     PI.sqrt() / 2.0 * exponent * quotient
 }
 
-/// Argument from which on the asymptotic series is fully accurate: its smallest term is about e^−z.
+/// Argument above which the asymptotic series of H₀ is accurate to rounding: its smallest term is about e^−z.
 const LARGE: f64 = 40.0;
-/// Nodes of the integral below: enough for the waves of its integrand up to `LARGE`.
+/// Number of quadrature nodes for H₀: enough for the oscillations of the integrand for arguments up to `LARGE`.
 const NODES: usize = 56;
 
-/// Nodes in (0, π/2) and weights of Gauss-Legendre quadrature.
 static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// Struve function H₀(z), z ≥ 0.
@@ -294,7 +293,6 @@ mod tests {
         }
     }
 
-    /// Power series, accurate for small arguments.
     fn series(z: f64) -> f64 {
         let (mut term, mut sum) = (z, 0.0);
         for k in 1..60 {

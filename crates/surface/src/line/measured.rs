@@ -1,4 +1,5 @@
-//! Measured surfaces as roughness: the profile itself, or its equivalent line with its own spectrum and random phases.
+//! Measured surfaces as roughness: the measured profile itself, or the equivalent line with the measured spectrum and
+//! random phases.
 
 use super::SurfaceError;
 use super::spectrum::Amplitude;
@@ -12,36 +13,37 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Most bytes per point of the transform and its arrays: an odd number of points transforms at twice the length.
+/// Limit of the memory of the transform and its arrays, bytes per point: an odd number of points is transformed at twice
+/// the length.
 const TRANSFORM_BYTES: u64 = 96;
 
 /// Options of a scene for its measured surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// Part removed from the profile if it is the line itself; `None` for an equivalent line.
+    /// Polynomial removed from a measured profile that is itself the line; `None` for an equivalent line.
     pub as_line: Option<Detrend>,
-    /// Options of the readers.
+    /// Options for reading the files.
     pub reading: ReadOptions,
-    /// Options of the spectrum.
+    /// Options of the analysis of the spectrum.
     pub spectrum: Options,
 }
 
 /// A measured profile.
 ///
-/// Points at x = Δx/2, 3Δx/2, …, as written by `asperity line`, are centres of cells: N points cover N Δx from x =
-/// 0 on, the first and the last half cell at the height of the nearest point. Any other profile covers the distance
-/// from its first to its last point, and on request, if equally spaced, half a distance more at both ends.
+/// Points at x = Δx/2, 3Δx/2, …, as `asperity line` writes them, are centres of cells: N points cover N Δx from x = 0, and
+/// the outer half cells have the height of the nearest point. Any other profile covers the distance from its first to its
+/// last point, and on request, if equally spaced, half a distance more at each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Positions x, m, ascending; at least two.
     pub positions: Vec<f64>,
-    /// Heights z, m, as measured: one for each position.
+    /// Heights z, m, as measured, one for each position.
     pub heights: Vec<f64>,
 }
 
 impl MeasuredProfile {
-    /// Reads a profile, or a row or column of a map, from the content of a file. Detrending requires equally spaced
-    /// points.
+    /// Reads a profile, or a row or column of a map, from the content of a file. Removing a polynomial requires equally
+    /// spaced points.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -61,14 +63,13 @@ impl MeasuredProfile {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
 
-    /// Distance between points, m, if these are the centres of cells that begin at x = 0.
+    /// Distance between points, m, if the points are centres of cells that begin at x = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
         first_uneven(&self.positions, 0.5 * cell, cell).is_none().then_some(cell)
     }
 
-    /// Root mean square height about the mean and root mean square gradient of the straight pieces
-    /// between the measured points.
+    /// Root mean square height (m) about the mean and root mean square gradient of the polyline through the measured points.
     fn rms_height_and_gradient(&self) -> (f64, f64) {
         let length = self.span();
         // Differences of heights, not heights: an offset may be far larger than the roughness.
@@ -86,9 +87,9 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the profile on its own
-    /// length with its end joined to its beginning: if the ends do not meet, the straight line between them is
-    /// subtracted first, because a step has energy in every wave and a tilt has none.
+    /// Roughness amplitude of the profile. Its mean wave number is Σ q_k A_k²/2h² over the modes of the periodically
+    /// continued profile. If the ends do not meet, the straight line between them is subtracted first, because a step has
+    /// energy in every wave and a tilt has none.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
@@ -111,12 +112,12 @@ impl MeasuredProfile {
         Ok(Amplitude { rms_height, rms_gradient, rms_curvature: curvature, mean_wave_number })
     }
 
-    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a
-    /// measured point its own height, bit for bit. If all heights of the profile are from half to twice the first,
-    /// the first is subtracted: the differences are then exact, and roughness with a large offset keeps its digits.
+    /// Heights, m, at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation; at a measured
+    /// point the measured height, bit for bit. If all heights are between half and twice the first one, the first is
+    /// subtracted: the differences are then exact, and roughness with a large offset keeps its digits.
     ///
     /// # Errors
-    /// A profile shorter than `length` m.
+    /// A profile shorter than `length` (m).
     pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, String> {
         let begins = self.begins(length).map_err(|covers| {
             format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
@@ -125,7 +126,8 @@ impl MeasuredProfile {
         heights.map_err(|error| error.to_string())
     }
 
-    /// Heights, m, at the centres of cells of this width from a position on, m, displaced by `shift` cells.
+    /// Heights, m, at the centres of `points` cells of this width (m), the first of which begins at `begins` (m), displaced
+    /// by `shift` cells.
     fn heights_from(
         &self,
         begins: f64,
@@ -137,7 +139,8 @@ impl MeasuredProfile {
         gathered(points, interpolated(&self.positions, &self.heights, self.level(), places))
     }
 
-    /// Position, m, of the beginning of a line of a length, m; the error is the covered length, m.
+    /// Position, m, at which a line of this length (m) begins on the profile; if the profile is too short, the error is the
+    /// length that it covers, m.
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
@@ -156,7 +159,7 @@ impl MeasuredProfile {
         if length <= covers + UNEVEN * distance { Ok(begins) } else { Err(covers) }
     }
 
-    /// Height, m, subtracted from all others: the first one, if all differences are exact, else 0.
+    /// Height, m, to subtract from all heights: the first one, if all differences from it are exact, else 0.
     fn level(&self) -> f64 {
         let first = self.heights[0];
         let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());
@@ -166,14 +169,15 @@ impl MeasuredProfile {
     }
 }
 
-/// Root mean square curvature, 1/m, of heights at this distance, m, by second differences.
+/// Root mean square curvature, 1/m, of heights at this spacing (m), by second differences.
 fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     let squares = heights.windows(3).map(|z| ((z[0] - z[1]) + (z[2] - z[1])).powi(2)).sum::<f64>();
     let count = heights.len().saturating_sub(2).max(1);
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
-/// Subtracts a straight line that makes the step from the last height to the first the mean of the steps beside it.
+/// Subtracts the straight line after which the step from the last height back to the first is the mean of the steps next to
+/// it.
 fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
@@ -181,10 +185,10 @@ fn join_ends(heights: &mut [f64]) {
     (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
-/// Files of a face with their content: samples of one roughness.
+/// Files of one face, each with its content: samples of the same roughness.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
-/// Reads the files of one or both faces.
+/// Reads the files of one or two faces.
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     let read = |path: &PathBuf| match content(path) {
         Ok(content) => Ok((path.clone(), content)),

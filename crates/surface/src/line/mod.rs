@@ -22,7 +22,7 @@ pub enum SurfaceError {
     /// The Fourier transform refused its input.
     #[error("roughness: the Fourier transform failed: {0}")]
     Transform(String),
-    /// The height at a spring, the first such one, is not finite.
+    /// The height at this spring, by index, is not finite; earlier ones are.
     #[error("the line has a height that is not finite at spring {0}; form and roughness are too large")]
     NotFinite(usize),
     /// A measured profile or the table of a form could not be read, or a table ends within the profile.
@@ -30,12 +30,12 @@ pub enum SurfaceError {
     File {
         /// Field of the scene, `roughness.file` or `form.file`.
         field: &'static str,
-        /// The file.
+        /// Path of the file.
         file: String,
-        /// Fault, with its place if known.
+        /// What is wrong, with the place in the file where it is known.
         reason: String,
     },
-    /// No spring lies under the punch, with the smallest allowed radius, m: the diameter is rounded to whole cells.
+    /// No spring lies under the punch, whose diameter is rounded to whole cells; the value is the smallest allowed radius, m.
     #[error(
         "form.radius: no spring lies under the punch; allowed: at least a quarter of the spacing, {0:e} m"
     )]
@@ -43,7 +43,7 @@ pub enum SurfaceError {
 }
 
 impl SurfaceError {
-    /// Creates the error of a measured file.
+    /// Creates the error of a file with a measured surface.
     pub fn measured(file: &Path, reason: &(impl ToString + ?Sized)) -> Self {
         let (field, file) = ("roughness.file", file.display().to_string());
         SurfaceError::File { field, file, reason: reason.to_string() }

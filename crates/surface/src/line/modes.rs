@@ -1,5 +1,5 @@
 //! Random phases of modes, independent of the grid, the number of modes and the platform; and Fourier coefficients of a
-//! self-affine profile, 64 modes at a time: loops over them have no branch, so the compiler computes several modes in one
+//! self-affine profile, 64 modes at a time, in loops without branches, so that the compiler computes several modes in one
 //! instruction.
 
 use super::spectrum::SelfAffine;
@@ -7,12 +7,12 @@ use asperity_fourier::Complex64;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, independent of the first drawn mode: no result
-/// depends on the number of threads.
+/// Number of modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, whichever mode is drawn first, so that no
+/// result depends on the number of threads.
 const BLOCK: usize = 64;
 
-/// Most terms of the series (1 + x)^p − 1. With |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term is below 1e-18, and
-/// with |x| ≤ 1/1024 already after 6 terms.
+/// Number of terms of the series (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term is below 1e-18; for |x|
+/// ≤ 1/1024 6 terms suffice.
 const TERMS: usize = 10;
 
 /// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first.
@@ -34,21 +34,21 @@ const COSINE: [f64; 6] = [
     -1.135_965_883_378_375_8e-11,
 ];
 
-/// Coefficients of the inverse transform that returns the profile on a grid.
+/// Coefficients of the inverse Fourier transform that yields the profile on a grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Modes {
     spectrum: SelfAffine,
     seed: u64,
-    /// Half the amplitude of mode 1: each cosine is a pair of exponentials.
+    /// Half the amplitude of mode 1, since each cosine is a pair of exponentials.
     half_amplitude: f64,
-    /// Turns by which the first point of the grid advances the phase of mode 1.
+    /// Phase of mode 1 at the first point of the grid, in turns.
     advance: f64,
     /// Coefficients of the series (1 + x)^exponent, without the leading 1.
     series: [f64; TERMS],
 }
 
 impl Modes {
-    /// The modes of a spectrum and a seed for a profile of rms height 1, on `points` points, the first of them
+    /// The modes of a profile of rms height 1 with this spectrum and seed, on `points` points, the first of which is
     /// `start` cells along the profile.
     pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
@@ -85,7 +85,7 @@ impl Modes {
         }
     }
 
-    /// Coefficients of the block of modes after mode `before`, from a random word for each.
+    /// Fills in the coefficients of the block that follows the mode `before`, from one random word for each mode.
     fn fill(&self, before: u64, words: &[u64; BLOCK], block: &mut [Complex64; BLOCK]) {
         let amplitudes = self.half_amplitudes(before);
         let before = before as f64;
@@ -97,7 +97,7 @@ impl Modes {
         }
     }
 
-    /// Half the amplitudes of the block of modes after mode `before`.
+    /// Half the amplitudes of the block that follows the mode `before`.
     fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
         // Below a roll-off each mode is computed by itself.
         match if (before as f64) < self.spectrum.roll_off_mode { 0 } else { before } {
@@ -108,7 +108,8 @@ impl Modes {
         }
     }
 
-    /// The same, each from the middle of its `SPAN` modes by the first `COUNT` terms of the series.
+    /// Half the amplitudes of the block that follows the mode `before`, each expanded about the middle of its `SPAN` modes
+    /// with the first `COUNT` terms of the series.
     #[inline(always)]
     fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(&self, before: u64) -> [f64; BLOCK] {
         let mut amplitudes = [0.0; BLOCK];
@@ -129,7 +130,7 @@ impl Modes {
     }
 }
 
-/// Sine and cosine of `turns` times 2π, for `turns` from 0 to 2.
+/// Sine and cosine of 2π `turns`, for `turns` from 0 to 2.
 #[inline(always)]
 fn sine_and_cosine(turns: f64) -> (f64, f64) {
     // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits. So the nearest
@@ -150,8 +151,8 @@ fn sine_and_cosine(turns: f64) -> (f64, f64) {
     (f64::from_bits(chosen(sine, cosine) ^ sine_sign), f64::from_bits(chosen(cosine, sine) ^ cosine_sign))
 }
 
-/// Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the steps of
-/// both are independent.
+/// Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the two sums do not
+/// wait for each other.
 #[inline(always)]
 fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     let square = x * x;
@@ -164,7 +165,7 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     even + x * odd
 }
 
-/// 1, 2, … as numbers, since conversions would not be vectorised.
+/// 1, 2, … as floating-point numbers, since conversions would not be vectorised.
 const COUNTS: [f64; BLOCK] = {
     let mut counts = [0.0; BLOCK];
     let mut lane = 0;
@@ -175,7 +176,7 @@ const COUNTS: [f64; BLOCK] = {
     counts
 };
 
-/// Separates this use of the generator from others; a change of the drawing of phases changes this text.
+/// Separates this use of the random generator from other uses; a change in how phases are drawn must change this text.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
 /// Phases φ_k of the modes k = `first`, `first` + 1, … of a seed, rad, uniform in [0, 2π).
@@ -189,7 +190,7 @@ pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Generator whose next 64-bit words belong to the modes `first`, `first` + 1, … of a seed.
+/// Random generator whose next 64-bit words belong to the modes `first`, `first` + 1, … of a seed.
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -200,10 +201,10 @@ pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     generator
 }
 
-/// Phase of a mode over 2π, from 0 to below 1: the upper 53 bits of its word.
+/// Phase of a mode over 2π, in [0, 1): the upper 53 bits of its random word.
 ///
-/// 52 bits become the digits of a number from 1 to 2, the last bit adds half a digit. Any processor computes this
-/// for several words in one instruction; few have such an instruction for the conversion of integers.
+/// 52 bits become the digits of a number from 1 to 2, and the last bit adds half a digit. Every processor does this for
+/// several words in one instruction, whereas few can convert several integers at once.
 #[inline(always)]
 pub(super) fn fraction(word: u64) -> f64 {
     const ONE: u64 = 1.0_f64.to_bits();

@@ -10,9 +10,9 @@ use std::sync::Arc;
 pub struct Line {
     /// Gaps c_i = max z − z_i ≥ 0, m, of the springs under the body.
     pub gaps: Arc<Vec<f64>>,
-    /// Index of the first of these springs on the foundation: above zero only under a punch.
+    /// Index along the foundation of the first spring under the body: above zero only under a punch.
     pub first: usize,
-    /// Springs N of the whole foundation.
+    /// Number of springs N of the whole foundation.
     pub points: usize,
     /// Length L of the whole foundation, m.
     pub length: f64,
@@ -25,10 +25,9 @@ pub struct Line {
 }
 
 impl Line {
-    /// The profile of a form (`None`: flat) plus heights of roughness: one for each point, times `scale` m, or none
-    /// for a smooth profile. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 if N is odd and half a cell
-    /// further if N is even; roughness has to be sampled with the same [`Form::shift`]. See [`Form::springs_under`]
-    /// for a punch.
+    /// Creates the profile of a form (`None`: flat) plus roughness: one height for each point, in units of `scale` (m), or
+    /// `None` for a smooth profile. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 for odd N and half a cell further
+    /// for even N; roughness has to be sampled with the same [`Form::shift`]. See [`Form::springs_under`] for a punch.
     ///
     /// # Errors
     /// [`SurfaceError::OutOfMemory`], [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
@@ -46,7 +45,7 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// The same for a form and roughness, whose memory becomes the memory of the gaps.
+    /// Creates the profile as [`Line::new`] does, from roughness whose memory becomes the memory of the gaps.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
@@ -81,12 +80,12 @@ impl Line {
         Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
     }
 
-    /// Heights z, m, of the points under the body; summit − z is their gap, bit for bit.
+    /// Heights z, m, of the points under the body; `summit` − z is their gap, bit for bit.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps.iter().map(|gap| self.height(*gap))
     }
 
-    /// Height, m, of a point with this gap.
+    /// Height, m, of a point with this gap (m).
     fn height(&self, gap: f64) -> f64 {
         let height = self.summit - gap;
         // The gap of the rounded height may be one digit off; then that of a neighbouring number is exact.
@@ -94,18 +93,18 @@ impl Line {
         nearby.into_iter().find(|height| self.summit - height == gap).unwrap_or(height)
     }
 
-    /// Position x, m, of the `index`-th spring under the body.
+    /// Position x, m, of the spring number `index` under the body, from 0.
     pub fn position(&self, index: usize) -> f64 {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
-    /// Height of the lowest point, m.
+    /// Height of the lowest point under the body, m.
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
     }
 }
 
-/// Largest value; `Err(index)` of the first non-finite value.
+/// Largest value; the error is the index of the first value that is not finite.
 fn largest(values: &[f64]) -> Result<f64, usize> {
     // In parallel: a sequence of comparisons would wait for each one.
     let mut largest = [f64::NEG_INFINITY; 8];
@@ -125,7 +124,7 @@ fn largest(values: &[f64]) -> Result<f64, usize> {
     Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
-/// Counts of heights in equal bins from the lowest to the highest.
+/// Numbers of heights in equal bins from the lowest to the highest height.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
     /// Lower end of the first bin, m.
@@ -137,8 +136,8 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts `heights` (m, finite) into `bins` bins between `low` and `high`, ends included; heights outside are
-    /// omitted. For a range of zero width all are in the first bin.
+    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included; heights outside are
+    /// omitted. For a range of zero width all heights are in the first bin.
     pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {
         let mut counts = vec![0; bins.max(1)];
         let last = counts.len() - 1;

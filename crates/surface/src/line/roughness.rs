@@ -1,4 +1,4 @@
-//! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse real Fourier transform.
+//! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse Fourier transform.
 
 use super::SurfaceError;
 use super::modes::{Modes, phases};
@@ -12,11 +12,11 @@ use std::sync::Arc;
 /// Number of modes below which another thread takes longer to start than it saves.
 const MANY_MODES: usize = 1 << 16;
 
-/// Largest number of springs whose transform is kept for the next profile. A kept transform takes 20 bytes per
-/// spring, which on longer profiles are worth more than the time saved.
+/// Largest number of springs for which the planned transform is kept for the next profile. It takes 20 bytes per spring,
+/// which on longer profiles are worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Synthesises profiles in sequence, and keeps the planned transform and its memory between them.
+/// Synthesises profiles one after the other, and keeps the planned transform and its memory between them.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
@@ -65,8 +65,8 @@ impl Synthesizer {
         self.transform((spectrum.first, spectrum.last), points, memory, draw)
     }
 
-    /// Sum of cosines with these amplitudes of the modes from a first to a last one, at most `points`/2, and the phases of
-    /// the seed; places as in [`Self::synthesize`].
+    /// Sum of the cosines of the modes `first..=last`, with these amplitudes (m) and the phases of the seed; `last` is at
+    /// most `points`/2. Positions are as in [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
@@ -85,8 +85,7 @@ impl Synthesizer {
         })
     }
 
-    /// Heights of the modes from a first to a last one; `draw` fills their coefficients ½ A_k e^(iφ), from the
-    /// first mode on.
+    /// Heights of the modes `first..=last`; `draw` fills in their coefficients ½ A_k e^(iφ), from the mode `first` on.
     fn transform(
         &mut self,
         (first, last): (u64, u64),
@@ -124,10 +123,9 @@ impl Synthesizer {
 
 impl SelfAffine {
     /// Synthesises heights in units of the rms height, eqs. (8) and (9), on `points` springs at x = (i + ½)L/N, at least
-    /// twice the last mode. Length and rms height scale the heights; they depend only on spectrum, seed, number and
-    /// position of the points.
+    /// twice the last mode. They depend only on spectrum, seed, and number and position of the points, not on the length.
     ///
-    /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile, to
+    /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile to within
     /// the rounding of the transform.
     pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {
         Synthesizer::default().synthesize(self, seed, points, 0.0, Vec::new())

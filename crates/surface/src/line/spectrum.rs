@@ -1,12 +1,12 @@
-//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), its mean squares, and amplitudes of profiles.
+//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9), and roughness amplitudes of profiles.
 
 use asperity_data::CompensatedSum;
 use std::f64::consts::TAU;
 
-/// Terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the others.
+/// Number of terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the rest.
 const DIRECT_TERMS: u64 = 64;
 
-/// B₂/2!, B₄/4!, …: after 64 terms the first omitted one is below 1e-18 of the sum.
+/// B₂/2!, B₄/4!, … of the Euler-Maclaurin formula: after 64 direct terms the first omitted one is below 1e-18 of the sum.
 const EULER_MACLAURIN: [f64; 5] =
     [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
 
@@ -20,13 +20,13 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, at least `first`.
     pub last: u64,
-    /// Mode of the roll-off, in waves per length: L over the wavelength of the roll-off, a whole number or not. 0 or any
-    /// value up to `first`: no roll-off.
+    /// Mode of the roll-off, in waves per length: L over the roll-off wavelength, which need not be a whole number. Any
+    /// value up to `first`, such as 0, means no roll-off.
     pub roll_off_mode: f64,
 }
 
 impl SelfAffine {
-    /// Amplitude of mode k over the amplitude of mode 1 of the same spectrum without a roll-off.
+    /// Amplitude of mode k over the amplitude that mode 1 has in the same spectrum without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
@@ -40,20 +40,20 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Root mean square of the sum of cosines with these relative amplitudes: √(Σ A_k²/2).
+    /// Root mean square of the sum of cosines with the relative amplitudes: √(Σ A_k²/2).
     pub fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()
     }
 
-    /// Rms gradient over rms height, 1/m, of a profile of length L in m: ⟨∇z⟩/h = √(Σ A_k² q_k² / Σ
-    /// A_k²), the sums over the modes of the profile.
+    /// Rms gradient over rms height, 1/m, of a profile of length L (m): ⟨∇z⟩/h = √(Σ A_k² q_k² / Σ A_k²), summed over the
+    /// modes of the profile.
     ///
-    /// Finite sums of positive terms: H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
+    /// As these are finite sums of positive terms, H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
     pub fn gradient_per_height(&self, length: f64) -> f64 {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Amplitude of a profile of rms height 1 on a length L in m: sums as in [`Self::gradient_per_height`].
+    /// Roughness amplitude of a profile of rms height 1 m and length L (m), by the sums of [`Self::gradient_per_height`].
     pub fn unit_amplitude(&self, length: f64) -> Amplitude {
         let (unit, height) = (std::f64::consts::TAU / length, self.moment(0));
         Amplitude {
@@ -67,8 +67,8 @@ impl SelfAffine {
     /// The same ratio as [`Self::gradient_per_height`] by the integrals of eqs. (5)–(7) and (12) over a continuum
     /// of modes: ⟨∇z⟩²/h² = ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
     ///
-    /// Differs from [`Self::gradient_per_height`] of the discrete modes because the first modes carry most of the
-    /// height. Zero for a single mode.
+    /// It differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. Zero for a
+    /// single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
         let between = self.roll_off_mode.max(low).min(high);
@@ -86,7 +86,7 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (integral(2) / height).sqrt()
     }
 
-    /// Σ k^power A_k² over the modes with the relative amplitudes, relative error a few units in the last place.
+    /// Σ k^power A_k² over the modes with the relative amplitudes, with a relative error of a few units in the last place.
     fn moment(&self, power: i32) -> f64 {
         let begins = (self.roll_off_mode.ceil() as u64).max(self.first).min(self.last.saturating_add(1));
         let decays = sum_of_powers(self.exponent(power), begins, self.last);
@@ -96,19 +96,19 @@ impl SelfAffine {
         decays + self.flat_level() * sum_of_powers(f64::from(power) + 1.0, self.first, begins - 1)
     }
 
-    /// Exponent of k^power A_k² above the roll-off.
+    /// Exponent of k in k^power A_k² for modes above the roll-off.
     fn exponent(&self, power: i32) -> f64 {
         f64::from(power) - 1.0 - 2.0 * self.hurst
     }
 
-    /// A_k²/k below the roll-off.
+    /// A_k²/k for modes below the roll-off.
     fn flat_level(&self) -> f64 {
         self.roll_off_mode.powf(-2.0 - 2.0 * self.hurst)
     }
 }
 
-/// Σ k^exponent for k = `first` … `last`, 0 without terms, relative error a few units in the last place, in a time independent of
-/// the number of terms.
+/// Σ k^exponent for k = `first` … `last`, 0 without terms, with a relative error of a few units in the last place, in a
+/// time that does not depend on the number of terms.
 fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     let end = last.min(first.saturating_add(DIRECT_TERMS - 1));
     let mut sum = CompensatedSum::default();
@@ -167,7 +167,7 @@ pub struct Amplitude {
 }
 
 impl Amplitude {
-    /// Amplitude of heights times a factor.
+    /// Amplitude of the profile with all heights multiplied by a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
@@ -177,7 +177,7 @@ impl Amplitude {
         }
     }
 
-    /// Amplitude of the same modes on a length `times` as large.
+    /// Amplitude of the profile stretched to `times` its length.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,
@@ -187,7 +187,7 @@ impl Amplitude {
         }
     }
 
-    /// Amplitude of the modes k with these mean squares A_k²/2, m², on a length (m); smallest first for accuracy.
+    /// Amplitude of modes k with these mean squares A_k²/2 (m²) on a length (m); the smallest come first, for accuracy.
     pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
         let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
         for (mode, square) in squares {

@@ -1,7 +1,7 @@
 //! A body of revolution from a table of radii and depths, and its MDR transform.
 //!
-//! Between two rows the depth is a cubic, with limited slopes at the rows, so that f′ is a + b s + c s² at the distance s
-//! from a row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr a sum over the gaps between rows.
+//! Between two rows the depth is a cubic with limited slopes at the rows, so that f′ = a + b s + c s² at the distance s
+//! behind a row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is a sum over the intervals between rows.
 
 use crate::topography::open::{content, parse};
 use crate::topography::reading::ReadOptions;
@@ -13,29 +13,29 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
-/// Points of the interpolation of the rows far inside, of an error of 1e-15.
+/// Number of points of the interpolation of the rows far inside, with an error of 1e-15.
 const NODES: usize = 20;
-/// Points of the equivalent profile for its figures.
+/// Number of points at which the equivalent profile is searched for its falling part.
 const STEPS: usize = 1024;
-/// Smallest distance of rows over the reach of a table: the digits of a file do not resolve a smaller one.
+/// Smallest allowed distance of two rows over the radius of the last row: the digits of a file resolve no smaller one.
 const CLOSEST: f64 = 1e-9;
 
-/// Sine of the angle of a gap below which the power series below are accurate to rounding.
+/// Sine of the angle of an interval between rows below which power series are accurate to rounding.
 const NARROW: f64 = 0.05;
-/// Coefficients of ascending powers of δ²: arcsin s over s, in powers of s².
+/// Power series of (arcsin s)/s in s².
 const ARCSINE: [f64; 6] = [1.0, 1.0 / 6.0, 3.0 / 40.0, 15.0 / 336.0, 105.0 / 3456.0, 945.0 / 42240.0];
-/// (1 − cos δ)/δ².
+/// Power series of (1 − cos δ)/δ² in δ².
 const VERSINE: [f64; 4] = [0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0];
-/// (δ − sin δ)/δ³.
+/// Power series of (δ − sin δ)/δ³ in δ².
 const ANGLE_LESS_SINE: [f64; 4] = [1.0 / 6.0, -1.0 / 120.0, 1.0 / 5040.0, -1.0 / 362880.0];
-/// ∫ sin² over δ³.
+/// Power series of ∫ sin² over δ³ in δ².
 const SQUARED_SINE: [f64; 4] = [1.0 / 3.0, -1.0 / 15.0, 2.0 / 315.0, -1.0 / 2835.0];
-/// ∫ (1 − cos)² over δ⁵.
+/// Power series of ∫ (1 − cos)² over δ⁵ in δ².
 const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0 / 1330560.0];
-/// Quadrature over the angle of a wider gap: f′ is a polynomial of its sine.
+/// Quadrature over the angle of a wider interval, in which f′ is a polynomial of the sine of the angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
-/// A form f(r) of rows (r, f), r ascending from 0.
+/// A form f(r) given by rows (r, f), with r ascending from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormTable {
     radii: Vec<f64>,
@@ -43,7 +43,7 @@ pub struct FormTable {
     slopes: Vec<[f64; 3]>,
 }
 
-/// The rows of a form, once they are read. Forms whose rows are not known are equal.
+/// The rows of a form, shared by its clones, once they are read. Forms whose rows are not read are equal.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -54,7 +54,7 @@ impl PartialEq for Rows {
 }
 
 impl FormTable {
-    /// Reads a table of two columns, in m unless the file states a unit, or this one.
+    /// Reads a table of two columns in m, unless the file states a unit or `unit` is given.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, TopographyError> {
         let convention = Some(Unit::METRE);
         let options = ReadOptions { unit, convention, interpolate: true, ..ReadOptions::default() };
@@ -66,10 +66,10 @@ impl FormTable {
         FormTable::new(radii, &depths)
     }
 
-    /// A form of depths, m, at two or more radii, m, ascending from 0.
+    /// Creates a form of depths (m) at two or more radii (m), ascending from 0.
     ///
     /// # Errors
-    /// Names the row and the allowed values.
+    /// The row at fault and the allowed values.
     pub fn new(radii: Vec<f64>, depths: &[f64]) -> Result<Self, TopographyError> {
         let (rows, reach) = (radii.len(), radii.last().copied().unwrap_or(0.0));
         let row = |index: usize| Place::Point(index + 1);
@@ -112,17 +112,18 @@ impl FormTable {
         self.radii[self.radii.len() - 1]
     }
 
-    /// Curvature at the summit, 1/m, where the form is round or flat there.
+    /// Curvature at the summit, 1/m; `None` for a pointed tip.
     pub(super) fn summit_curvature(&self) -> Option<f64> {
         let [slope, curvature, _] = self.slopes[0];
         let is_round = slope.abs() <= 0.1 * (curvature * self.radii[1]).abs();
         Some(curvature).filter(|curvature| is_round && *curvature >= 0.0)
     }
 
-    /// Part of g(x)/x of the gap behind a row, up to a radius `end` in it, at most x, m: ∫ f′(r)/√(x² − r²) dr.
+    /// Contribution of the interval behind a row to g(x)/x, up to the radius `end` (m) in it, at most x: ∫ f′(r)/√(x² − r²)
+    /// dr.
     ///
-    /// With the angles arcsin(r/x), of the row and of r, apart by δ, r is u + c sin δ − u (1 − cos δ), where u is the radius
-    /// of the row and c = √(x² − u²): no term cancels, however close the rows.
+    /// With δ the difference of the angles arcsin(r/x) of r and of the row, r = u + c sin δ − u (1 − cos δ), where u is the
+    /// radius of the row and c = √(x² − u²): no term cancels, however close the rows.
     fn part(&self, row: usize, x: f64, end: f64) -> f64 {
         let (u, [a, b, c]) = (self.radii[row], self.slopes[row]);
         // Of a point on the row, rounding may leave x below u.
@@ -152,7 +153,7 @@ impl FormTable {
         angle * RULE.iter().map(slope).sum::<f64>()
     }
 
-    /// Sum of the parts of the gaps behind these rows, all of which end at x or below, m.
+    /// Contribution of the intervals behind these rows to g(x)/x; all of them end at x or below (m).
     fn parts(&self, rows: Range<usize>, x: f64) -> f64 {
         rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
     }
@@ -163,10 +164,10 @@ impl FormTable {
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Depths g, m, at `count` multiples of a distance from the axis, m, from 0 on.
+    /// Depths g, m, at `count` multiples of `spacing` (m) from the axis, beginning on it.
     ///
-    /// One depth takes a root for each row below. Between two rows with many of the points, rows at least that gap
-    /// away are interpolated there by a polynomial.
+    /// One depth takes a square root for each row below it. Between two rows with many points, the rows at least one
+    /// interval away are therefore interpolated by a polynomial.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {
@@ -203,7 +204,8 @@ impl FormTable {
         Ok(depths)
     }
 
-    /// Distance from the axis, m, from which on the equivalent profile falls, within a radius, m.
+    /// Distance from the axis, m, at which the equivalent profile begins to fall, within a radius (m); `None` if it never
+    /// falls.
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;

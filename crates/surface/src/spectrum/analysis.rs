@@ -1,4 +1,4 @@
-//! Analysis of measured surfaces: statistics, spectra, equivalent line, and their limits.
+//! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and their limits.
 
 use super::SpectrumError;
 use super::fit::{Model, PowerLaw, fit_power_law};
@@ -14,41 +14,42 @@ use crate::topography::surface::Topography;
 use crate::topography::{Place, TopographyError};
 use std::f64::consts::{PI, TAU};
 
-/// Fewest points along a row, and rows of a map.
+/// Smallest allowed number of points along a row and of rows of a map.
 const LEAST_POINTS: usize = 32;
 
-/// Share of the squared gradient that may be beyond the end of the spectrum.
+/// Share of the squared gradient that waves beyond the end of the spectrum may have.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// Part of the waves, the last ones, from which the floor of interpolated points follows, and the share of the floor that is
-/// chance.
+/// The last 1/`FLOOR` of the waves give the noise floor of interpolated points; `CHANCE` is the share of the floor that is
+/// attributed to chance.
 const FLOOR: usize = 8;
 const CHANCE: f64 = 0.25;
 
-/// Largest ratio of the powers beyond the end of the spectrum to the powers of as many waves before.
+/// Largest ratio of the power beyond the end of the spectrum to the power of as many waves before it.
 const DROP: f64 = 0.03;
 
-/// Least ratio of length and width of a map whose longest waves are the waves along the length.
+/// Smallest ratio of length to width of a map whose longest waves are taken from its rows alone.
 const NARROW: f64 = 2.0;
 
-/// Waves before an end inside the scan that the self-affine fit leaves out.
+/// Number of waves before an end inside the scan that the self-affine fit leaves out.
 const BEFORE_END: f64 = 4.0;
 
-/// Relative difference of lengths and of distances of points of equal scans.
+/// Relative difference within which lengths, or distances between points, of two scans count as equal.
 const SAME: f64 = 1e-6;
 
-/// Wave numbers to which a spectrum without an end may continue, over the last resolved one.
+/// Largest ratio of the wave number up to which a spectrum may be continued to the last resolved wave number.
 const CONTINUED: f64 = 4.0;
 
-/// Choices of an analysis.
+/// Options of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Part removed before the analysis; `None`: as a container states, else the tilt, or the mean of a periodic surface,
-    /// where a plane would leave a step at the borders.
+    /// Polynomial removed before the analysis. `None`: as a container states, else the tilt, or only the mean of a periodic
+    /// surface, where removing a plane would leave a step at the borders.
     pub detrend: Option<Detrend>,
-    /// True if the surface repeats itself at its borders, as a container may state too: then no window is used.
+    /// True for a surface that continues periodically at its borders, for which no window is used. A container may state it
+    /// too.
     pub periodic: bool,
-    /// End of the spectrum.
+    /// Where the spectrum ends.
     pub end: End,
     /// Radius of the tip that measured the surface, m.
     pub tip_radius: Option<f64>,
@@ -57,48 +58,50 @@ pub struct Options {
 /// Statistics, spectra and equivalent line of measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// Statistics of the points.
+    /// Statistics of the measured points.
     pub statistics: PointStatistics,
     /// Rms height of each surface, m.
     pub rms_heights: Vec<f64>,
-    /// Spectra of the measured surfaces, in bins.
+    /// Spectra of the measured surfaces by direction, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
-    /// Underlying isotropic spectrum.
+    /// Isotropic spectrum C2D of which the surfaces are samples.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine fit; `None` if it does not converge.
+    /// Self-affine fit; `None` if it does not converge or fits no exponent between 0 and 1.
     pub power_law: Option<PowerLaw>,
     /// Moments of the equivalent line.
     pub line: LineMoments,
-    /// Shortest reliable wavelength for the tip, m: the largest of all surfaces.
+    /// Shortest wavelength that the tip resolves reliably, m; the largest of all surfaces.
     pub reliability_cutoff: Option<f64>,
     /// Number of profiles.
     pub profiles: u64,
     /// Number of maps.
     pub maps: u64,
-    /// Largest length along a row, m.
+    /// Largest length along a row of all surfaces, m.
     pub length: f64,
-    /// End of the spectrum.
+    /// Where the spectrum ends.
     pub end: End,
     /// True if the spectrum ends before the last resolved wave.
     pub ends_inside: bool,
-    /// True if waves along one axis of a map alone are left out, because its rows or columns are offset against each other or
-    /// were levelled one by one.
+    /// True if the waves parallel to one axis of a map are left out, because its rows or columns are offset against each
+    /// other or were levelled one by one.
     pub offsets: bool,
-    /// Share of the squared gradient by which the waves along one axis depart from their neighbours in the plane although they
-    /// are not left out; 0 for chance.
+    /// Share of the squared gradient by which the waves parallel to one axis depart from waves in neighbouring directions
+    /// although they are not left out; 0 where that may be chance.
     pub apart: f64,
-    /// Distance, m, by which odd rows of a map are displaced along even ones, as rows of two scans are; the largest one.
+    /// Distance, m, by which odd rows of a map are displaced against even rows, as if they were from two scans; the largest
+    /// of all maps.
     pub displaced: Option<f64>,
 }
 
-/// Powers of all surfaces, profiles of equal points together.
+/// Power spectra of all surfaces; profiles with equal points are summed.
 #[derive(Default)]
 struct Powers {
     profiles: Vec<ProfilePower>,
     maps: Vec<MapPower>,
-    /// Powers along long and narrow maps, with the wave number, rad/m, below which the powers of the map are not used.
+    /// Power spectra along long and narrow maps, with the wave number, rad/m, below which they replace the spectrum of the
+    /// map.
     strips: Vec<(ProfilePower, f64)>,
-    /// Powers along the rows and the columns of maps, for display.
+    /// Power spectra along the rows and along the columns of maps, for display.
     axes: [Vec<ProfilePower>; 2],
 }
 
@@ -222,7 +225,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     })
 }
 
-/// Checks that the heights after detrending exceed the rounding errors of the original ones.
+/// Checks that the heights without the removed polynomial exceed the rounding errors of the original heights.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
     let left = largest(after);
@@ -233,8 +236,8 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
 }
 
 impl Powers {
-    /// Powers of the detrended heights of surfaces, copied as by [`Topography::copied_heights`], which `check` receives with
-    /// the distances between the points.
+    /// Power spectra of surfaces after removal of a polynomial. The heights are from [`Topography::copied_heights`];
+    /// `check` receives them with the distances between the points (m).
     fn of(
         surfaces: &[Topography],
         options: &Options,
@@ -309,8 +312,8 @@ impl Powers {
             .collect()
     }
 
-    /// Wave numbers from wave 1 of the longest surface to half a wave beyond the last of the finest profile, or the last of the
-    /// finest map; `last` of their waves.
+    /// Range of wave numbers, rad/m, from wave 1 of the longest surface to the last wave of the finest surface, for
+    /// profiles half a wave further; `last` returns the number of the last wave of a spectrum.
     fn range(&self, last: impl Fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let count = last(&power.waves);
@@ -342,9 +345,10 @@ impl Powers {
     }
 }
 
-/// Finds the end of a spectrum of waves (wave number, power): the number of waves after which the rest has a negligible share
-/// of the squared gradient and far smaller powers; all waves if the spectrum has no end. The powers of errors of single
-/// interpolated points are alike in all waves: with such a floor, as the last waves have it, only the excess above counts.
+/// Finds the end of a spectrum of waves (wave number, power): returns the number of waves after which the rest has a
+/// negligible share of the squared gradient and far smaller power, or the number of all waves if the spectrum has no end.
+/// With `has_floor` only the power above the level of the last waves counts: errors of single interpolated points add the
+/// same power to all waves.
 fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     let sum = |waves: &[(f64, f64)]| waves.iter().map(square).sum::<f64>();
     let squares = |waves: &[(f64, f64)]| waves.iter().map(|(q, _)| q * q).sum::<f64>();
@@ -364,7 +368,7 @@ fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     if rest * before as f64 <= DROP * as_many * beyond as f64 { end } else { waves.len() }
 }
 
-/// The powers of profiles of these points, newly made if there are none yet.
+/// The power spectrum of profiles with this number and spacing of points; a new one if there is none yet.
 fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: bool) -> &mut ProfilePower {
     let same = |power: &ProfilePower| power.points == points && (power.spacing / spacing - 1.0).abs() < SAME;
     let index = powers.iter().position(same).unwrap_or_else(|| {
@@ -375,7 +379,7 @@ fn group(powers: &mut Vec<ProfilePower>, points: usize, spacing: f64, windowed: 
 }
 
 impl Analysis {
-    /// Share of the squared height in waves longer than a quarter of the scan, which are few.
+    /// Share of the squared height that lies in waves longer than a quarter of the scan, of which there are few.
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

@@ -1,27 +1,27 @@
-//! Spectrum of the largest penalised likelihood (Whittle): powers of waves are exponentially distributed about their means.
+//! The spectrum of largest penalised likelihood (Whittle): powers of waves are exponentially distributed about their means.
 //!
 //! Over the values x = ln C2D at the nodes, Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised, with the
-//! observed powers P of w waves and their means m(x). Steps follow Fisher's scoring, halved until they descend.
+//! observed powers P of w waves each and their means m(x). Steps follow Fisher's scoring and are halved until the sum falls.
 //!
-//! Beside it the self-affine fit: C2D constant below a roll-off wave number, ∝ q^(−2−2H) above.
+//! Also the self-affine fit: C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
 
 use super::isotropic::{End, Estimate, IsotropicSpectrum, Nodes, Term, cut};
 use super::linear::Cholesky;
 use super::observation::Observation;
 use std::f64::consts::TAU;
 
-/// Weight λ of the second differences.
+/// Weight λ of the squared second differences.
 const SMOOTHNESS: f64 = 1.0;
 
 const NODES_PER_DECADE: f64 = 6.0;
 
-/// Most steps, and the decrease of the objective that ends the search.
+/// Limit of the number of steps, and the decrease of the objective below which the search ends.
 const MOST_STEPS: usize = 200;
 const SMALL_DECREASE: f64 = 1e-9;
 
 const LARGEST_STEP: f64 = 1.5;
 
-/// Observations with the terms of their means.
+/// Observed powers, with the terms that give their means from a spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
     pub terms: Vec<Vec<Term>>,
@@ -29,20 +29,20 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// Model with nodes from the smallest to the largest observed wave number, including half a wave.
+    /// Creates a model with nodes over the range of wave numbers of the observations, rad/m.
     pub fn new(observations: &'a [Observation], [low, high]: [f64; 2], end: End) -> Self {
         let nodes = Nodes::new(low, high, NODES_PER_DECADE, end);
         let terms = observations.iter().map(|observation| observation.terms(&nodes)).collect();
         Model { observations, terms, nodes }
     }
 
-    /// Objective for given means, without the penalty.
+    /// Objective without the penalty, for given means of the powers.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         let each = self.observations.iter().zip(means);
         each.map(|(observed, mean)| observed.waves * (observed.power / mean + mean.ln())).sum()
     }
 
-    /// Means of the observed powers for these values.
+    /// Means of the observed powers for these values of ln C2D at the nodes.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms.iter().map(|terms| terms.iter().map(|term| term.value(values)).sum::<f64>())
     }
@@ -52,7 +52,7 @@ impl<'a> Model<'a> {
         self.misfit(self.means(values)) + SMOOTHNESS * rough
     }
 
-    /// Gradient and information matrix of the objective.
+    /// Gradient and information matrix of the objective at these values.
     fn linearise(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let count = values.len();
         let (mut gradient, mut information) = (vec![0.0; count], vec![0.0; count * count]);
@@ -87,8 +87,7 @@ impl<'a> Model<'a> {
         (gradient, information)
     }
 
-    /// Initial values: powers of cuts as if C2D were a power law with the exponent −3, constant outside the
-    /// observations.
+    /// Initial values: C2D from the powers as if it were a power law with the exponent −3, constant outside the observations.
     fn start(&self) -> Vec<f64> {
         let count = self.nodes.count;
         let mut sums = vec![(0.0, 0.0); count];
@@ -118,8 +117,8 @@ impl<'a> Model<'a> {
         (0..count).map(between).collect()
     }
 
-    /// Spectrum of the smallest objective; `None` if the information matrix is not positive definite, as for powers
-    /// that are zero or not finite.
+    /// Finds the spectrum of the smallest objective; `None` if the information matrix is not positive definite, as for
+    /// powers that are zero or not finite.
     pub fn fit(&self) -> Option<IsotropicSpectrum> {
         let moved = |values: &Vec<f64>, step: &[f64], share: f64| {
             let largest = step.iter().fold(0.0_f64, |largest, change| largest.max(change.abs()));
@@ -137,8 +136,9 @@ impl<'a> Model<'a> {
         Some(found)
     }
 
-    /// Largest departure of the moments of the measured powers from the moments of the fitted means over the same waves, among
-    /// profiles or maps of one kind, relative to the moments of the whole spectrum. Of several kinds, only what is beyond chance.
+    /// Largest difference between the moments of the measured powers and the moments of the fitted means over the same
+    /// waves, relative to the moments of the whole spectrum, among profiles and maps of one kind. Of several kinds, only
+    /// the excess over chance counts.
     fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
         let mut largest = [0.0_f64; 3];
         let mut means = self.means(&found.values);
@@ -164,8 +164,9 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Descends to the least objective by Fisher's scoring: steps solve the linearised equations (gradient, information matrix)
-/// and are halved until they descend; `moved` makes a share of a step. `None` if an information matrix is not positive definite.
+/// Minimises an objective by Fisher's scoring: steps solve the linearised equations (gradient, information matrix) and are
+/// halved until the objective falls; `moved` makes a share of a step. `None` if an information matrix is not positive
+/// definite.
 pub(super) fn descend<P>(
     start: P,
     most_steps: usize,
@@ -190,14 +191,14 @@ pub(super) fn descend<P>(
     least.is_finite().then_some((parameters, least))
 }
 
-/// Least gain of the log-likelihood for a roll-off: for one more parameter, chance exceeds this once in a hundred
-/// times.
+/// Gain of the log-likelihood that justifies a roll-off: with one more parameter, chance exceeds this gain once in a
+/// hundred times.
 const LEAST_GAIN: f64 = 3.3;
 
-/// Initial wave numbers of the roll-off per decade.
+/// Number of initial roll-off wave numbers per decade.
 const STARTS_PER_DECADE: f64 = 4.0;
 
-/// Steps from each start, and from the best one.
+/// Number of steps from each initial wave number, and then from the best result.
 const FEW_STEPS: usize = 6;
 const MOST_SEARCHED: usize = 60;
 
@@ -210,12 +211,12 @@ pub struct PowerLaw {
     pub hurst: Estimate,
     /// Roll-off wave number, rad/m; `None` without a roll-off.
     pub roll_off: Option<Estimate>,
-    /// C2D at the roll-off, or at the first wave number without one, m⁴.
+    /// C2D at the roll-off, or at the first wave number if there is no roll-off, m⁴.
     pub level: Estimate,
 }
 
 impl PowerLaw {
-    /// PSD of a cut, m³, at a wave number, for a spectrum over a range of wave numbers, rad/m.
+    /// PSD of a cut through the surface, m³, at a wave number, for a spectrum between two wave numbers, all in rad/m.
     pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
         let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);
@@ -223,7 +224,7 @@ impl PowerLaw {
     }
 }
 
-/// Parameters: ln C2D of the level, H, ln q of the roll-off.
+/// Parameters of the self-affine fit: ln C2D at the roll-off, H, ln q of the roll-off.
 #[derive(Clone, Copy, Debug)]
 struct Parameters {
     level: f64,
@@ -251,8 +252,8 @@ impl Parameters {
     }
 }
 
-/// Fit to the observations of a model, which the spectrum explains; `None` if it does not converge or no exponent between 0
-/// and 1 fits.
+/// Self-affine fit to the observations of a model; `spectrum` is the fit with nodes to the same observations. `None` if it
+/// does not converge or no exponent between 0 and 1 fits.
 pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<PowerLaw> {
     let low = model.nodes.first;
     let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
@@ -305,7 +306,7 @@ fn means<'a>(model: &'a Model<'_>, parameters: &'a Parameters) -> impl Iterator<
     model.terms.iter().map(|terms| terms.iter().map(|term| term.weight * parameters.value(term.ln_q)).sum())
 }
 
-/// Descends over the first `free` parameters from a start.
+/// Minimises the misfit over the first `free` parameters, from initial values.
 fn search(
     model: &Model<'_>,
     start: Parameters,
@@ -319,7 +320,7 @@ fn search(
     descend(start, most_steps, misfit, linearise, moved)
 }
 
-/// Gradient and information matrix of the misfit by the first `free` parameters.
+/// Gradient and information matrix of the misfit with respect to the first `free` parameters.
 fn linearise(model: &Model<'_>, parameters: &Parameters, free: usize) -> (Vec<f64>, Vec<f64>) {
     let (mut gradient, mut information) = (vec![0.0; free], vec![0.0; free * free]);
     for (observed, terms) in model.observations.iter().zip(&model.terms) {

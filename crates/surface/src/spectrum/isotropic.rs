@@ -1,4 +1,4 @@
-//! Isotropic spectra C2D(q) between nodes, and their equivalent lines.
+//! Isotropic spectra C2D(q), given at nodes, and the equivalent lines of these spectra.
 
 use super::linear::Cholesky;
 use super::statistics::PointStatistics;
@@ -10,20 +10,21 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 #[cfg(test)]
 pub(super) use tests::known;
 
-/// Separates this use of the random generator from others.
+/// Separates this use of the random generator from other uses.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
-/// Half of the nodes and weights of Gauss-Legendre quadrature on (−1, 1): errors below 1e-9 for the pieces used here.
+/// The positive nodes of Gauss-Legendre quadrature on (−1, 1) with six nodes, and their weights: errors are below 1e-9 for
+/// the pieces used here.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
     (0.932_469_514_203_152, 0.171_324_492_379_170_36),
 ];
 
-/// Pieces of the integral over u in [`cut`] per unit.
+/// Number of quadrature pieces per unit of u in [`cut`].
 const CUT_PIECES: f64 = 8.0;
 
-/// Points and weights of the rule on a piece.
+/// Points and weights of the quadrature from `low` to `high`.
 pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     GAUSS
@@ -31,7 +32,8 @@ pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
         .flat_map(move |(place, weight)| [-place, place].map(|place| (middle + half * place, half * weight)))
 }
 
-/// C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt, m³, of a spectrum up to a wave number, rad/m: with t = k sinh u.
+/// C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt, m³, of a spectrum that ends at the wave number `end`, rad/m, by the substitution
+/// t = k sinh u.
 pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     let last = (end / wave_number).max(1.0).acosh();
     let pieces = (CUT_PIECES * last).ceil();
@@ -41,13 +43,13 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     terms.sum::<f64>() * wave_number / PI
 }
 
-/// End of a spectrum beyond the last resolved wave.
+/// Whether a spectrum has waves beyond the last resolved wave.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
-    /// No waves beyond the last resolved one.
+    /// The surface has no waves beyond the last resolved one.
     #[default]
     Ends,
-    /// Waves continue as the power law of the last decade part up to a wave number, rad/m.
+    /// Waves continue up to this wave number, rad/m, by the power law of the last resolved part of a decade.
     Continues(f64),
 }
 
@@ -60,25 +62,26 @@ pub struct Estimate {
     pub error: f64,
 }
 
-/// Value from a spectrum with its errors, all in the unit of the value.
+/// A moment of a spectrum with its errors, all in the unit of the moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Moment {
     /// Value.
     pub value: f64,
     /// Standard error of likelihood and method together.
     pub error: f64,
-    /// Standard error of the likelihood: few waves are measured.
+    /// Standard error of the likelihood, since the number of measured waves is finite.
     pub statistical: f64,
-    /// Error of the method: departure of the fit from the moments of the measured powers, and interpolated points.
+    /// Error of the method: difference between the fit and the moments of the measured powers, and the error of
+    /// interpolated points.
     pub method: f64,
-    /// Largest change of the value, of the resolved waves or of all waves, if the spectrum continues beyond its last
-    /// resolved wave, as a power law to a quarter of that wavelength: short waves are missing, and in samples of points add to
-    /// the powers of longer ones. Zero for a spectrum that ends inside the scan or is continued.
+    /// Largest change of the value if the spectrum continues as a power law down to a quarter of the last resolved
+    /// wavelength: short waves are then missing, and by aliasing they add to the power of longer waves. Zero for a spectrum
+    /// that ends inside the scan or is continued.
     pub missing_short_waves: f64,
 }
 
 impl Moment {
-    /// Value with relative errors.
+    /// Creates a moment from its value and its relative errors.
     fn new(value: f64, statistical: f64, method: f64, missing_short_waves: f64) -> Self {
         let [statistical, method, missing_short_waves] =
             [statistical, method, missing_short_waves].map(|error| error * value);
@@ -101,33 +104,33 @@ impl Moment {
     }
 }
 
-/// Moments of the equivalent line of a spectrum.
+/// Moments of the equivalent line, over all its waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineMoments {
     /// Rms height h, m.
     pub rms_height: Moment,
     /// Rms gradient ⟨∇z⟩.
     pub rms_gradient: Moment,
-    /// Product h⟨∇z⟩, m, to which κ² is proportional. The factors are not independent.
+    /// Product h⟨∇z⟩, m, to which κ² is proportional; its error accounts for the correlation of both factors.
     pub height_gradient: Moment,
-    /// Elastic energy of full contact over the effective modulus, e_el/E*, m.
+    /// Elastic energy of conformity over the effective modulus, e_el/E*, m.
     pub energy_per_modulus: Moment,
 }
 
-/// Nodes at equal distances of ln q.
+/// Nodes equally spaced in ln q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nodes {
     /// ln q of the first node.
     pub first: f64,
-    /// Distance of ln q.
+    /// Distance between nodes in ln q.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum, rad/m; beyond the last node for a spectrum that continues.
+    /// Largest wave number of the spectrum, rad/m; beyond the last node for a spectrum that is continued.
     pub end: f64,
 }
 
 impl Nodes {
-    /// Nodes between two wave numbers, `per_decade` of them in a decade, of a spectrum with this end.
+    /// Creates nodes between two wave numbers, rad/m, `per_decade` of them in a decade, for a spectrum with this end.
     pub fn new(low: f64, high: f64, per_decade: f64, end: End) -> Self {
         let decades = (high / low).log10();
         let pieces = (per_decade * decades).ceil().max(2.0);
@@ -144,15 +147,15 @@ impl Nodes {
         (self.first + index as f64 * self.step).exp()
     }
 
-    /// Node below ln q and the share of the node above: constant below the first node, extrapolated beyond the last
-    /// one.
+    /// Index of the node below ln q, and the share of the way to the next node: a spectrum is constant below the first node
+    /// and extrapolated beyond the last.
     pub fn place(&self, ln_q: f64) -> (usize, f64) {
         let place = ((ln_q - self.first) / self.step).max(0.0);
         let index = (place as usize).min(self.count - 2);
         (index, place - index as f64)
     }
 
-    /// Limits of the wave numbers between which the spectrum is a power law: the given one, nodes, the end.
+    /// Intervals of the wave number, rad/m, from `low` to the end of the spectrum, in each of which it is a power law.
     pub fn pieces_from(self, low: f64) -> impl Iterator<Item = (f64, f64)> {
         let index = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
         // The logarithm of zero is below all nodes.
@@ -166,7 +169,7 @@ impl Nodes {
         })
     }
 
-    /// Value at a wave number, rad/m, times a weight: a term of a sum over the spectrum.
+    /// The term `weight` × C2D(q) of a sum over the spectrum, at a wave number q, rad/m.
     pub fn term(&self, q: f64, weight: f64) -> Term {
         let ln_q = q.ln();
         let (index, share) = self.place(ln_q);
@@ -174,7 +177,7 @@ impl Nodes {
     }
 }
 
-/// A weight times C2D at ln q, between a node and the next.
+/// A weight times C2D at ln q, which lies between a node and the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Term {
     pub weight: f64,
@@ -184,7 +187,7 @@ pub(super) struct Term {
 }
 
 impl Term {
-    /// Value for these ln C2D of the nodes.
+    /// Value of the term for these values of ln C2D at the nodes.
     pub fn value(&self, values: &[f64]) -> f64 {
         self.weight * ((1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]).exp()
     }
@@ -193,13 +196,13 @@ impl Term {
 /// Values of a spectrum at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Node {
-    /// Wave number q, rad/m.
+    /// Wave number q of the node, rad/m.
     pub wave_number: f64,
     /// C2D(q), m⁴.
     pub c2d: f64,
     /// Standard error of ln C2D(q).
     pub relative_error: f64,
-    /// PSD of the equivalent line, m³.
+    /// PSD of the equivalent line at q, m³.
     pub line: f64,
 }
 
@@ -209,11 +212,11 @@ pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
     /// ln C2D at the nodes.
     pub(super) values: Vec<f64>,
-    /// Information matrix of the values.
+    /// Information matrix of `values`.
     pub(super) information: Cholesky,
-    /// Relative errors of ∫ q^power C2D dq, power = 1, 2, 3, by the method.
+    /// Relative errors of ∫ q^power C2D dq for power = 1, 2, 3 that come from the method.
     pub(super) method: [f64; 3],
-    /// Relative changes of these integrals by short waves that may be missing.
+    /// Relative changes of the same integrals if short waves are missing.
     pub(super) missing: [f64; 3],
 }
 
@@ -233,17 +236,17 @@ impl IsotropicSpectrum {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Last node, rad/m: the last resolved wave number.
+    /// Last resolved wave number, rad/m: the last node.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
 
-    /// First and last wave number, rad/m.
+    /// First and last wave number of the spectrum, rad/m.
     pub fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
     }
 
-    /// The values at the nodes.
+    /// The nodes, with the spectrum and its error at each.
     pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {
             let wave_number = self.nodes.wave_number(index);
@@ -252,8 +255,8 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// The spectrum with its values of ln C2D moved by a share of steps drawn from the normal distribution of the
-    /// fit. Equal numbers have equal steps.
+    /// The spectrum with ln C2D at the nodes changed by `share` of a random step, drawn from the normal distribution of the
+    /// fit's errors. `number` selects the step: equal numbers give equal steps.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&number.to_le_bytes());
@@ -275,7 +278,8 @@ impl IsotropicSpectrum {
         ((1.0 - share) * self.values[index] + share * self.values[index + 1]).exp()
     }
 
-    /// ∫ q^power C2D dq over waves from a wave number on, and its derivatives by the values.
+    /// ∫ q^power C2D dq over waves from a wave number (rad/m) on, and its derivatives with respect to the values at the
+    /// nodes.
     pub(super) fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
         let (mut sum, mut gradient) = (0.0, vec![0.0; self.values.len()]);
         for (low, high) in self.nodes.pieces_from(from) {
@@ -290,19 +294,20 @@ impl IsotropicSpectrum {
         (sum, gradient)
     }
 
-    /// ∫ q^power C2D dq, power = 1, 2, 3, of the equivalent line.
+    /// ∫ q^power C2D dq for power = 1, 2, 3 over the waves of the equivalent line.
     pub(super) fn integrals(&self) -> [f64; 3] {
         [1, 2, 3].map(|power| self.moment(power, 0.5 * self.nodes.wave_number(0)).0)
     }
 
-    /// Relative changes of these integrals in another spectrum.
+    /// Relative differences of these integrals in another spectrum.
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let (here, there) = (self.integrals(), other.integrals());
         [0, 1, 2].map(|index| there[index] / here[index] - 1.0)
     }
 
-    /// Adds to the errors of the method what the rms height and gradient of the line depart from a height, if it is known, and
-    /// the gradient of the measured points by more than three standard errors, as for a spike under the window.
+    /// Adds to the errors of the method by how much the rms height of the line departs from the measured height, if that is
+    /// known, and its rms gradient by more than three standard errors from the gradient of the measured points, as after a
+    /// spike that the window hides.
     pub(super) fn check_identities(&mut self, height: Option<f64>, measured: &PointStatistics) {
         let resolved = line_moments(std::slice::from_ref(self));
         let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
@@ -320,8 +325,8 @@ impl IsotropicSpectrum {
     }
 }
 
-/// Moments of the equivalent line of faces with independent spectra, which add. The waves begin at half the first
-/// wave number known of all faces: wave 1 of a length covers the range from ½ to 1½.
+/// Moments of the equivalent line of faces with independent spectra, whose sum it has. The waves begin at half the first
+/// wave number known for all faces, since wave 1 of a length represents the range from ½ to 1½.
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces.iter().map(|face| 0.5 * face.nodes.wave_number(0)).fold(0.0, f64::max);
     let moments = |power: i32| faces.iter().map(|face| face.moment(power, from)).collect::<Vec<_>>();

@@ -2,16 +2,16 @@
 
 use crate::topography::surface::Detrend;
 
-/// Cholesky factor of a symmetric positive definite matrix.
+/// Cholesky factor L of a symmetric positive definite matrix M = L Lᵀ.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cholesky {
     size: usize,
-    /// Lower triangle, row by row of the full matrix.
+    /// Lower triangle L, stored row by row of the full matrix.
     factor: Vec<f64>,
 }
 
 impl Cholesky {
-    /// Factor of a matrix of `size` rows, from its lower triangle. `None` unless the matrix is positive definite.
+    /// Factorises a matrix of `size` rows, of which only the lower triangle is used. `None` unless it is positive definite.
     pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
         for row in 0..size {
             for column in 0..=row {
@@ -38,7 +38,7 @@ impl Cholesky {
         self.solve_transposed(right)
     }
 
-    /// Solution of Lᵀ x = b with the factor L. For independent normal b of variance 1 it has the covariance M⁻¹.
+    /// Solution x of Lᵀ x = b. For independent normal b of variance 1, x has the covariance M⁻¹.
     pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
         let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in (0..self.size).rev() {
@@ -48,7 +48,7 @@ impl Cholesky {
         right
     }
 
-    /// √(M⁻¹)ᵢᵢ: the standard error of a parameter, if M is an information matrix.
+    /// √(M⁻¹)ᵢᵢ: the standard error of parameter i, if M is an information matrix.
     pub fn standard_error(&self, index: usize) -> f64 {
         let mut gradient = vec![0.0; self.size];
         gradient[index] = 1.0;
@@ -63,7 +63,7 @@ impl Cholesky {
 }
 
 impl Detrend {
-    /// Monomials (powers of x and y) removed from a profile or a map.
+    /// Exponents of x and y of the monomials that are removed from a profile or a map.
     fn monomials(self, is_map: bool) -> Vec<[i32; 2]> {
         let degrees = match self {
             Detrend::None => 0..0,
@@ -75,7 +75,7 @@ impl Detrend {
         degrees.flat_map(of_degree).filter(|[_, y]| is_map || *y == 0).collect()
     }
 
-    /// Removes the polynomial of least squares from the heights in rows of `columns` points.
+    /// Removes the least-squares polynomial from heights in rows of `columns` points.
     pub(crate) fn remove(self, heights: &mut [f64], columns: usize) {
         let rows = heights.len() / columns.max(1);
         let monomials = self.monomials(rows > 1);

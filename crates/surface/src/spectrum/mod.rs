@@ -26,7 +26,7 @@ use crate::topography::TopographyError;
 use asperity_data::OutOfMemory;
 use thiserror::Error;
 
-/// Reason why surfaces are not analysed.
+/// Reason why surfaces cannot be analysed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SpectrumError {
     /// One of the surfaces cannot be analysed.
@@ -37,12 +37,12 @@ pub enum SpectrumError {
         /// Reason of the refusal.
         reason: TopographyError,
     },
-    /// The surfaces, or the choices of the analysis, are not allowed.
+    /// The surfaces or the options of the analysis are not allowed.
     #[error("{found}; allowed: {allowed}")]
     Refused {
-        /// The fault, in words.
+        /// What was found, in words.
         found: String,
-        /// The allowed content or values, and the option that helps.
+        /// What is allowed, and the option that helps.
         allowed: String,
     },
     /// The Fourier transform refused its input.
@@ -63,7 +63,7 @@ impl SpectrumError {
         SpectrumError::refused(found, "measured heights")
     }
 
-    /// Index of the surface that cannot be analysed; 0 if all of them together cannot be.
+    /// Index of the surface that cannot be analysed; 0 if the fault lies in all of them together.
     pub fn surface(&self) -> usize {
         if let SpectrumError::Surface { index, .. } = self { *index } else { 0 }
     }

@@ -1,4 +1,4 @@
-//! Periodograms: power of each wave of a profile or a map.
+//! Periodograms: the power of each wave of a profile or a map.
 
 use super::SpectrumError;
 use asperity_data::{check_room, emptied};
@@ -7,10 +7,10 @@ use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
 
-/// Bins per decade of wave numbers for display.
+/// Number of bins per decade of wave numbers, for display.
 const BINS_PER_DECADE: f64 = 10.0;
 
-/// Waves that a spectrum holds, by their direction.
+/// Direction of the waves of a spectrum, and the quantity it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
     /// Along the rows of a map, or along a profile: C1D, m³.
@@ -28,11 +28,11 @@ pub struct Bin {
     pub wave_number: f64,
     /// Mean power, m³.
     pub power: f64,
-    /// Number of waves in the bin.
+    /// Number of waves averaged in the bin.
     pub waves: u64,
 }
 
-/// Power of the waves of profiles of one length, summed over the profiles.
+/// Power spectrum of profiles of one length, summed over the profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ProfilePower {
     pub points: usize,
@@ -42,7 +42,7 @@ pub(super) struct ProfilePower {
     pub profiles: u64,
     /// Wave number of wave 1, rad/m.
     pub step: f64,
-    /// Wave number and C1D, m³, summed, of the waves 1, 2, … below half the number of points.
+    /// Wave number, rad/m, and summed C1D, m³, of the waves 1, 2, … below half the number of points.
     pub waves: Vec<(f64, f64)>,
 }
 
@@ -53,7 +53,7 @@ impl ProfilePower {
         ProfilePower { points, spacing, windowed, profiles: 0, step, waves }
     }
 
-    /// Adds the power of profiles of equal points: consecutive rows.
+    /// Adds the power spectra of profiles with equal points: the rows of one surface.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
@@ -68,7 +68,7 @@ impl ProfilePower {
     }
 }
 
-/// Spectrum of the heights (m) of a line in bins: C1D, m³. A line that is not periodic is windowed.
+/// Spectrum C1D, m³, of the heights (m) of a line, averaged in bins. `windowed` for a line that is not periodic.
 pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SpectrumError> {
     let mut power = ProfilePower::new(heights.len(), spacing, windowed);
     // The mean of windowed heights would leak into the first waves.
@@ -80,49 +80,50 @@ pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Ve
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapPower {
     pub windowed: bool,
-    /// Wave numbers of wave 1 along and between rows, rad/m.
+    /// Wave number of wave 1 along and between the rows, rad/m.
     pub steps: [f64; 2],
-    /// Wave numbers of the sampling along and between rows, rad/m.
+    /// Wave number of the sampling along and between the rows, rad/m.
     pub sampling: [f64; 2],
-    /// Wave number and C2D, m⁴, of the waves of half the plane up to the smaller of the Nyquist wave numbers,
-    /// sorted by wave number.
+    /// Wave number, rad/m, and C2D, m⁴, of the waves in half of the plane, up to the smaller Nyquist wave number, sorted by
+    /// wave number.
     pub waves: Vec<(f64, f64)>,
-    /// True if waves along one axis alone are left out, because rows or columns are offset against each other, or were levelled
-    /// one by one.
+    /// True if the waves parallel to one axis are left out, because rows or columns are offset against each other or were
+    /// levelled one by one.
     pub offsets: bool,
-    /// Largest share of the squared gradient by which the waves along an axis, not left out, depart from their neighbours.
+    /// Largest share of the squared gradient by which waves parallel to an axis, which are not left out, depart from
+    /// neighbouring waves.
     pub apart: f64,
 }
 
-/// Least number of waves along an axis that are compared with their neighbours, over the number of points.
+/// Smallest number of a wave along an axis that is compared with its neighbours, over the number of points.
 const COMPARED: f64 = 1.0 / 8.0;
 
-/// Least number of waves that may be left out, over the number of points: longer ones have more power than offsets.
+/// Smallest number of a wave that may be left out, over the number of points: longer waves have more power than offsets.
 const LEFT_OUT: f64 = 1.0 / 32.0;
 
-/// Departure of the mean power of n waves along an axis from the mean power of their neighbours, relative and times √n, that is no
-/// chance: about four standard deviations under a window.
+/// Relative difference of the mean power of n waves along an axis from the mean power of their neighbours, times √n, above
+/// which it is not chance: about four standard deviations under a window.
 const NO_CHANCE: f64 = 12.0;
 
-/// Periods x across the axis of the two groups of neighbouring waves. The power is an even function of x, also on an
-/// anisotropic surface, so that both groups extrapolate it to the axis as a + bx².
+/// Distances from the axis, in waves, of the two groups of neighbouring waves. The power is an even function of the
+/// distance x, also on an anisotropic surface, so that both groups together extrapolate it to the axis as a + bx².
 const NEAR: [RangeInclusive<f64>; 2] = [3.0..=5.0, 6.0..=8.0];
 const EXTRAPOLATED: f64 = 0.486;
 
-/// Share of the squared gradient from which on the departure matters, and from which on it is taken for the surface itself.
+/// Share of the squared gradient above which the difference matters, and above which it is attributed to the surface itself.
 const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
 const LARGEST_OFFSETS: f64 = 0.25;
 
-/// Waves along one axis, beside which offsets of rows or columns have no power.
+/// Waves parallel to one axis, in which offsets of rows or columns appear, and their neighbours, in which they do not.
 #[derive(Default)]
 struct AxisPower {
     waves: Vec<(f64, f64)>,
-    /// Squared gradient and number of short waves along the axis, and of their neighbours in the plane.
+    /// Squared gradient and number of the short waves parallel to the axis, and of their neighbours in the plane.
     on: (f64, f64),
     near: [(f64, f64); 2],
 }
 
-/// Squared gradient of a wave (wave number, power), but for a factor.
+/// Squared gradient of a wave (wave number, power), up to a constant factor.
 pub(super) fn square((q, power): &(f64, f64)) -> f64 {
     q * q * power
 }
@@ -136,7 +137,7 @@ impl AxisPower {
         }
     }
 
-    /// Squared gradient by which the waves along the axis depart from their neighbours; zero if that is chance.
+    /// Excess of the squared gradient of the waves parallel to the axis over their neighbours; zero if that may be chance.
     fn departure(&self) -> f64 {
         let [near, farther] = self.near.map(|(sum, waves)| sum / waves);
         let expected = (near + EXTRAPOLATED * (near - farther)) * self.on.1;
@@ -146,8 +147,8 @@ impl AxisPower {
 }
 
 impl MapPower {
-    /// Power of the heights (m) in rows of `columns` points. If the rows are levelled one by one (`aligned`), the waves between
-    /// rows alone are left out.
+    /// Power spectrum of heights (m) in rows of `columns` points. If the rows were levelled one by one (`aligned`), the
+    /// waves between the rows are left out.
     pub fn new(
         heights: &[f64],
         columns: usize,
@@ -251,7 +252,7 @@ fn window(points: usize, windowed: bool) -> Vec<f64> {
     (0..points).map(|index| scale * hann(index)).collect()
 }
 
-/// Mean power in 10 bins per decade of wave numbers, from waves of (wave number, power, number).
+/// Mean powers in 10 bins per decade of the wave number, of waves given as (wave number, power, number of waves).
 pub(super) fn bins(waves: impl Iterator<Item = (f64, f64, u64)>) -> Vec<Bin> {
     let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> = std::collections::BTreeMap::new();
     for (wave_number, power, count) in waves {

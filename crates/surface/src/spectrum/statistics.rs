@@ -1,17 +1,17 @@
-//! Moments of heights and gradients of the measured points, and the shortest length that a tip resolves.
+//! Moments of the heights and gradients of measured points, and the shortest wavelength that a tip resolves.
 
 use serde::Serialize;
 
-/// Statistics of the points of one or more surfaces, after detrending.
+/// Statistics of the points of one or more surfaces after removal of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PointStatistics {
     /// Number of points.
     pub points: usize,
     /// Root mean square height about the mean (Rq of profiles, Sq of maps), m.
     pub rms_height: f64,
-    /// Root mean square of the slope along rows, from differences of neighbours (RΔq).
+    /// Root mean square slope along rows, from differences between neighbours (RΔq).
     pub rms_slope: f64,
-    /// Root mean square gradient of maps (Sdq): slopes along and between rows.
+    /// Root mean square gradient of maps, from the slopes along and between rows (Sdq); `None` for profiles.
     pub rms_gradient: Option<f64>,
     /// Mean cube of the height over the cube of the rms height.
     pub skewness: f64,
@@ -25,14 +25,14 @@ pub(super) struct Sums {
     squares: f64,
     cubes: f64,
     fourths: f64,
-    /// Squares of slopes along and between rows, and their numbers.
+    /// Sum of the squared slopes along and between rows, and the number of slopes.
     slopes: [(f64, usize); 2],
     has_profile: bool,
 }
 
 impl Sums {
-    /// Adds the heights (m) in rows of `columns` points at distances (m) along and between rows, relative to the
-    /// mean of each surface.
+    /// Adds the heights (m) of a surface, relative to their mean, in rows of `columns` points at these distances (m) along
+    /// and between the rows.
     pub fn add(&mut self, heights: &[f64], columns: usize, [along, between]: [f64; 2]) {
         let level = heights[0];
         let mean = level + heights.iter().map(|z| z - level).sum::<f64>() / heights.len() as f64;
@@ -73,7 +73,7 @@ impl Sums {
     }
 }
 
-/// Share of the curvature of the tip at which artefacts set in (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
+/// Share of the curvature of the tip above which artefacts appear (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
 const SAFETY: f64 = 0.5;
 
 /// Reliability cut-off, m: the smallest stencil length 2sΔx (s whole) at which the smallest curvature

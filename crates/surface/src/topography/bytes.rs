@@ -1,5 +1,4 @@
-//! Numbers of binary files, each read only if the file has its bytes, the limits of their decompression, and archives
-//! (ZIP) in memory, unpacked up to these limits.
+//! Bounded reading of binary files: numbers, decompression and ZIP archives in memory, each within limits.
 
 use super::reading::MOST_POINTS;
 use super::{Place, TopographyError, refused, shown};
@@ -11,28 +10,28 @@ use std::collections::HashMap;
 use std::io::Cursor;
 use zip::ZipArchive;
 
-/// Most bytes of a file.
+/// Limit of the size of a file, bytes.
 pub const MOST_BYTES: usize = 1 << 30;
 
-/// Decompressed bytes allowed per byte of the file where no header states them: texts of numbers expand by factors of
-/// three to six.
+/// Number of decompressed bytes allowed per byte of the file where no header states their number: numbers as text expand by
+/// factors of three to six.
 pub(super) const MOST_EXPANSION: usize = 32;
 
-/// Decompressed bytes allowed in addition.
+/// Number of decompressed bytes allowed on top of that.
 const LEAST_EXPANDED: usize = 1 << 20;
 
-/// Returns the largest allowed number of bytes decompressed from a number of compressed bytes.
+/// Returns the largest allowed number of bytes after decompression of `bytes` bytes.
 pub(super) fn most_expanded(bytes: usize) -> usize {
     bytes.saturating_mul(MOST_EXPANSION).saturating_add(LEAST_EXPANDED)
 }
 
-/// Returns a text in UTF-8, or else in Windows-1252.
+/// Decodes text as UTF-8, or if it is invalid as Windows-1252.
 pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     let other = |_| WINDOWS_1252.decode_without_bom_handling(text).0;
     str::from_utf8(text).map_or_else(other, Cow::Borrowed)
 }
 
-/// Returns the bytes of compressed heights, whose number a header states: they may have been compressed to any size.
+/// Returns the size in bytes of compressed heights from their number in a header; refuses a size above the limits.
 pub(super) fn unpacked_size(points: usize, number: Number, place: Place) -> Result<usize, TopographyError> {
     let bytes = points.saturating_mul(number.size());
     if points <= MOST_POINTS && bytes <= MOST_BYTES {
@@ -56,7 +55,7 @@ macro_rules! numbers {
         }
 
         impl Number {
-            /// Returns the type of a name of NumPy.
+            /// Returns the type that NumPy calls by this name.
             pub fn named(name: &str) -> Option<Number> {
                 match name {
                     $($code => Some(Number::$name),)*
@@ -70,7 +69,7 @@ macro_rules! numbers {
                 }
             }
 
-            /// Returns the value of the bytes, [`Self::size`] of them.
+            /// Returns the number that the bytes encode; their count is [`Self::size`].
             fn value(self, bytes: &[u8], order: Order) -> f64 {
                 match self {
                     $(Number::$name => {
@@ -92,7 +91,7 @@ macro_rules! numbers {
 numbers!(U8 "u1": u8, I8 "i1": i8, U16 "u2": u16, I16 "i2": i16, U32 "u4": u32, I32 "i4": i32, U64 "u8": u64,
     I64 "i8": i64, F16 "f2": u16 = half, F32 "f4": f32, F64 "f8": f64);
 
-/// Returns the number of these 16 bits: the sign, 5 bits of an exponent, 10 of a fraction.
+/// Returns the half-precision number of 16 bits: the sign, 5 bits of an exponent, 10 bits of a fraction.
 fn half(bits: u16) -> f64 {
     let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023));
     let size = match exponent {
@@ -117,7 +116,7 @@ impl<'a> Bytes<'a> {
         Bytes { bytes, at: 0, order }
     }
 
-    /// Offset from the beginning of the file.
+    /// Place of the next byte in the file.
     pub fn place(&self) -> Place {
         Place::Byte(self.at)
     }
@@ -136,7 +135,7 @@ impl<'a> Bytes<'a> {
         Ok(taken)
     }
 
-    /// Returns the next `count` bytes, with their places in the file.
+    /// Returns the next `count` bytes as a part of the file that keeps their places.
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, TopographyError> {
         let at = self.at;
         self.take(count)?;
@@ -178,18 +177,17 @@ impl<'a> Bytes<'a> {
 
 pub(super) const ZIP: &[u8] = b"PK\x03\x04";
 
-/// Archive in memory.
 pub(super) struct Archive<'a> {
     archive: ZipArchive<Cursor<&'a [u8]>>,
-    /// Places of its files by their [`plain_name`].
+    /// Index in the archive of each file, by its [`plain_name`].
     places: HashMap<String, usize>,
-    /// Folder of the index, from which the files are named.
+    /// Folder of the index file; names of other files are relative to it.
     folder: String,
-    /// Most bytes to which further files of unknown size may expand.
+    /// Number of bytes to which further files of unknown size may still expand.
     most: usize,
 }
 
-/// Returns the name of a file of an archive in one spelling: slashes between folders, none of them `.`.
+/// Returns the name of a file in an archive in one spelling: with slashes between folders and without `.`.
 fn plain_name(name: &str) -> String {
     let parts = name.split(['/', '\\']).filter(|part| !matches!(*part, "" | "."));
     parts.collect::<Vec<_>>().join("/")
@@ -205,8 +203,8 @@ impl<'a> Archive<'a> {
         Ok(Archive { archive, places, folder: String::new(), most: most_expanded(bytes.len()) })
     }
 
-    /// Returns the name of the index, one of these names, of the file nearest to the root of the archive. Further files are
-    /// named from its folder.
+    /// Returns the one of `names` that is the index of the archive, the file of such a name nearest to the root. Names of
+    /// other files are then relative to its folder.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, TopographyError> {
         let of_path = |path: &String| {
             let (folder, file) = path.rsplit_once('/').unwrap_or(("", path));
@@ -234,7 +232,7 @@ impl<'a> Archive<'a> {
         Ok(content)
     }
 
-    /// Returns the content of a file of at most `most` bytes, as a header states them.
+    /// Returns the content of a file that a header states to have at most `most` bytes.
     pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
         let damaged = |error: &dyn std::fmt::Display| {
             let fault = format!("cannot be unpacked ({error})");

@@ -1,4 +1,4 @@
-//! Containers of contact.engineering: archives with an index, in JSON or in YAML, of surfaces and their measurements.
+//! Containers of contact.engineering: archives with an index, in JSON or YAML, that lists surfaces and their measurements.
 
 use super::Unit;
 use super::reading::{ReadOptions, Reading};
@@ -24,13 +24,13 @@ struct Surface {
     topographies: Vec<Measurement>,
 }
 
-/// A measurement of a surface: its file in the archive, and what the file may omit.
+/// A measurement of a surface: its file in the archive, and numbers that the file may omit.
 #[derive(Deserialize)]
 pub(super) struct Measurement {
     #[serde(default)]
     pub name: String,
     datafile: Files,
-    /// Lengths along and between rows.
+    /// Lengths of the map along and between rows, in the unit of the measurement.
     #[serde(default)]
     size: Vec<f64>,
     unit: Option<String>,
@@ -42,7 +42,7 @@ pub(super) struct Measurement {
     fill_undefined_data_mode: Option<String>,
 }
 
-/// Names of the file as measured, and of the one with the same heights scaled and detrended.
+/// Name of the file as measured, and of the file with the same heights after scaling and detrending.
 #[derive(Deserialize)]
 struct Files {
     original: Option<String>,
@@ -59,8 +59,8 @@ enum Mode {
     Curvature,
 }
 
-/// Returns the measurements of the surface of a name, or the measurement of that name; without a name, the measurements of
-/// the only surface.
+/// Returns the measurements of the surface with this name, or the measurement with this name; without a name, the
+/// measurements of the only surface.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],
@@ -101,7 +101,7 @@ pub(super) fn measurements(
 }
 
 impl Measurement {
-    /// Name of its file: the scaled one, whose format is always the same, if there is one.
+    /// Name of the file with the scaled heights, whose format is always the same; if there is none, of the measured file.
     pub fn file(&self) -> Result<&str, TopographyError> {
         let names = self.datafile.squeezed.as_deref().or(self.datafile.original.as_deref());
         names.ok_or_else(|| {
@@ -114,7 +114,7 @@ impl Measurement {
         self.datafile.squeezed.is_none()
     }
 
-    /// Part of the heights that the container removes; `None` if it removes the mean alone, as it does by default.
+    /// Polynomial that the container removes from the heights; `None` if it removes only the mean, its default.
     pub fn detrend(&self) -> Option<Detrend> {
         match self.detrend_mode? {
             Mode::Center => None,
@@ -135,7 +135,7 @@ impl Measurement {
         })
     }
 
-    /// Adds to the numbers of its file what the file omits.
+    /// Fills in what the file of the measurement omits.
     pub fn completed(&self, mut reading: Reading) -> Reading {
         if let (None, None, Some(&width)) = (&reading.positions, reading.spacing, self.size.first()) {
             let rows = (reading.heights.len() / reading.columns.max(1)) as f64;
@@ -157,7 +157,6 @@ mod tests {
     use super::super::surface::Topography;
     use super::*;
 
-    /// Points of a profile in µm.
     const PROFILE: &str = "0 1\n1 3\n2 2\n";
 
     const YAML: &str = "surfaces:

@@ -1,4 +1,4 @@
-//! Gwyddion's own format: nested objects of named components; only data fields are read.
+//! The format of Gwyddion, GWY: nested objects of named components, of which only data fields are read.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -8,8 +8,8 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field of a channel: `/N/data` for number N; without a number, of the only channel whose heights have a
-/// unit of length, or where there is none, no unit.
+/// Reads the data field `/N/data` of the channel with number N; without a number, of the only channel whose heights are in
+/// a unit of length, or if there is none, the only channel without a unit.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
     let mut file = Bytes::new(bytes, Order::Little);
     file.take(SIGNATURE.len())?;
@@ -42,7 +42,7 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
     Err(refused(Place::File, format!("{fault}: {}", shown(&names)), allowed))
 }
 
-/// Value of a component, as far as needed.
+/// Value of a component; types that are not needed are skipped.
 enum Value<'a> {
     Object(Bytes<'a>),
     Number(f64),

@@ -1,19 +1,19 @@
-//! Missing points, interpolated from their neighbours, and outliers: heights far from the heights around them, as spikes of an
-//! instrument and grains of dust are.
+//! Interpolation of missing points from their neighbours; and outliers, heights far from the heights around them, such as
+//! spikes of an instrument and grains of dust.
 
 use super::{Place, TopographyError, refused};
 use asperity_data::{OutOfMemory, gathered};
 use asperity_data::{between, median};
 use std::ops::Range;
 
-/// Smallest share of measured points for interpolation.
+/// Smallest share of points that must be measured for the others to be interpolated.
 const LEAST_MEASURED: f64 = 0.5;
 
 pub(super) fn count(heights: &[f64]) -> usize {
     heights.iter().filter(|height| !height.is_finite()).count()
 }
 
-/// Returns the columns and the rows from the first to the last one with a measured point; empty ranges if there is none.
+/// Returns the ranges of columns and rows from the first to the last with a measured point; empty if no point is measured.
 pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2] {
     let range = |places: &mut dyn Iterator<Item = usize>| {
         let reach = |(low, high): (usize, usize), place| (low.min(place), high.max(place + 1));
@@ -27,9 +27,9 @@ pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2
 /// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one row. Returns the indices
 /// of the interpolated heights.
 ///
-/// In a profile a missing height is on the straight line from the nearest measured point before to the nearest one behind, and
-/// as high as the first or the last one at its ends. In a map it is the mean of its neighbours, as on a soap film that hangs on
-/// the measured points: see [`fill`].
+/// In a profile a missing height lies on the straight line between the nearest measured points on both sides, or equals the
+/// nearest one at an end. In a map it is the mean of its neighbours, like a soap film attached to the measured points: see
+/// [`fill`].
 pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, TopographyError> {
     let missing = count(heights);
     let share = 1.0 - missing as f64 / heights.len() as f64;
@@ -64,18 +64,17 @@ fn fill_profile(heights: &mut [f64]) {
     }
 }
 
-/// Mean of a few heights; NaN of none.
 fn mean(heights: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = heights.fold((0.0, 0_u8), |(sum, count), height| (sum + height, count + 1));
     sum / f64::from(count)
 }
 
-/// Passes over the missing points at each size.
+/// Number of passes over the missing points at each resolution.
 const PASSES: usize = 12;
 
-/// Fills missing points, at these places, from all sides: begins with the means of blocks of 2 × 2 points, filled in the same
-/// way, and then replaces each height by the mean of its neighbours, several times. This nearly solves Laplace's equation in the
-/// gaps, without a slope across the borders of the map.
+/// Fills the missing points at these indices from all sides: it begins with the means of blocks of 2 × 2 points, filled in
+/// the same way, and then replaces each height several times by the mean of its neighbours. This nearly solves Laplace's
+/// equation in the gaps, with zero slope across the borders of the map.
 fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), OutOfMemory> {
     let rows = heights.len() / columns;
     let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
@@ -108,18 +107,18 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
     Ok(())
 }
 
-/// Points around a point on either side along each axis.
+/// Number of points on either side, along each axis, with which a point is compared.
 const REACH: usize = 2;
 
-/// Least distance of an outlier from the median around it, in standard deviations of these distances.
+/// Distance of an outlier from the median around it, at least, in standard deviations of these distances.
 const FAR: f64 = 4.0;
 
-/// Standard deviation of the normal distribution over its median absolute deviation.
+/// Standard deviation over median absolute deviation of the normal distribution.
 const OF_DEVIATION: f64 = 1.482_602_218_505_602;
 
-/// Makes outliers in rows of `columns` points missing (NaN), by the identifier of Hampel: heights whose distance from the
-/// median of the points around them exceeds [`FAR`] standard deviations, which follow from the median of all distances.
-/// The tilt does not count, nor do more points on one side than on the other at borders. Returns the number of outliers.
+/// Marks outliers in rows of `columns` points as missing (NaN), by the identifier of Hampel: heights whose distance from the
+/// median of the points around them exceeds [`FAR`] standard deviations, which follow from the median of all distances. The
+/// tilt of the surface is allowed for, also at borders, where one side has fewer points. Returns the number of outliers.
 pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usize, OutOfMemory> {
     let rows = heights.len() / columns;
     let slope = |step: usize| {
@@ -158,7 +157,7 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
     Ok(count)
 }
 
-/// Subtracts from each row of `columns` points the median of its heights.
+/// Subtracts from each row of `columns` points its median height.
 pub(super) fn level_rows(heights: &mut [f64], columns: usize) -> Result<(), OutOfMemory> {
     let mut known = gathered(columns, std::iter::repeat_n(0.0, columns))?;
     for row in heights.chunks_exact_mut(columns) {

@@ -1,9 +1,9 @@
 //! Measured surfaces: files of instruments and programs, read into heights in m.
 //!
-//! [`read`](crate::read) finds the format by the content, not by the name. Units are never guessed: if a file states none,
-//! [`ReadOptions`](crate::ReadOptions) has to. Every error names the place within the file and the allowed content. A file of n bytes
-//! takes at most 1 MiB + 64 n bytes of memory, n counted after decompression, and decompression ends at 1 MiB + 32
-//! bytes for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
+//! [`read`](crate::read) recognises the format by the content, not by the name. Units are never guessed: if a file states
+//! none, [`ReadOptions`](crate::ReadOptions) has to. Every error names the place in the file and what is allowed there. A
+//! file of n bytes after decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes
+//! for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
 
 pub(crate) mod bytes;
 pub(crate) mod container;
@@ -26,10 +26,10 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// Longest text of a file in messages, characters.
+/// Number of characters from which on a text of a file is shortened in messages.
 const MOST_SHOWN: usize = 40;
 
-/// Place of a fault within a file. Lines and points count from 1, bytes, after decompression, from 0.
+/// Place of a fault in a file. Lines and points count from 1; bytes count from 0, after decompression.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// The file as a whole.
@@ -38,11 +38,11 @@ pub enum Place {
     Line(usize),
     /// A point of a surface or of a curve.
     Point(usize),
-    /// A byte.
+    /// A byte, by its offset.
     Byte(usize),
     /// Named part of a container: a file of an archive, an element, a channel.
     Part(String),
-    /// A place within the file of a measurement of this name.
+    /// A place in the file of the measurement with this name.
     Measurement(String, Box<Place>),
 }
 
@@ -59,10 +59,10 @@ impl fmt::Display for Place {
     }
 }
 
-/// Reason why a file cannot be read as a surface. The caller puts the name of the file before the message.
+/// Reason why a file cannot be read as a surface. The caller prepends the name of the file.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum TopographyError {
-    /// The file cannot be read, for this reason.
+    /// The system cannot read the file; the reason of the system.
     #[error("{0}")]
     Unreadable(String),
     /// The content is invalid.
@@ -81,7 +81,7 @@ pub enum TopographyError {
 }
 
 impl TopographyError {
-    /// The error with the name of the measurement that has it.
+    /// The error, with the name of the measurement in which it occurs.
     pub(super) fn within(self, name: &str) -> Self {
         match self {
             TopographyError::Refused { place, found, allowed } => {
@@ -102,12 +102,12 @@ impl From<ReadError> for TopographyError {
     }
 }
 
-/// Creates an error of a place: what was found and what is allowed.
+/// Creates the error of a place in a file: what was found there and what is allowed.
 pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> TopographyError {
     TopographyError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
 }
 
-/// Text of a file for a message: one line of limited length.
+/// Text of a file, for a message: on one line and shortened.
 pub fn shown(text: &str) -> String {
     let short = match text.char_indices().nth(MOST_SHOWN) {
         Some((end, _)) => format!("{}…", &text[..end]),
@@ -116,8 +116,7 @@ pub fn shown(text: &str) -> String {
     printable(&short).into_owned()
 }
 
-/// Usual name, other spellings and number per metre of each unit: powers of ten that are exact numbers, so that a
-/// division by them rounds once.
+/// Name, other spellings, and number per metre of each unit: exact powers of ten, so that a division rounds once.
 const UNITS: [(&str, &str, f64); 7] = [
     ("m", "meter metre meters metres", 1.0),
     ("cm", "centimeter centimetre", 1e2),
@@ -135,13 +134,13 @@ pub struct Unit {
     per_metre: f64,
 }
 
-/// Text that is not a unit of length.
+/// A text that is not a unit of length.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{}; allowed: {}", self.found(), UnitError::ALLOWED)]
 pub struct UnitError(String);
 
 impl UnitError {
-    /// Accepted units.
+    /// Names of the units that are read.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 
     fn found(&self) -> String {
@@ -158,18 +157,18 @@ impl Unit {
         text.parse::<Unit>().is_ok()
     }
 
-    /// Usual name.
+    /// Usual name of the unit.
     pub fn name(self) -> &'static str {
         self.name
     }
 
-    /// Returns the unit stated by a file at a place; `None` for an empty text.
+    /// Returns the unit that a file states at this place; `None` for an empty text.
     pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, TopographyError> {
         let unit = Some(text).filter(|text| !text.is_empty()).map(str::parse).transpose();
         unit.map_err(|error: UnitError| refused(place, error.found(), UnitError::ALLOWED))
     }
 
-    /// Value in m of a value in this unit.
+    /// Converts a value in this unit to m.
     pub fn to_metres(self, value: f64) -> f64 {
         value / self.per_metre
     }

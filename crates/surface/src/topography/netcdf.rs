@@ -1,5 +1,5 @@
-//! NetCDF in its classic format (CDF-1 and CDF-2), as written by contact.engineering and SurfaceTopography: a
-//! variable `heights` over positions `x`, and `y` for a map.
+//! NetCDF in its classic format (CDF-1 and CDF-2), as contact.engineering and SurfaceTopography write it: a variable
+//! `heights` over positions `x`, and for a map also `y`.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
@@ -8,7 +8,7 @@ use super::surface::first_uneven;
 use super::{Place, TopographyError, refused};
 use asperity_data::gathered;
 
-/// First bytes, without the version.
+/// First bytes of a file, before the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
 
 /// Tags of the lists of dimensions, variables and attributes.
@@ -16,16 +16,16 @@ const DIMENSIONS: usize = 10;
 const VARIABLES: usize = 11;
 const ATTRIBUTES: usize = 12;
 
-/// Type of characters; all others are numbers.
+/// Type code of characters; all other types are numbers.
 const CHARACTERS: usize = 2;
 
 struct Variable<'a> {
     name: &'a [u8],
-    /// Indices of its dimensions, the fastest last.
+    /// Indices of the dimensions of the variable, the fastest varying last.
     dimensions: Vec<usize>,
-    /// Text of the unit; empty if it has none.
+    /// Text of the unit; empty if the variable has none.
     unit: &'a [u8],
-    /// Values that mark missing points; NaN where there is none.
+    /// Values that mark missing points; NaN where the file states none.
     missing: [f64; 2],
     scale: f64,
     offset: f64,
@@ -33,14 +33,13 @@ struct Variable<'a> {
     begin: usize,
 }
 
-/// A file after its header.
+/// Header of a file, and the bytes behind it.
 struct Dataset<'a> {
     bytes: &'a [u8],
     dimensions: Vec<usize>,
     variables: Vec<Variable<'a>>,
 }
 
-/// Reads the variable `heights`.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let dataset = Dataset::new(bytes)?;
     let heights = dataset.variable(b"heights").ok_or_else(|| {
@@ -126,7 +125,7 @@ impl<'a> Dataset<'a> {
         Err(refused(Place::File, fault, allowed))
     }
 
-    /// Returns the values of a variable; NaN for missing points.
+    /// Returns the values of a variable, with NaN for missing points.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, TopographyError> {
         let mut lengths = variable.dimensions.iter().map(|dimension| self.length(*dimension));
         let count = lengths
@@ -163,7 +162,7 @@ fn list<'a, T>(
     }
 }
 
-/// Returns bytes that are padded to a multiple of four.
+/// Returns `count` bytes, and skips their padding to a multiple of four.
 fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], TopographyError> {
     let bytes = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;
@@ -175,7 +174,7 @@ fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], TopographyError> {
     padded(header, length)
 }
 
-/// Returns the type of numbers; `None` for characters.
+/// Reads a type code; `None` for characters.
 fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
     let place = header.place();
     Ok(Some(match header.size(Number::U32)? {

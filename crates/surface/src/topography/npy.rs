@@ -1,8 +1,8 @@
-//! Arrays of NumPy: a header in Python's notation, then the numbers.
+//! NumPy arrays: a header in Python's notation, then the numbers.
 //!
-//! An array of n heights is a profile, one of n × 2 or of n pairs of fields the columns x z of a profile, any other
-//! with two axes a map of rows. The header is parsed here: the parser of the crate npyz takes seconds for 20 nested
-//! brackets, and twice as long for each further one.
+//! An array of n heights is a profile; an array of n × 2 numbers, or of n pairs of fields, holds the columns x and z of a
+//! profile; any other array with two axes is a map, row by row. The header is parsed here: the parser of the crate npyz
+//! takes seconds for 20 nested brackets, and twice as long for each further one.
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
@@ -37,7 +37,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     }
 }
 
-/// Reads the columns of an array of two or more, with their names: fields of points, or the shorter one of two axes.
+/// Reads the columns of an array with at least two, and their names: the fields of the points, or the shorter of two axes.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), TopographyError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;
@@ -46,7 +46,7 @@ pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), TopographyE
 }
 
 struct Header {
-    /// Names and types of the fields of a point; one without a name for an array of numbers.
+    /// Names and types of the fields of a point; one field without a name in an array of plain numbers.
     fields: Vec<(String, Number)>,
     order: Order,
     is_column_major: bool,
@@ -126,7 +126,7 @@ impl Header {
         Ok(Header { fields, order, is_column_major: is_column_major && !is_list, shape })
     }
 
-    /// The columns in the bytes behind the header: fields of points, or the shorter one of two axes.
+    /// The columns of the array: the fields of the points, or the shorter of two axes.
     fn columns(&self, mut data: Bytes<'_>) -> Result<Vec<Vec<f64>>, TopographyError> {
         match (&self.fields[..], &self.shape[..]) {
             (&[(_, number)], &[rows, of_row]) => {
@@ -160,7 +160,7 @@ impl Header {
     }
 }
 
-/// Returns the text within the quotation marks that begin a text.
+/// Returns the text between the quotation marks at the beginning of a text.
 fn quoted(text: &str) -> Option<&str> {
     text.strip_prefix('\'')?.split_once('\'').map(|(inside, _)| inside)
 }

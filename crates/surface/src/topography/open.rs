@@ -1,4 +1,4 @@
-//! The format of a file, determined by its first bytes, and its reader.
+//! Recognition of the format of a file by its first bytes, and the choice of the reader.
 
 use super::bytes::{Archive, MOST_BYTES, MOST_EXPANSION, ZIP, most_expanded};
 use super::reading::{ReadOptions, Reading};
@@ -14,7 +14,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
-/// First bytes of the binary formats. All others but SDF and archives are text.
+/// First bytes of the binary formats, with their readers. All other formats but SDF and archives are text.
 const SIGNATURES: [(&[u8], BinaryReader); 6] = [
     (asperity_data::SIGNATURE, |bytes, _| npy::read(bytes)),
     (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
@@ -27,12 +27,12 @@ const SIGNATURES: [(&[u8], BinaryReader); 6] = [
 /// Reads a surface, or all measurements of a surface in a container, from a regular file of at most 1 GiB.
 ///
 /// # Errors
-/// [`TopographyError`] if the file cannot be read or is no surface.
+/// [`TopographyError`] if the file cannot be read or holds no surface.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
     parse_all(&content(path)?, options)
 }
 
-/// Reads the bytes of a regular file of at most 1 GiB, for [`parse`].
+/// Reads the bytes of a regular file of at most 1 GiB, to pass to [`parse`].
 pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
@@ -40,7 +40,7 @@ pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
 /// Reads the only surface from the content of a file.
 ///
 /// # Errors
-/// As [`read`], and for several measurements.
+/// As for [`read`], and for several measurements.
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
     let mut surfaces = parse_all(bytes, options)?;
     match (surfaces.pop(), surfaces.len()) {
@@ -90,7 +90,7 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     measurements.into_iter().map(read).collect()
 }
 
-/// Reads the numbers of a file of one surface.
+/// Reads the numbers of a file with one surface.
 fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
     let content = unpacked(bytes)?;
     if content.starts_with(ZIP) {
@@ -105,7 +105,7 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyErr
     reader.map_or_else(|| text::read(&content, options.channel), |(_, read)| read(&content, options))
 }
 
-/// The surface of numbers, or its row or column.
+/// The surface in m, or the row or column of it that the options choose.
 fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, TopographyError> {
     let mut surface = reading.resolve(options)?;
     if let Some(cut) = options.cut {
@@ -114,7 +114,7 @@ fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, Topog
     if options.resample { surface.resampled() } else { Ok(surface) }
 }
 
-/// The content of a file, decompressed where it is gzip.
+/// The content of a file, decompressed if it is gzip.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());

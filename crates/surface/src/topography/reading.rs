@@ -1,62 +1,62 @@
-//! From the numbers of a file to heights in m: units, distances between points, missing points.
+//! Conversion of the numbers of a file to heights in m: units, distances between points, missing points.
 
 use super::surface::{Cropped, Cut, LARGEST, Layout, Topography};
 use super::{Place, TopographyError, refused};
 use super::{Unit, missing};
 use std::ops::Range;
 
-/// Most points of a surface: 2 GiB of heights.
+/// Limit of the number of points of a surface: 2 GiB of heights.
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
-/// Values of the user that a file may omit.
+/// What the user states about a file, since the file may omit it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
-    /// Unit of heights if the file states none; `None`: as `unit`.
+    /// Unit of the heights if the file states none; `None`: the same as `unit`.
     pub height_unit: Option<Unit>,
-    /// Unit by convention, if neither the file nor the user states one.
+    /// Unit to assume if neither the file nor the user states one.
     pub convention: Option<Unit>,
     /// Distance between points, m, if the file states none.
     pub spacing: Option<f64>,
-    /// True if missing heights are interpolated from their neighbours along row and column; else they are an error.
+    /// True if missing heights are interpolated from their neighbours; otherwise a missing height is an error.
     pub interpolate: bool,
-    /// Number of the channel of a file with several.
+    /// Number of the channel to read in a file with several.
     pub channel: Option<u32>,
-    /// Row or column of a map read as a profile.
+    /// Row or column of a map to read as a profile.
     pub cut: Option<Cut>,
-    /// True if uneven profiles are resampled at their mean distance.
+    /// True if a profile with uneven spacing is resampled at its mean spacing.
     pub resample: bool,
-    /// True if the median of each row of a map is subtracted, since its rows are offset against each other.
+    /// True if the median of each row of a map is subtracted, for rows that are offset against each other.
     pub align_rows: bool,
-    /// True if outliers are replaced by heights from their neighbours.
+    /// True if outliers are replaced by heights interpolated from their neighbours.
     pub robust: bool,
-    /// Name of the surface of a container with several, or of a measurement.
+    /// Name of the surface to read in a container with several, or of one measurement.
     pub surface_name: Option<String>,
 }
 
-/// Numbers of a file before conversion, in its units.
+/// Numbers of a file before conversion, in the units of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
     pub format: &'static str,
-    /// Heights row by row; not finite for a missing point.
+    /// Heights row by row; a missing point is not finite.
     pub heights: Vec<f64>,
-    /// Points of a row; all points of a profile.
+    /// Number of points of a row; of all points for a profile.
     pub columns: usize,
     /// Positions of a profile, ascending; `None` for evenly spaced points.
     pub positions: Option<Vec<f64>>,
     /// Distances of evenly spaced points along and between rows, if the file states them.
     pub spacing: Option<[f64; 2]>,
-    /// Units along rows, between rows and of heights, if the file states them.
+    /// Units of the positions along and between rows and of the heights, where the file states them.
     pub units: [Option<Unit>; 3],
-    /// Place of the first missing point, if the reader knows a better one than its number.
+    /// Place of the first missing point, if the reader can name it better than by its number.
     pub first_missing: Option<Place>,
-    /// What is odd in the file.
+    /// Messages on oddities of the file.
     pub warnings: Vec<String>,
 }
 
 impl Reading {
-    /// Evenly spaced heights in rows of `columns` points: one row, or one column, is a profile.
+    /// Evenly spaced heights in rows of `columns` points; a single row or column is a profile.
     pub fn even(
         format: &'static str,
         heights: Vec<f64>,
@@ -75,7 +75,7 @@ impl Reading {
         Reading { format, heights, columns, positions, spacing, units, first_missing, warnings }
     }
 
-    /// Profile at positions in the order of the file: one scanned backwards is reversed.
+    /// A profile at positions in the order of the file; a profile scanned backwards is reversed.
     pub fn profile(
         format: &'static str,
         mut positions: Vec<f64>,
@@ -90,7 +90,7 @@ impl Reading {
         Reading { positions: Some(positions), ..Reading::even(format, heights, columns, None, units) }
     }
 
-    /// Multiplies the heights by a scale, except for the marks of missing points.
+    /// Multiplies the heights by `scale`; heights for which `is_missing` is true become missing.
     pub fn scaled(mut self, is_missing: impl Fn(f64) -> bool, scale: f64) -> Reading {
         for height in &mut self.heights {
             *height = if is_missing(*height) { f64::NAN } else { *height * scale };
@@ -169,7 +169,7 @@ impl Reading {
         surface.checked()
     }
 
-    /// Leaves out the rows and columns without a measured point at the borders of a map, or the points at the ends of a profile.
+    /// Leaves out empty rows and columns at the borders of a map, or missing points at the ends of a profile.
     fn crop(&mut self) -> Cropped {
         let (columns, rows) = (self.columns, self.heights.len() / self.columns);
         let [across, down] = missing::measured_part(&self.heights, columns);
@@ -199,7 +199,7 @@ impl Reading {
         Cropped { before: [across.start, down.start], after: [columns - across.end, rows - down.end] }
     }
 
-    /// Returns true if points are missing, which are refused unless they are interpolated.
+    /// Returns true if points are missing; an error if they are not to be interpolated.
     fn has_missing(&self, cropped: &Cropped, interpolate: bool) -> Result<bool, TopographyError> {
         let first = self.heights.iter().position(|height| !height.is_finite());
         let (Some(first), false) = (first, interpolate) else { return Ok(first.is_some()) };
@@ -214,7 +214,7 @@ impl Reading {
     }
 }
 
-/// Checks that no length, m, for which `counts` holds is beyond the largest one.
+/// Returns an error if a length (m) for which `counts` is true exceeds [`LARGEST`].
 fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), TopographyError> {
     let is_beyond = |length: &f64| counts(*length) && (length.is_nan() || length.abs() > LARGEST);
     let Some(index) = lengths.iter().position(is_beyond) else { return Ok(()) };
@@ -231,8 +231,8 @@ fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
     Err(refused(Place::Point(index + 2), fault, "positions that ascend, or descend"))
 }
 
-/// Returns the unit of a quantity: stated by the file, else by the user, else by convention. `beside` is the unit that the
-/// file states of the positions alone.
+/// Returns the unit of a quantity: as the file states, else as the user states, else by convention. `beside` is a unit that
+/// the file states for the positions alone.
 fn unit(
     name: &str,
     stated: Option<Unit>,

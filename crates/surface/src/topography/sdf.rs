@@ -1,5 +1,5 @@
-//! Formats with a header of lines `key = value`: SDF of ISO 25178-71 and its proposal BCR, as text and binary, with heights as
-//! integers or real numbers and scales in m; and Gwyddion Simple Field, with 32-bit heights.
+//! Formats with a header of lines `key = value`: SDF of ISO 25178-71 and its predecessor BCR, as text and binary, with
+//! heights as integers or real numbers and scales in m; and Gwyddion Simple Field, with 32-bit heights.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -7,8 +7,8 @@ use super::reading::Reading;
 use super::{Place, TopographyError, refused, shown};
 use std::ops::RangeInclusive;
 
-/// Types of heights by their number in the header: name in BCR, and smallest and largest value, of real numbers to the digits
-/// that texts have.
+/// Types of heights, indexed by their number in the header: name in BCR, type, and the smallest and largest value, for real
+/// numbers to the digits that texts have.
 const TYPES: [(&str, Number, [f64; 2]); 8] = [
     ("UCHAR", Number::U8, [0.0, 255.0]),
     ("UINTEGER", Number::U16, [0.0, 65_535.0]),
@@ -23,24 +23,23 @@ const TYPES: [(&str, Number, [f64; 2]); 8] = [
 /// Byte order mark that some programs write before a text.
 const UTF_8_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Version of the format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
-    /// The proposal of 1993.
+    /// BCR, the proposal of 1993.
     Bcr,
-    /// The standard, also its draft.
+    /// ISO 25178-71, also its draft.
     Iso1,
-    /// The standard from 2017 on: larger maps.
+    /// ISO 25178-71 from 2017 on, with larger maps.
     Iso2,
 }
 
-/// Returns true for the first bytes of SDF: `a` for text or `b` for binary, and a family.
+/// Returns true for the first bytes of SDF: `a` for text or `b` for binary, and the name of a version.
 pub(super) fn is_sdf(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
     matches!(bytes, [b'a' | b'A' | b'b' | b'B', family @ ..] if family.starts_with(b"ISO-") || family.starts_with(b"BCR-"))
 }
 
-/// Reads either form in any version.
+/// Reads the text or the binary form of any version.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
     let version = match bytes.get(1..8) {
@@ -68,8 +67,8 @@ fn reading(
     reading.scaled(|height| missing.contains(&height), unit)
 }
 
-/// Returns a type by its number or name, with the heights that mark missing points: the smallest one in the standard, but
-/// the largest one in BCR, and in types that are never negative.
+/// Returns the type with this number or name, and the range of heights that mark missing points: around the smallest value
+/// in ISO, around the largest one in BCR and in types without negative values.
 fn data_type(
     name: &str,
     version: Version,
@@ -88,7 +87,7 @@ fn data_type(
     Ok((number, missing))
 }
 
-/// Reads the text form: `key = value` lines, `*`, heights between spaces, `*`, and comments behind semicolons.
+/// Reads the text form: `key = value` lines, `*`, heights separated by white space, `*`, and comments after semicolons.
 fn read_text(bytes: &[u8], version: Version) -> Result<Reading, TopographyError> {
     const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
     let text = String::from_utf8_lossy(bytes);
@@ -176,7 +175,7 @@ struct Entries {
 }
 
 impl Entries {
-    /// Reads a line with its number; `allowed` is for the message.
+    /// Reads one line of the header; `allowed` is for the message of an error.
     pub fn take(&mut self, number: usize, line: &str, allowed: &str) -> Result<(), TopographyError> {
         let Some((key, value)) = line.split_once('=') else {
             return Err(refused(Place::Line(number), format!("{:?}", shown(line)), allowed));
@@ -198,7 +197,7 @@ impl Entries {
         }
     }
 
-    /// Integer above 0 of a key. The error of a missing key lists all `required` keys.
+    /// Positive integer of a key. The error for a missing key lists all `required` keys.
     pub fn count(&self, key: &str, required: &str) -> Result<usize, TopographyError> {
         let Some((value, place)) = self.text(key) else { return Err(missing(key, required)) };
         match value.parse::<f64>() {

@@ -1,4 +1,4 @@
-//! Digital Surf SUR: a header of 512 bytes, comments, and integers, plain or compressed.
+//! The format SUR of Digital Surf: a header of 512 bytes, comments, and integer heights, plain or compressed.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded, unpacked_size};
@@ -7,10 +7,10 @@ use super::{Place, TopographyError, refused};
 use asperity_data::read_limited;
 use flate2::read::ZlibDecoder;
 
-/// Distance of the mark of missing points below the smallest height.
+/// The mark of missing points is this much below the smallest height, in integer steps.
 const MISSING_BELOW: f64 = 2.0;
 
-/// Most compressed parts: each takes some microseconds, also for a single byte.
+/// Limit of the number of compressed parts: each takes some microseconds, even for a single byte.
 const MOST_PARTS: usize = 1 << 16;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
@@ -71,15 +71,15 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
     }
 }
 
-/// Returns the unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code page, read as æ in
-/// Windows-1252.
+/// Returns the unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code page, which in Windows-1252
+/// reads as æ.
 fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> {
     let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
     let text = decoded(field);
     Unit::stated(if text.trim() == "æm" { "µm" } else { text.trim() }, place)
 }
 
-/// Decompresses heights: a table of the sizes of the parts before and after, then the parts.
+/// Decompresses heights: a table with the size of each part before and after compression, then the parts.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, TopographyError> {
     let place = data.place();
     let expected = unpacked_size(points, number, place.clone())?;

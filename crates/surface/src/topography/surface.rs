@@ -7,21 +7,21 @@ use asperity_data::gathered;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
-/// Largest position and height, m, and largest slope between neighbours: beyond these, lengths and mean squares
+/// Largest allowed position and height, m, and largest slope between neighbours: beyond them, lengths and mean squares
 /// could overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
-/// Share of the distance between points by which points of an even grid may be displaced due to rounding.
+/// Share of the spacing by which points of an even grid may be displaced because of rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
-/// Returns the index of the first position that lies off an even grid from a first position, m, at a distance, m.
+/// Returns the index of the first position that lies off the even grid with this first position (m) and distance (m).
 pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
     let is_even =
         |(index, x): (usize, &f64)| (x - first - index as f64 * distance).abs() <= UNEVEN * distance.abs();
     positions.iter().enumerate().position(|point| !is_even(point))
 }
 
-/// Row or column of a map, from 1.
+/// Row or column of a map, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
     /// A row.
@@ -30,17 +30,17 @@ pub enum Cut {
     Column(u64),
 }
 
-/// Where the points of a surface are, m.
+/// Positions of the points of a surface, m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Layout {
-    /// Positions of a profile, ascending.
+    /// Positions of the points of a profile, ascending.
     Positions(Vec<f64>),
-    /// Distances along and between rows, equal for a profile.
+    /// Distances along and between rows; both are equal for a profile.
     Even([f64; 2]),
 }
 
 /// Numbers of columns and of rows without a measured point that are left out at the borders of a map, before and after its
-/// measured part. Of a profile they are points at its ends.
+/// measured part; for a profile numbers of points at its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -48,12 +48,12 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Numbers of columns and of rows left out in all.
+    /// Numbers of columns and of rows left out, before and after together.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Place in the file of a point that is left, in rows of `columns` points.
+    /// Index in the file of a remaining point, whose `index` is in rows of `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let (row, column) = (index / columns + self.before[1], index % columns + self.before[0]);
         row * (columns + self.counts()[0]) + column
@@ -67,28 +67,28 @@ pub struct Topography {
     pub format: &'static str,
     /// Heights, m, row by row.
     pub heights: Vec<f64>,
-    /// Points of a row; all points of a profile.
+    /// Number of points of a row; of all points for a profile.
     pub columns: usize,
     pub(super) layout: Layout,
-    /// Parts of the file that are left out, since they are empty.
+    /// Empty rows and columns at the borders of the file that are left out.
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
-    /// Positions before resampling, m; empty for a surface as measured.
+    /// Positions before resampling, m; empty for a surface that was not resampled.
     pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
-    /// Name of the measurement in a container; empty for a file of its own.
+    /// Name of the measurement in a container; empty if the surface is from a file of its own.
     pub name: String,
-    /// Part that is no roughness, and true for a surface that repeats itself at its borders, as a container states.
+    /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
-    /// What is odd in the file.
+    /// Messages on oddities of the file.
     pub warnings: Vec<String>,
 }
 
 impl Topography {
-    /// The surface, unless it has a slope above 1e9.
+    /// Returns the surface; an error if it has a slope above 1e9.
     pub(super) fn checked(self) -> Result<Self, TopographyError> {
         let slope = |index: usize| {
             let distance = match &self.layout {
@@ -105,26 +105,25 @@ impl Topography {
         Err(refused(place, found, format!("at most {LARGEST:e}")))
     }
 
-    /// Number of points with interpolated heights, outliers among them.
+    /// Number of points with interpolated heights, including replaced outliers.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
 
-    /// Place of the first missing point of a profile in its file, counted from 0.
+    /// Index in the file of the first missing point of a profile, from 0.
     pub(crate) fn first_missing(&self) -> Option<usize> {
         let Cropped { before: [before, _], after: [after, _] } = self.cropped;
         let inside = self.interpolated.first().copied().or((after > 0).then_some(self.columns));
         if before > 0 { Some(0) } else { inside }
     }
 
-    /// True for a profile that was resampled.
     pub(crate) fn is_resampled(&self) -> bool {
         !self.resampled.is_empty()
     }
 
-    /// Copies the heights, m. With `quarters` above zero the points at this number of quarters of length and width from the
-    /// interpolated ones are interpolated too, and a resampled profile gets back what resampling to its former positions and back
-    /// would take. The change is an estimate of the error of the first interpolation.
+    /// Copies the heights, m. With `quarters` above zero the copy differs by an estimate of the error of interpolation:
+    /// points at this number of quarters of length and width from the interpolated points are interpolated too, and a
+    /// resampled profile gets back what resampling to its former positions and back would take.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
@@ -153,15 +152,15 @@ impl Topography {
         Ok(heights)
     }
 
-    /// Number of rows; one for a profile.
+    /// Number of rows; 1 for a profile.
     pub fn rows(&self) -> usize {
         self.heights.len() / self.columns
     }
 
-    /// Positions of a profile, m, and its heights, m; equally spaced points begin at x = 0.
+    /// Positions and heights of a profile, m; equally spaced points begin at x = 0.
     ///
     /// # Errors
-    /// A map.
+    /// For a map.
     pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
         if rows > 1 {
@@ -178,7 +177,7 @@ impl Topography {
         Ok((positions, self.heights))
     }
 
-    /// One row or column of a map, as a profile.
+    /// The row or column `cut` of a map, as a profile.
     pub(super) fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
         let (columns, rows) = (self.columns, self.rows());
         let (Layout::Even([along, between]), 2..) = (&self.layout, rows) else {
@@ -219,8 +218,8 @@ impl Topography {
     /// Distances between points along and between rows, m; both are equal for a profile.
     ///
     /// # Errors
-    /// A profile with unequal spacing: the first point that lies off the even grid from the first to the last point
-    /// by more than 0.1 % of the mean distance.
+    /// For a profile with uneven spacing, the first point that lies off the even grid from the first to the last point by
+    /// more than 0.1 % of the mean distance.
     pub fn spacing(&self) -> Result<[f64; 2], TopographyError> {
         match &self.layout {
             Layout::Even(spacing) => Ok(*spacing),
@@ -238,8 +237,8 @@ impl Topography {
         }
     }
 
-    /// The same profile equally spaced at the mean distance: heights by linear interpolation. An equally spaced
-    /// profile, or a map, is unchanged.
+    /// The profile resampled at its mean spacing by linear interpolation. An equally spaced profile and a map stay as they
+    /// are.
     pub(super) fn resampled(mut self) -> Result<Self, TopographyError> {
         if self.spacing().is_ok() {
             return Ok(self);
@@ -253,8 +252,8 @@ impl Topography {
     }
 }
 
-/// Returns the heights above a level, m, at ascending places, m, by linear interpolation between at least two points; at
-/// a point its own height, bit for bit, and beyond the first and the last point the height of that.
+/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between at least two points; at a
+/// point its own height, bit for bit, and beyond the first and last point the height of that point.
 pub(crate) fn interpolated(
     positions: &[f64],
     heights: &[f64],
@@ -282,11 +281,11 @@ fn mean_distance(positions: &[f64]) -> f64 {
     (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
-/// Part of a surface removed before analysis.
+/// Polynomial removed from a surface before analysis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Detrend {
-    /// None; in scenes `Nothing`, since `None` omits a field.
+    /// Nothing; written `Nothing` in scenes, since `None` omits a field.
     #[serde(rename = "Nothing")]
     #[strum(serialize = "Nothing")]
     None,

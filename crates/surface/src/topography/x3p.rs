@@ -9,8 +9,8 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 const LONGEST_INDEX: usize = 1 << 26;
 
-/// Most attributes of `main.xml`, declarations of namespaces among them. The parser compares each with all others of
-/// its element, and declarations with all that the element inherits.
+/// Limit of the number of attributes of `main.xml`, including declarations of namespaces. The parser compares each
+/// attribute with all others of its element, and each declaration with all that the element inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
 pub(super) const INDEX: &str = "main.xml";
@@ -50,14 +50,14 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, TopographyError>
     Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 3]))
 }
 
-/// Encoding that the declaration of XML states, in a file of one of the encodings that contain ASCII.
+/// Encoding that the XML declaration states, if it is one that contains ASCII.
 fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
     let declaration = content.strip_prefix(b"<?xml")?.split(|byte| *byte == b'>').next()?;
     let (_, rest) = str::from_utf8(declaration).ok()?.split_once("encoding")?;
     Encoding::for_label(rest.trim_start().strip_prefix('=')?.split(['"', '\'']).nth(1)?.as_bytes())
 }
 
-/// Refuses an index that takes the parser much more time or memory than its length.
+/// Returns an error for an index whose parsing would take far more time or memory than its length suggests.
 fn check_index(index: &str) -> Result<(), TopographyError> {
     // The parser reserves memory for each of these signs; an element has four characters.
     if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
@@ -133,12 +133,12 @@ fn trimmed<'a>(node: Node<'a, '_>) -> &'a str {
     node.text().unwrap_or_default().trim()
 }
 
-/// Returns the text of the first element of this name below a node; without one, an empty text.
+/// Returns the text of the first element of this name below a node; empty if there is none.
 fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
     find(node, name).map_or("", trimmed)
 }
 
-/// Returns the number of an element; `None` without the element or its content.
+/// Returns the number in the first element of this name; `None` if the element is missing or empty.
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, TopographyError> {
     let Some(text) = find(axis, name).map(trimmed).filter(|text| !text.is_empty()) else { return Ok(None) };
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());

@@ -1,22 +1,22 @@
-//! What the columns of a table hold: heights alone, a profile, points of a map, or rows of a map.
+//! Meaning of the columns of a table: heights alone, a profile, points of a map, or rows of a map.
 
 use super::super::{Place, TopographyError, refused, shown};
 use super::header::{Column, Role};
 
-/// Most columns of positions and heights; more are rows of a map, unless their names say otherwise.
+/// Limit of the number of columns of positions and heights; more columns are rows of a map, unless their names say otherwise.
 const MOST_NAMED: usize = 3;
 
-/// Places of the columns of a list of points.
+/// Indices of the columns of a list of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct List {
-    /// Positions of a profile, or x of the points of a map.
+    /// Column of the positions of a profile, or of x of the points of a map.
     pub x: Option<usize>,
     pub y: Option<usize>,
     pub height: usize,
     pub valid: Option<usize>,
 }
 
-/// The list of points in these columns; `None` for rows of a map.
+/// The columns of a list of points; `None` if the columns are rows of a map.
 pub(super) fn list_of(columns: &[Column]) -> Result<Option<List>, TopographyError> {
     let places = |role: Role| columns.iter().enumerate().filter(move |(_, column)| column.role == role);
     // `point 1`, `point 2` … are names of other things.

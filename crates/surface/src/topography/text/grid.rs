@@ -1,28 +1,29 @@
-//! Even grids behind positions that are printed with few digits, and maps from lists of points.
+//! Even grids whose positions are printed with few digits, and maps from lists of points.
 
 use super::super::surface::{UNEVEN, first_uneven};
 use super::super::{Place, TopographyError, refused};
 use asperity_data::{gathered, resized};
 
-/// Fewest positions whose digits show an even grid: fewer may be uneven by intention.
+/// Smallest number of positions whose digits show an even grid: fewer may be uneven by intention.
 const LEAST_PRINTED: usize = 32;
 
-/// Share of the largest distance between positions below which two of them are on the same line of a grid.
+/// Share of the largest distance between positions below which two positions are on the same line of a grid.
 const SAME_LINE: f64 = 0.05;
 
-/// Most lines of a grid for each one with points.
+/// Limit of the number of lines of a grid over the number of lines that have points.
 const MOST_LINES: f64 = 1.25;
 
-/// Most cells of a grid for each point: half of the points may be missing.
+/// Limit of the number of cells of a grid over the number of points: half of the points may be missing.
 const MOST_CELLS: usize = 2;
 
-/// Relative difference of the distance and the last printed digit below which a missing point looks like a rounded distance.
+/// Relative difference between the distance of points and the last printed digit below which a missing point looks like a
+/// rounded distance.
 const LIKE_DIGIT: f64 = 0.1;
 
-/// Most cuts in the search for an even grid.
+/// Limit of the number of cuts in the search for an even grid.
 const MOST_CUTS: usize = 64;
 
-/// Digits that the numbers of a column are printed with: most decimals, and most significant digits.
+/// Digits with which the numbers of a column are printed: the largest numbers of decimals and of significant digits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Digits {
     decimals: i32,
@@ -50,7 +51,7 @@ impl Digits {
         self.significant = self.significant.max(significant);
     }
 
-    /// Half of the last printed digit of a number, with some rounding errors.
+    /// Half of the last printed digit of a number, plus some rounding errors.
     fn half(self, value: f64) -> f64 {
         let before = if value == 0.0 { i32::MIN / 2 } else { value.abs().log10().floor() as i32 + 1 };
         let digit = (before - self.significant).max(-self.decimals);
@@ -58,8 +59,8 @@ impl Digits {
     }
 }
 
-/// First position and distance of an even grid whose points of these numbers are within half a printed digit of the positions
-/// (number, position), in the order of the numbers.
+/// First position and distance of an even grid that agrees with all positions, given as (number, position) in the order of
+/// the numbers, to within half a printed digit.
 fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
     let [(_, first), .., (last_number, last)] = points else { return None };
     if points.len() < LEAST_PRINTED {
@@ -101,7 +102,7 @@ fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
     None
 }
 
-/// Moves positions that are even within their printed digits to the even grid. Others stay.
+/// Moves positions onto an even grid if that changes none by more than its printed digits; otherwise they stay.
 pub(super) fn move_to_printed_grid(positions: &mut [f64], digits: Digits) -> Result<(), TopographyError> {
     let [first, .., last] = positions else { return Ok(()) };
     let (first, distance) = (*first, (*last - *first) / (positions.len() - 1) as f64);
@@ -126,7 +127,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Lines through the positions; the error is one that is off the even grid. Whole lines may be missing.
+    /// Lines through the positions, some of which may be missing; the inner error is a position that lies off the even grid.
     pub fn of(positions: &[f64], digits: Digits) -> Result<Result<Axis, f64>, TopographyError> {
         let mut sorted = gathered(positions.len(), positions.iter().copied())?;
         sorted.sort_unstable_by(f64::total_cmp);
@@ -175,7 +176,7 @@ impl Axis {
         Ok(Ok(Axis { first, distance, count }))
     }
 
-    /// Number of the line through a position, unless it is off the grid.
+    /// Number of the line through a position; `None` if it lies off the grid.
     fn line(self, position: f64, digits: Digits) -> Option<usize> {
         if self.count == 1 {
             return Some(0);
@@ -189,16 +190,16 @@ impl Axis {
     }
 }
 
-/// A map row by row along x.
+/// Heights of a map, row by row along x.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Map {
     pub heights: Vec<f64>,
     pub columns: usize,
-    /// Distances along and between rows, if they are known.
+    /// Distances along and between rows, where they are known.
     pub distances: Option<[f64; 2]>,
 }
 
-/// The map of points in any order. Points that are left out are missing.
+/// The map of points in any order. Points of the grid that are not listed are missing.
 pub(super) fn map_of(
     [x, y]: [&[f64]; 2],
     heights: &[f64],

@@ -1,23 +1,23 @@
-//! Header of the numbers in a text: units, sizes, and names of columns.
+//! Header before the numbers of a text: units, sizes, and names of columns.
 
 use super::super::Unit;
 use super::layout::{COMMENT, Cell, Decimal, Separator};
 use std::collections::VecDeque;
 
-/// Longest header line that is examined, bytes, and number of the last lines that may name columns.
+/// Limit of the length of a header line that is examined, bytes, and the number of last lines that may name columns.
 const LONGEST: usize = 4096;
 const LAST_LINES: usize = 64;
 
-/// Characters that a unit in round brackets may have that is not known.
+/// Limit of the number of characters of an unknown unit in round brackets.
 const LONGEST_UNIT: usize = 5;
 
-/// Keys of sizes, of channels and of units in English and in the other languages of Gwyddion.
+/// Keys of sizes, channels and units in English and in the other languages of Gwyddion.
 const WIDTH: &str = "width šířka breite anchura largeur larghezza 幅 폭 largura ширина";
 const HEIGHT: &str = "height výška höhe altura hauteur altezza 高さ 높이 высота";
 const CHANNEL: &str = "channel kanál kanal canal canale チャネル 채널 канал";
 const UNIT: &str = "unit units einheit einheiten jednotka jednotky unité unités unità unidad unidades единицы 単位 단위 値の単位";
 
-/// Words beside `unit` in a key: words for heights, for both positions, and for all lengths.
+/// Words beside `unit` in a key, by what the unit is for: heights, both positions, or all lengths.
 const OF_HEIGHTS: &str = "z value values height heights data hodnot valore valor 값";
 const OF_POSITIONS: &str = "xy lateral position positions distance";
 const OF_ALL: &str = "length lengths de измерения";
@@ -28,10 +28,10 @@ const SPACING: [&str; 3] = ["xy calibration", "pixel size", "sampling distance"]
 /// Keys of the number of columns and of rows.
 const COUNTS: [&str; 2] = ["horizontal", "vertical"];
 
-/// What a column of a surface holds, as its name says.
+/// Meaning of a column of a surface, by its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// Nothing that the name says.
+    /// The name says nothing.
     #[default]
     Unknown,
     /// Position along the first axis.
@@ -42,11 +42,11 @@ pub enum Role {
     Height,
     /// Number of the point.
     Number,
-    /// 0 for a point that is not measured.
+    /// 0 for a point that was not measured.
     Valid,
 }
 
-/// Words in the names of columns, the first ones preferred.
+/// Words in the names of columns, in the order of preference.
 const ROLES: [(Role, &str); 6] = [
     (Role::X, "x"),
     (Role::Y, "y"),
@@ -56,10 +56,10 @@ const ROLES: [(Role, &str); 6] = [
     (Role::Number, "index idx no nr number point points pt sample id"),
 ];
 
-/// A column with its name and, if that states one, its unit.
+/// Name of a column and, if the name states one, its unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Column {
-    /// Name of the column; empty without one.
+    /// Name of the column; empty if it has none.
     pub name: String,
     /// What the column holds.
     pub role: Role,
@@ -72,19 +72,19 @@ pub struct Column {
 pub struct Header {
     /// Name of the channel.
     pub channel: Option<String>,
-    /// Units of x, of y and of heights, as keys that name them state.
+    /// Units of x, y and heights, from keys that name them.
     units: [Option<Unit>; 3],
-    /// Unit of all lengths.
+    /// Unit of all lengths, from a key.
     unit: Option<Unit>,
-    /// Unit of the heights that is no length.
+    /// Unit of the heights if it is not a unit of length.
     pub other_unit: Option<String>,
     /// Width and height of a map, m.
     pub sizes: [Option<f64>; 2],
     /// Distance between points of a map along and between rows, m.
     pub spacing: Option<f64>,
-    /// Numbers of columns and of rows.
+    /// Number of columns and number of rows.
     pub counts: [Option<usize>; 2],
-    /// The last lines that are none of these entries.
+    /// The last lines that are no such entries and may name columns.
     lines: VecDeque<String>,
 }
 
@@ -94,7 +94,8 @@ impl Header {
         Header { unit, ..Header::default() }
     }
 
-    /// Reads a line: `key: value`, `key = value` or `key,value` with a unit, a size or a channel, or else names of columns.
+    /// Reads a line: `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may name
+    /// columns.
     pub fn take(&mut self, line: &str) {
         let line = line.trim_start_matches(COMMENT).trim();
         if line.len() <= LONGEST && self.take_entry(line) {
@@ -132,14 +133,14 @@ impl Header {
         true
     }
 
-    /// Unit of x (0), y (1) or heights (2), as a key states, if the column does not.
+    /// Unit of x (0), y (1) or heights (2): as the column states, else as a key states.
     pub fn unit(&self, axis: usize, column: Option<&Column>) -> Option<Unit> {
         let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
         of_column.or(self.units[axis]).or(self.unit)
     }
 
-    /// Names and units of columns, from the last line with a name for each of `count` columns, of which the numbers may be
-    /// followed by further separators up to `cells` cells, and a row of units. Without such a line nothing is known of them.
+    /// Names and units of the columns, from the last line with a name for each of `count` columns, and a row of units. Lines
+    /// of numbers may end with further separators, up to `cells` cells. Without such a line nothing is known of the columns.
     pub fn columns(&self, count: usize, cells: usize, separator: Separator, is_unit: IsUnit) -> Vec<Column> {
         let mut units: Option<Vec<String>> = None;
         for line in self.lines.iter().rev() {
@@ -171,16 +172,16 @@ impl Header {
         columns
     }
 
-    /// Returns true if one of the last lines that are no entries is this text.
+    /// Returns true if one of the last lines that are no entries equals this text.
     pub fn has_line(&self, text: &str) -> bool {
         self.lines.iter().any(|line| line == text)
     }
 }
 
-/// Returns true for a text that is a unit of a quantity in the columns.
+/// Function that returns true for the unit of a quantity in the columns.
 pub(crate) type IsUnit = fn(&str) -> bool;
 
-/// Adds a row of units, which overrules the units beside names where it is known.
+/// Adds a row of units; a unit in it replaces the unit beside a name, if it is known.
 fn add_units(columns: &mut [Column], units: Vec<String>, is_unit: IsUnit) {
     for (column, unit) in columns.iter_mut().zip(units) {
         if is_unit(&unit) || column.unit.is_none() && !unit.is_empty() {
@@ -193,7 +194,7 @@ fn is_one_of(word: &str, words: &str) -> bool {
     words.split(' ').any(|one| one == word)
 }
 
-/// Key in small letters and value of a line.
+/// Key in lower case and value of a line.
 fn entry(line: &str) -> Option<(String, String)> {
     let bare = |text: &str| text.trim_matches(['"', ',', ';', ' ', '\t']).to_owned();
     if let Some((key, value)) = line.split_once([':', '=', '：']) {
@@ -205,7 +206,7 @@ fn entry(line: &str) -> Option<(String, String)> {
     Some((key, bare(&value.join(" ")))).filter(|(_, value)| !value.is_empty())
 }
 
-/// The axes whose unit a key states: x (0), y (1) and heights (2), or none for all lengths; `None` for another key.
+/// The axes whose unit a key states: x (0), y (1) and heights (2); empty for the unit of all lengths; `None` for another key.
 fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     let words = || key.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     if !words().any(|word| is_one_of(word, UNIT)) {
@@ -224,7 +225,7 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     if key == "値の単位" { Some(vec![2]) } else { Some(axes) }
 }
 
-/// Length in m, such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
+/// Length in m of a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
 fn length(text: &str) -> Option<f64> {
     let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
     let (number, unit) = text.split_at(end);
@@ -236,8 +237,8 @@ fn length(text: &str) -> Option<f64> {
     }
 }
 
-/// The cells of a line of names, if they are `count` or, separated like the numbers, up to `most`: between separators of the
-/// numbers, else of the line itself, else behind closing brackets.
+/// The cells of a line of names, if there are `count` of them, or with the separator of the numbers up to `most`. They are
+/// split at the separator of the numbers, else at the separator of the line, else after closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = match line.split_once([':', '=']) {
         Some((key, cells)) if is_one_of(&key.trim().to_lowercase(), "columns names fields units") => cells,
@@ -271,8 +272,9 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// Name, role and unit in the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral um`;
-/// an unknown one is in square brackets, behind a slash, or a short word in round brackets: `height (measured)` is a name.
+/// Name, role and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral
+/// um`. An unknown unit is recognised in square brackets, behind a slash, or as a short word in round brackets: `height
+/// (measured)` is a name.
 fn column(cell: &str, is_unit: IsUnit) -> Column {
     let bracket = |(at, mark): (usize, &str)| {
         let unit = bare(cell[at + 1..].split([']', ')']).next()?);

@@ -1,10 +1,10 @@
-//! Cells of a line of text: their separators and decimal marks.
+//! Cells of a line of text: separators and decimal marks.
 
-/// First characters of a comment.
+/// Characters that begin a comment.
 pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
 
-/// Separator of the columns of a text, from its first line of numbers: a semicolon, a tab, a comma, or a space for any
-/// white space.
+/// Separator of the columns of a text, determined from its first line of numbers: a semicolon, a tab, a comma, or a space
+/// for any white space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
@@ -12,9 +12,9 @@ impl Separator {
     /// Blanks and tabs.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas
-    /// are decimal marks beside semicolons and tabs, and if each word between spaces is a number with a comma
-    /// inside, as in `0,5 1,25`; `0.5, 1.25` and `0,5` are two columns.
+    /// Separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else spaces. Commas are
+    /// decimal marks if semicolons or tabs separate, and if each word between spaces is a number with a comma inside, as in
+    /// `0,5 1,25`; `0.5, 1.25` and `0,5` are two columns each.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -22,8 +22,8 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Columns of a line without spaces around it, and without quotation marks, between which separators do not count.
-    /// Separators other than spaces have columns on both sides, which may be empty.
+    /// Splits a line without spaces around it into columns; separators within quotation marks do not count. A separator
+    /// other than spaces has a column on both sides, which may be empty.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -34,7 +34,7 @@ impl Separator {
     }
 }
 
-/// Tells of each character of a line in turn whether it is outside quotation marks.
+/// Function that returns, for each character of a line in turn, whether it is outside quotation marks.
 fn outside_quotes() -> impl FnMut(char) -> bool {
     let mut is_inside = false;
     move |c| {
@@ -43,7 +43,7 @@ fn outside_quotes() -> impl FnMut(char) -> bool {
     }
 }
 
-/// Returns true for two or more words, each a number, at least one with a comma inside and none with a point.
+/// Returns true for two or more words that are numbers, at least one with a comma inside and none with a point.
 fn has_decimal_commas(line: &str) -> bool {
     let is_number = |word: &str| {
         let inside = word.split_once(',').is_none_or(|(before, after)| {
@@ -67,15 +67,15 @@ pub enum Cell {
     NoNumber,
 }
 
-/// Marks of missing points, in addition to an empty column and `NaN`.
+/// Marks of missing points, besides an empty column and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Decimal mark of a text: the first one found.
+/// Decimal mark of a text, determined by the first one read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal(Option<char>);
 
 impl Decimal {
-    /// Reads a cell; the first decimal mark of a text is the mark of all its numbers.
+    /// Reads a cell; the first decimal mark of a text holds for all its numbers.
     pub fn read(&mut self, cell: &str, separator: Separator) -> Cell {
         // The minus sign of spreadsheets and papers.
         if cell.contains('\u{2212}') {

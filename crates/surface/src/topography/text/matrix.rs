@@ -1,14 +1,15 @@
-//! Rows of a map, with or without the positions in the first row and the first column.
+//! Maps written row by row, with or without positions in the first row and the first column.
 
 use super::super::surface::first_uneven;
 use super::super::{Place, TopographyError, refused};
 use super::grid::{Digits, Map, move_to_printed_grid};
 use asperity_data::gathered;
 
-/// Fewest numbers in even steps, beside others that are not, that are positions and no heights.
+/// Smallest number of evenly spaced numbers that are taken for positions, if the numbers along the other axis are not
+/// evenly spaced.
 const LEAST_STEPS: usize = 8;
 
-/// First number and distance of numbers that rise or fall in even steps.
+/// First number and step of numbers that rise or fall in even steps.
 fn even_steps(
     count: usize,
     numbers: impl Iterator<Item = f64>,
@@ -24,8 +25,9 @@ fn even_steps(
     Ok(first_uneven(&numbers, first, distance).is_none().then_some([first, distance]))
 }
 
-/// The map of rows of `columns` numbers, with distances if the first row and the first column hold positions. If these count
-/// rows and columns from 0 or 1, the distances are not known. `digits` are the digits of the first row and of the first column.
+/// The map in rows of `columns` numbers, without its positions and with its distances if the first row and column hold
+/// positions. If these only count from 0 or 1, the distances stay unknown. `digits` are the printed digits of the first row
+/// and column.
 pub(super) fn without_positions(
     mut numbers: Vec<f64>,
     columns: usize,

@@ -24,20 +24,21 @@ use std::borrow::Cow;
 use std::ops::Range;
 use table::{Table, is_header};
 
-/// Most headers with numbers.
+/// Limit of the number of headers with numbers behind them.
 const MOST_PARTS: usize = 256;
 
-/// Most channels that a message lists.
+/// Limit of the number of channels that a message lists.
 const MOST_LISTED: usize = 8;
 
-/// Numbers with the header before them.
+/// Numbers of a text, with the header before them.
 #[derive(Default)]
 struct Part {
     header: Header,
     table: Option<Table>,
 }
 
-/// Reads the channel of this number, from 0, of a text with several; without a number, the only one whose heights are lengths.
+/// Reads the channel with this number, from 0, of a text with several; without a number, the only channel whose heights are
+/// lengths.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
     // Tables of results are in SI units.
     let metre = bytes.starts_with(PROVENANCE.as_bytes()).then_some(Unit::METRE);
@@ -79,7 +80,7 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
     table.reading(&header, rows, is_open)
 }
 
-/// Returns true for a line behind numbers that begins another header: words, or a comment with the name of a channel.
+/// Returns true for a line after numbers that begins another header: words, or a comment with the name of a channel.
 fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
     let Some(Part { table: Some(table), .. }) = parts.last() else { return false };
     if !is_comment {
@@ -94,7 +95,8 @@ fn no_numbers() -> TopographyError {
     refused(Place::File, "no line of numbers", "a line of numbers for each point or row")
 }
 
-/// The part and the rows of the channel of this number, or of the only one, or of the only one whose heights are lengths.
+/// Index of the part and the rows of the channel with this number; without a number, of the only channel, or the only one
+/// whose heights are lengths.
 fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), TopographyError> {
     let with_numbers =
         parts.iter().enumerate().filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
@@ -130,8 +132,9 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
     Err(refused(Place::File, fault, "--channel with the number of one, in a scene roughness.channel"))
 }
 
-/// Passes all lines of numbers of a table with the header before them and their places on: the header ends at the first line
-/// for which `is_header` is false. Empty lines, comments between numbers and the scene in a table of results are skipped.
+/// Calls `take` for each line of numbers with the header before the numbers and the place of the line; the header ends at
+/// the first line for which `is_header` is false. Empty lines, comments between numbers and the scene in a table of results
+/// are skipped.
 pub fn each_line(
     bytes: &[u8],
     is_header: impl Fn(&str) -> bool,
@@ -151,8 +154,8 @@ pub fn each_line(
     })
 }
 
-/// Passes the lines of a text on, with their numbers and without white space around them, except for the scene in a table of
-/// results, whose words may look like units.
+/// Calls `take` for each line of a text with its number, without white space around it. The scene in a table of results is
+/// skipped, since its words may look like units.
 fn each_text(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), TopographyError>,
@@ -172,7 +175,7 @@ fn each_text(
     Ok(())
 }
 
-/// Longest line, bytes: a row of a large matrix.
+/// Limit of the length of a line, bytes: enough for a row of a large matrix.
 const LONGEST_LINE: usize = 1 << 24;
 
 /// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
@@ -186,7 +189,7 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
     Ok(Cow::Owned(encoding.decode_without_bom_handling(text).0.into_owned().into_bytes()))
 }
 
-/// Returns a line without white space around it: UTF-8, or, if that is invalid, Windows-1252, in which older programs
+/// Returns a line without white space around it, as UTF-8, or if that is invalid as Windows-1252, in which older programs
 /// write µ and °.
 fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, TopographyError> {
     let (fault, allowed) = if line.len() > LONGEST_LINE {

@@ -1,4 +1,4 @@
-//! Lines of numbers of a text, and what they are: heights, a profile, or a map.
+//! Lines of numbers in a text, and their meaning: heights, a profile, or a map.
 
 use super::super::Unit;
 use super::super::reading::Reading;
@@ -12,36 +12,36 @@ use super::{matrix, warnings};
 use asperity_data::{gathered, push, reserve};
 use std::ops::Range;
 
-/// Columns whose printed digits count, since they may be positions.
+/// Number of first columns whose printed digits are recorded, since they may be positions.
 const FEW_COLUMNS: usize = 4;
 
-/// Most lines and most numbers of a line with counts of lines and columns.
+/// Limit of the number of lines, and of numbers in a line, that count the rows and columns that follow.
 const MOST_COUNTS: usize = 3;
 
-/// Lines of numbers, in the units of the file.
+/// Lines of numbers of a text, in the units of the file.
 #[derive(Debug)]
 pub(super) struct Table {
     separator: Separator,
     decimal: Decimal,
-    /// Cells of a line, empty cells at the end among them, and cells up to the last one that is not empty.
+    /// Number of cells of a line, empty ones at its end included, and number of cells up to the last one that is not empty.
     cells: usize,
     width: usize,
     values: Vec<f64>,
-    /// True for a column with a cell that is not empty.
+    /// True for each column with a cell that is not empty.
     is_filled: Vec<bool>,
-    /// Digits of the first columns, and digits of the first line without its first number.
+    /// Printed digits of the first columns, and of the first line without its first number.
     digits: [Digits; FEW_COLUMNS],
     first_line: Digits,
-    /// Rows and line numbers where these do not follow the row and the line before.
+    /// Row and line number wherever a row is not on the line after the row before.
     lines: Vec<(usize, usize)>,
-    /// Rows behind an empty line.
+    /// Rows that follow an empty line.
     breaks: Vec<usize>,
     is_paused: bool,
-    /// Numbers before the first row, with the number of their line.
+    /// Line number and values of numbers before the first row that count rows and columns.
     counts: Option<(usize, Vec<f64>)>,
 }
 
-/// Cells of a line, and of these up to the last one that is not empty.
+/// Number of cells of a line, and number of cells up to the last one that is not empty.
 fn widths(separator: Separator, line: &str) -> (usize, usize) {
     let count = |(_, width), (index, cell): (usize, &str)| {
         (index + 1, if cell.is_empty() { width } else { index + 1 })
@@ -49,7 +49,7 @@ fn widths(separator: Separator, line: &str) -> (usize, usize) {
     separator.split(line).enumerate().fold((0, 0), count)
 }
 
-/// Checks that the positions along both axes have a unit, or none of them.
+/// Returns an error if one of the two axes of positions has a unit and the other has none.
 fn check_both([x, y]: [Option<Unit>; 2]) -> Result<(), TopographyError> {
     let (Some(unit), None) = (x.or(y), x.and(y)) else { return Ok(()) };
     let found = format!("{unit} is the unit of one position, and the other one has none");
@@ -60,7 +60,7 @@ fn is_word(cell: &str) -> bool {
     cell.contains(char::is_alphabetic) && !cell.contains(|c: char| c.is_ascii_digit())
 }
 
-/// Returns true for a line before the numbers: its first cell is no number, another one is a word, or all are empty.
+/// Returns true for a line before the numbers: its first cell is no number, another cell is a word, or all cells are empty.
 pub(super) fn is_header(line: &str) -> bool {
     let separator = Separator::of(line);
     let is_none = |cell: &str| Decimal::default().read(cell, separator) == Cell::NoNumber;
@@ -71,7 +71,7 @@ pub(super) fn is_header(line: &str) -> bool {
 }
 
 impl Table {
-    /// A table in the form of this first line.
+    /// An empty table with the layout of this first line.
     fn empty(line: &str) -> Self {
         let separator = Separator::of(line);
         let (cells, width) = widths(separator, line);
@@ -91,8 +91,8 @@ impl Table {
         }
     }
 
-    /// A table from its first line of numbers on. The line before belongs to it if it has as many cells, most of them numbers:
-    /// positions behind a word, as in `y\x 0 1 2`.
+    /// Begins a table with its first line of numbers. The line before belongs to the table if it has as many cells, most of
+    /// them numbers: positions after a word, as in `y\x 0 1 2`.
     pub fn new(before: Option<(usize, &str)>, number: usize, line: &str) -> Result<Self, TopographyError> {
         let mut table = Table::empty(line);
         if let Some((number, before)) = before {
@@ -115,23 +115,23 @@ impl Table {
         self.values.len() / self.cells
     }
 
-    /// Number of the last line.
+    /// Line number of the last row.
     pub fn last_line(&self) -> usize {
         self.line(self.rows() - 1)
     }
 
-    /// Number of the line of a row.
+    /// Line number of a row.
     pub fn line(&self, row: usize) -> usize {
         let run = self.lines.partition_point(|(first, _)| *first <= row).saturating_sub(1);
         self.lines.get(run).map_or(0, |(first, line)| line + row - first)
     }
 
-    /// Notes an empty line.
+    /// Records an empty line.
     pub fn pause(&mut self) {
         self.is_paused = true;
     }
 
-    /// Returns true for a line of words between or behind lines of numbers.
+    /// Returns true for a line of words between or after lines of numbers.
     pub fn is_heading(&self, line: &str) -> bool {
         // Most lines have no letters but those of exponents.
         if line.bytes().all(|byte| byte.is_ascii() && !(byte.is_ascii_alphabetic() && byte | 32 != b'e')) {
@@ -145,7 +145,7 @@ impl Table {
         is_other && self.separator.split(line).any(is_word)
     }
 
-    /// Reads a line without white space around it. Lines before may count the rows and columns of lines with more cells.
+    /// Reads a line without white space around it. The first lines may count the rows and columns that follow.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), TopographyError> {
         let are_counts = self.values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
         if (1..=MOST_COUNTS).contains(&self.values.len()) && self.counts.is_none() && are_counts {
@@ -158,7 +158,7 @@ impl Table {
         self.take_cells(number, line, false)
     }
 
-    /// Reads a line, whose first cell may be no number.
+    /// Reads a line; with `has_corner` its first cell may be a word.
     fn take_cells(&mut self, number: usize, line: &str, has_corner: bool) -> Result<(), TopographyError> {
         let (start, row) = (self.values.len(), self.rows());
         let (mut found, mut width) = (0, 0);
@@ -221,7 +221,8 @@ impl Table {
         self.is_filled.iter().rposition(|is_filled| *is_filled).map_or(1, |last| last + 1)
     }
 
-    /// Rows between empty lines, where these separate channels: rows without positions, unless each is behind an empty line.
+    /// Ranges of rows between empty lines where these separate channels; a single range if each row follows an empty line,
+    /// or the rows hold positions.
     pub fn parts(&self) -> Vec<Range<usize>> {
         let (rows, columns) = (self.rows(), self.columns());
         let are_apart = (columns == 1 || columns >= FEW_COLUMNS) && self.breaks.len() + 1 < rows;
@@ -230,7 +231,7 @@ impl Table {
         starts.zip(ends).map(|(start, end)| start..end).collect()
     }
 
-    /// The surface of some rows. `is_open` is true if the last line has no line end.
+    /// The surface in these rows. `is_open` is true if the last line has no line end.
     pub fn reading(
         mut self,
         header: &Header,
@@ -354,7 +355,7 @@ impl Table {
         Ok(Reading { first_missing, warnings, ..reading })
     }
 
-    /// The positions in a column, in the memory of all numbers, which are no longer needed.
+    /// The positions in a column; they take the memory of all numbers, which are no longer needed.
     fn take_positions(&mut self, column: usize) -> Result<Vec<f64>, TopographyError> {
         let (cells, mut index) = (self.cells, 0);
         let mut positions = std::mem::take(&mut self.values);
@@ -377,7 +378,8 @@ impl Table {
         Ok(gathered(self.rows(), values)?)
     }
 
-    /// Checks that the numbers before the first row count its rows, the distances between these, columns or points.
+    /// Returns an error unless the numbers before the first row are the numbers of rows, of distances between them, of
+    /// columns or of points.
     fn check_counts(&self, of_map: &[usize]) -> Result<(), TopographyError> {
         let Some((line, counts)) = &self.counts else { return Ok(()) };
         let rows = if of_map.is_empty() { self.rows() } else { of_map[1] };
@@ -394,7 +396,7 @@ impl Table {
         Err(refused(Place::Line(*line), fault, allowed))
     }
 
-    /// Checks that the positions of a profile either ascend or descend.
+    /// Returns an error unless the positions of a profile all ascend or all descend.
     fn check_order(&self, positions: &[f64]) -> Result<(), TopographyError> {
         let [first, second, ..] = positions else { return Ok(()) };
         let (is_before, allowed): (fn(f64, f64) -> bool, _) = if first < second {
