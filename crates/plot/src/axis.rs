@@ -5,7 +5,7 @@ use super::scale::Span;
 use super::ticks::{Tick, ticks};
 use asperity_data::AxisScale;
 
-/// Largest numbers of a linear axis whose ticks have few digits.
+/// Range of the largest number on a linear axis within which the numbers at the ticks have few digits.
 const SHORT: (f64, f64) = (1e-3, 1e6);
 
 /// An axis: its scale, its range and the quantity along it.
@@ -13,13 +13,13 @@ const SHORT: (f64, f64) = (1e-3, 1e6);
 pub struct Axis {
     /// Scale of the axis.
     pub scale: AxisScale,
-    /// Range, coordinates.
+    /// Range of coordinates along the axis.
     pub span: Span,
     /// Name of the quantity in words.
     pub name: String,
-    /// Symbol such as `F_n`; may be empty, as may the name.
+    /// Symbol such as `F_n`. Symbol and name may be empty.
     pub symbol: String,
-    /// SI unit; `1` or empty for numbers.
+    /// SI unit; `1` or empty for plain numbers.
     pub unit: String,
     /// Names at the coordinates 0, 1, … in place of numbers; empty for an axis with numbers.
     pub names: Vec<Label>,
@@ -32,20 +32,21 @@ impl Axis {
         Axis { scale, span, name, symbol, unit, names: Vec::new() }
     }
 
-    /// An axis with names in place of numbers, the first at 0, each in the middle of a range of 1.
+    /// Creates an axis with names in place of numbers: the first at the coordinate 0, each in the middle of a range of
+    /// width 1.
     pub fn of_names(names: Vec<Label>) -> Axis {
         let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
         Axis { names, ..Axis::new(AxisScale::Linear, span, "", "", "") }
     }
 
-    /// Position of a number from 0 at the lower to 1 at the upper end; not finite if the scale has no coordinate
-    /// for the number.
+    /// Position of a number along the axis, from 0 at the lower end to 1 at the upper end; not finite if the scale has no
+    /// coordinate for the number.
     pub fn share(&self, number: f64) -> f64 {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Numbers without a prefix
-    /// are divided by a power of ten where a linear axis would have too many digits.
+    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Where the
+    /// numbers of a linear axis would still have too many digits, the divisor is a power of ten instead.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
@@ -58,12 +59,13 @@ impl Axis {
         (10_f64.powi(power), format!("{} {unit}", Label::power_of_ten(power)).trim_end().to_owned())
     }
 
-    /// Name and symbol with the prefixed unit in brackets.
+    /// Label of the axis: name and symbol, with the prefixed unit in brackets.
     pub fn label_with_unit(&self) -> Label {
         self.with_unit(Label::quantity(&self.name, &self.symbol))
     }
 
-    /// Name and symbol with the prefixed unit, or without the name, if there is a symbol, where that is too wide.
+    /// Label of the axis; without the name if the axis has a symbol and the label would be wider than `most`, in units of
+    /// the font size.
     pub(super) fn label_within(&self, most: f64) -> Label {
         let label = self.label_with_unit();
         if label.width() <= most { label } else { self.symbol_with_unit() }
@@ -86,7 +88,7 @@ impl Axis {
         }
     }
 
-    /// Ticks at coordinates, about `most` of them labelled, but two where the span contains two round numbers.
+    /// Ticks along the axis, about `most` of them labelled, but at least two if the range contains two round numbers.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };
@@ -98,7 +100,7 @@ impl Axis {
     }
 }
 
-/// A place in a chart: shares of both axes, 0 to 1.
+/// A position in a chart: horizontal and vertical share, each from 0 to 1.
 pub(super) type Share = (f64, f64);
 
 #[derive(Clone, Copy)]
@@ -108,26 +110,27 @@ pub(super) struct Axes<'a> {
 }
 
 impl Axes<'_> {
-    /// Place of a point, at the border for a point outside; `None` without coordinates.
+    /// Position of a point; for a point outside the chart the nearest position on its border; `None` if the point has no
+    /// coordinates.
     pub(super) fn place(self, (x, y): (f64, f64)) -> Option<Share> {
         self.y.share(y).is_finite().then(|| self.place_at_end((x, y))).flatten()
     }
 
-    /// Place of a point; a y without a coordinate is at the end of the axis.
+    /// Position of a point; a y without a coordinate is placed at the end of the axis.
     pub(super) fn place_at_end(self, (x, y): (f64, f64)) -> Option<Share> {
         let (x, y) = (self.x.share(x), self.y.share(y));
         x.is_finite().then(|| (x.clamp(0.0, 1.0), if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) }))
     }
 
-    /// Places of points, in runs that end where a point has no coordinates.
+    /// Positions of points, divided into runs where a point has no coordinates.
     pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
         let places: Vec<Option<Share>> = points.map(|point| self.place(point)).collect();
         let runs = places.split(Option::is_none).map(|run| run.iter().flatten().copied().collect());
         runs.filter(|run: &Vec<Share>| !run.is_empty()).collect()
     }
 
-    /// Runs through the ends of the columns of an envelope, each from the end nearer to the previous point on; a column
-    /// outside interrupts a run.
+    /// Positions along an envelope, through both ends of each column, beginning with the end nearer to the previous point.
+    /// A column outside the chart begins a new run.
     pub(super) fn envelope(self, (from, to): (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
         let mut last: Option<f64> = None;
         let points = columns.iter().enumerate().flat_map(|(column, ends)| {
@@ -142,7 +145,7 @@ impl Axes<'_> {
         self.runs(points)
     }
 
-    /// Ends of a guide across the chart, upright or level; `None` outside.
+    /// Ends of a vertical (`upright`) or horizontal line across the chart; `None` if it lies outside.
     pub(super) fn guide(self, at: f64, upright: bool) -> Option<[Share; 2]> {
         let share = if upright { self.x.share(at) } else { self.y.share(at) };
         let ends = if upright { [(share, 0.0), (share, 1.0)] } else { [(0.0, share), (1.0, share)] };

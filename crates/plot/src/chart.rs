@@ -1,4 +1,5 @@
-//! Content of a figure: charts with axes and layers of data in SI units. The backend decides on the appearance.
+//! Content of a figure: charts with axes and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
+//! decides on the appearance.
 
 use super::axis::Axis;
 use super::colour::{Ink, Rgb, Shades};
@@ -15,22 +16,22 @@ pub struct Figure {
     pub notes: Vec<Label>,
     /// Charts of the figure, side by side or below each other.
     pub charts: Vec<Chart>,
-    /// Frame of each chart, px; only its proportion counts in a figure of a given width.
+    /// Size of the frame of each chart, px; only the proportion counts in a figure with a given width.
     pub size: (f64, f64),
-    /// Version, command and scene, in the metadata of a document.
+    /// Provenance for the metadata of a document: version, command and scene.
     pub origin: String,
     /// Lines in a box below the legend.
     pub parameters: Vec<Label>,
-    /// Width of a picture, px of 1/96 inch, in which letters and lines keep their size; else that of its frames.
+    /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
     pub width: Option<f64>,
 }
 
 impl Figure {
-    /// Frame of a map or of one of several charts, px.
+    /// Size of the frame of a map, or of one of several charts, px.
     pub const SMALL: (f64, f64) = (330.0, 270.0);
-    /// Frame of a single chart, px.
+    /// Size of the frame of a single chart, px.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Frame of a chart over the position, px.
+    /// Size of the frame of a chart with the position along its horizontal axis, px.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart.
@@ -38,7 +39,7 @@ impl Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }
 
-    /// The charts of several figures with their titles and notes as headings.
+    /// Creates a figure of the charts of several figures, whose titles and notes become headings.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
@@ -52,14 +53,14 @@ impl Figure {
         Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
-    /// Heading of a chart with its letter; none in a figure of one chart.
+    /// Heading of a chart, with its letter; `None` in a figure of one chart.
     pub(super) fn heading(&self, index: usize) -> Option<Label> {
         let chart = self.charts.get(index).filter(|_| self.charts.len() > 1)?;
         let letter = char::from(b'a' + (index % 26) as u8);
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend: each name once, with all that is drawn under the name.
+    /// Returns the entries of the legend: each name once, with all layers of that name.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
@@ -84,7 +85,7 @@ impl Chart {
         Chart { heading: Label::default(), x, y, layers }
     }
 
-    /// The chart with symbols alone on its axes, where they have symbols.
+    /// The chart with only the symbol on each axis that has a symbol.
     pub fn with_symbols(mut self) -> Chart {
         for axis in [&mut self.x, &mut self.y].into_iter().filter(|axis| !axis.symbol.is_empty()) {
             axis.name.clear();
@@ -131,7 +132,7 @@ impl Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
 
-    /// Points of a curve, and of an envelope the ends of its columns.
+    /// Points of a curve or the ends of the columns of an envelope.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -158,7 +159,7 @@ impl Layer {
     }
 }
 
-/// Data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or band.
+/// Data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or a band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A line through points, signs at the points, or both.
@@ -170,28 +171,28 @@ pub enum Shape {
         /// Sign at each point; `None`: no signs.
         sign: Option<Sign>,
     },
-    /// An area between two curves: x, lower and upper y. Ends beyond the axis are drawn at its end.
+    /// An area between two curves, as points (x, lower y, upper y). An end beyond the axis is drawn at the end of the axis.
     Band(Vec<(f64, f64, f64)>),
-    /// A line with more points than a picture resolves, as its lowest and highest y in columns of equal width.
+    /// A line with more points than a picture resolves, given by the lowest and the highest y in columns of equal width.
     Envelope {
-        /// x at the outer edges of the first and the last column.
+        /// Outer edges of the first and the last column, in x.
         x: (f64, f64),
-        /// Ends of each column; `None` where the line is interrupted.
+        /// Lowest and highest y of each column; `None` where the line is interrupted.
         columns: Vec<Option<(f64, f64)>>,
     },
-    /// The inside of a closed line.
+    /// The area inside a closed line.
     Inside(Vec<(f64, f64)>),
-    /// Filled boxes: ends in x and in y.
+    /// Filled rectangles, each with its ends in x and in y.
     Boxes(Vec<((f64, f64), (f64, f64))>),
-    /// A line across the chart at this x.
+    /// A vertical line across the chart at this x.
     Upright(f64),
-    /// A line across the chart at this y.
+    /// A horizontal line across the chart at this y.
     Level(f64),
-    /// A coloured cell for each pair of values of the axes.
+    /// A heat map: one coloured cell for each pair of values of the axes.
     Map(Box<HeatMap>),
 }
 
-/// Stroke of a line.
+/// Pattern of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
     /// Without gaps.
@@ -204,7 +205,7 @@ pub enum Stroke {
     Sparse,
 }
 
-/// Sign at a point.
+/// Shape of the sign at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// Filled circle.
@@ -230,7 +231,7 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Sign of one of several curves, counted from 0.
+    /// Sign of a curve among several, by its number from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
@@ -245,35 +246,35 @@ pub struct HeatMap {
     pub rows: Vec<f64>,
     /// Values of the cells in SI units, row by row; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
-    /// Axis of the values.
+    /// Axis of the colour scale of the values.
     pub key: Axis,
-    /// Shades of the values.
+    /// Colours of the values.
     pub shades: Shades,
-    /// Class of each cell, an index of `class_names`; empty without classes.
+    /// Class of each cell as an index of `class_names`; empty if the values have no classes.
     pub classes: Vec<Option<usize>>,
-    /// Classes of the values; empty for a quantity.
+    /// Classes of the values; empty for a quantity with continuous values.
     pub class_names: Vec<Class>,
-    /// A level line of another field on the same grid.
+    /// Level line of another field on the same grid.
     pub contour: Option<Contour>,
 }
 
-/// A class of cells of a map.
+/// A class of map cells, such as a regime of adhesion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Class {
-    /// Sign in a picture.
+    /// Sign of the class in a picture.
     pub sign: Sign,
-    /// Letter in wide cells of a terminal; `None` if the shade itself is the class.
+    /// Letter of the class in wide cells of a terminal; `None` if the shade alone shows the class.
     pub letter: Option<char>,
-    /// Name in the legend.
+    /// Name of the class in the legend.
     pub name: String,
-    /// Ink of shades in a terminal without fixed colours.
+    /// Ink of the class in a terminal without fixed colours.
     pub ink: Ink,
 }
 
-/// Line on which a field has a level.
+/// Line on which a field has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// The field, in the order of [`HeatMap::values`].
+    /// Values of the field, in the order of [`HeatMap::values`].
     pub field: Vec<Option<f64>>,
     /// Value along the contour, in the SI unit of the map.
     pub level: f64,
@@ -287,12 +288,12 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
-    /// Number of the band of equal shade for a value, see [`Shades::of_band`].
+    /// Number of the band of equal shade that a value belongs to; see [`Shades::of_band`].
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Borders of cells with these values on an axis, in coordinates: halfway between the values.
+    /// Borders, as coordinates, of cells around these values on an axis: halfway between neighbouring values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
@@ -304,7 +305,7 @@ impl HeatMap {
         [vec![before], between, vec![after]].concat()
     }
 
-    /// Range of an axis for cells with these values.
+    /// Range of coordinates of an axis with a cell around each of these values.
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
         Span { low: borders[0], high: borders[borders.len() - 1] }
@@ -314,7 +315,7 @@ impl HeatMap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     pub name: Label,
-    /// Sample of each layer of this name; several for layers in several colours.
+    /// Samples of all layers of this name: several for layers in several colours.
     pub samples: Vec<(Ink, Sample)>,
 }
 
@@ -326,7 +327,7 @@ pub enum Sample {
     Area,
     /// A filled area.
     Solid,
-    /// A line across the chart, upright or level.
+    /// A line across the chart, vertical or horizontal.
     Guide,
     /// A level line of a map.
     Contour,

@@ -3,7 +3,7 @@
 /// Red, green and blue.
 pub type Rgb = [u8; 3];
 
-/// Colours from hexadecimal numbers, in web notation.
+/// Colours from numbers such as `0x440154`.
 const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     let mut found = [[0; 3]; N];
     let mut index = 0;
@@ -15,7 +15,7 @@ const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     found
 }
 
-/// Colours of a medium.
+/// Colours of a figure or a screenshot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
     /// Colour of text and frames.
@@ -28,8 +28,7 @@ pub struct Palette {
 }
 
 impl Palette {
-    /// Light on dark. Red, green, blue and magenta differ, in lightness too, for readers without red or green
-    /// cones.
+    /// Light on dark. Red, green, blue and magenta also differ in lightness, for readers without red or green cones.
     pub const DARK: Palette = Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
@@ -39,7 +38,7 @@ impl Palette {
         ]),
     };
 
-    /// Dark on light, as [`Palette::DARK`].
+    /// Dark on light, otherwise as [`Palette::DARK`].
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -50,7 +49,7 @@ impl Palette {
     };
 }
 
-/// Meaning of a colour; each backend assigns the colour.
+/// Meaning of a colour; each output format assigns the colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames, outlines.
@@ -71,16 +70,16 @@ pub enum Ink {
     Manual,
     /// A curve in the background, kept while another one is shown.
     Kept,
-    /// One of several curves kept for comparison, counted from 0.
+    /// One of several curves kept for comparison, by its number from 0.
     Compared(usize),
-    /// The state that is shown.
+    /// The state at the cursor.
     Cursor,
-    /// One of several curves, counted from 0.
+    /// One of several curves, by its number from 0.
     Series(usize),
 }
 
 impl Ink {
-    /// Returns the colour of the ink on white paper.
+    /// Returns the colour of the ink in a figure on white paper.
     pub fn on_paper(self) -> Rgb {
         let Palette { foreground, ansi, .. } = Palette::LIGHT;
         match self {
@@ -108,8 +107,8 @@ pub enum Shades {
     Diverging,
 }
 
-/// Viridis (van der Walt and Smith, 2015) at equal distances: readable without red or green cones, and
-/// monotonic in lightness.
+/// Viridis (van der Walt and Smith, 2015), sampled at equal distances: readable without red or green cones, and monotonic
+/// in lightness.
 const VIRIDIS: [Rgb; 9] =
     rgb([0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725]);
 
@@ -118,15 +117,15 @@ const BLUE_TO_RED: [Rgb; 9] =
     rgb([0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b]);
 
 impl Shades {
-    /// Number of bands of equal shade in a document.
+    /// Number of bands of equal shade in an SVG document.
     pub const BANDS: usize = 64;
 
-    /// Colour of a band, from the lowest one.
+    /// Colour of a band, counted from the lowest.
     pub fn of_band(self, band: usize) -> Rgb {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
 
-    /// Colours at equal distances.
+    /// Colours at equal distances, from the lowest value to the highest.
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,
@@ -134,7 +133,7 @@ impl Shades {
         }
     }
 
-    /// Colour at a share of the range; the lowest one for NaN.
+    /// Colour at a share of the range, from 0 to 1; the lowest colour for NaN.
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
         let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
@@ -148,17 +147,17 @@ impl Shades {
     }
 }
 
-/// Lightness of a colour in grey, from 0 to 1.
+/// Lightness of a colour, from 0 to 1.
 fn lightness([red, green, blue]: Rgb) -> f64 {
     (0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)) / 255.0
 }
 
-/// Black or white, whichever is readable on a colour.
+/// Black or white, whichever is readable on this colour.
 pub(super) fn ink_on(colour: Rgb) -> Rgb {
     if lightness(colour) > 0.5 { [0; 3] } else { [255; 3] }
 }
 
-/// A colour in web notation.
+/// A colour in web notation, `#rrggbb`.
 pub fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }

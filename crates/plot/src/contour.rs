@@ -1,11 +1,11 @@
 //! Level lines of a field on a grid, by marching squares.
 
-/// A point in the coordinates of the grid.
+/// A point in coordinates of the grid.
 type Point = (f64, f64);
 
-/// Pieces of the level lines of a field that is linear along the edges of the grid, which meet at their ends. Squares with
-/// a missing corner have none. In a square that the level crosses twice the mean of the corners decides on their
-/// connection.
+/// Straight pieces of the level line of a field that is interpolated linearly along the edges of the grid; pieces meet at
+/// their ends. A square with a missing corner has none. In a square that the level line crosses twice, the mean of the
+/// corners decides how the crossings are connected.
 pub(super) fn contour(across: &[f64], up: &[f64], field: &[Option<f64>], level: f64) -> Vec<[Point; 2]> {
     let mut pieces = Vec::new();
     for row in 1..up.len() {
@@ -52,7 +52,6 @@ fn cut(from: (f64, f64, f64), to: (f64, f64, f64)) -> Option<Point> {
 mod tests {
     use super::*;
 
-    /// Ends of pieces that no other piece has.
     fn loose(pieces: &[[Point; 2]]) -> Vec<Point> {
         let ends = pieces.concat();
         let alone = |end: &Point| ends.iter().filter(|other| *other == end).count() == 1;

@@ -1,10 +1,10 @@
-//! Text of figures: italic symbols, indices and exponents, SI prefixes, numbers.
+//! Text in figures: italic symbols, indices and exponents, SI prefixes, numbers.
 
 use asperity_data::format_rounded;
 use asperity_data::{grouped, printable, si_prefix};
 use std::fmt;
 
-/// Powers of ten of the smallest and the largest prefix on an axis, femto and giga.
+/// Powers of ten of the smallest and the largest prefix on an axis: femto and giga.
 const LEAST_POWER: i32 = -15;
 const LARGEST_POWER: i32 = 9;
 
@@ -16,24 +16,24 @@ pub(crate) enum Face {
     Exponent,
 }
 
-/// Blank within a statement, which stays on one line; as a string an ordinary blank.
+/// Blank within a statement, at which no line breaks; written as an ordinary blank.
 const FIXED: char = '\u{a0}';
 
-/// Text with italic symbols, indices and exponents. As a string: `F_a`, `10⁻³`.
+/// Text with italic symbols, indices and exponents. As a string `F_a`, `10⁻³`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     runs: Vec<(Face, String)>,
 }
 
 impl Label {
-    /// Upright text on one line; control characters are escaped.
+    /// Creates a label of upright text on one line; control characters are escaped.
     pub fn plain(text: &str) -> Label {
         let mut label = Label::default();
         label.push(Face::Upright, &printable(text));
         label
     }
 
-    /// A symbol: its letters in italics, and the text after `_` as an index: `F_a,max`.
+    /// Creates a label of a symbol: letters in italics, and the text after `_` as an index, as in `F_a,max`.
     pub fn symbol(text: &str) -> Label {
         let mut label = Label::default();
         let text = printable(text);
@@ -52,18 +52,18 @@ impl Label {
         label
     }
 
-    /// Name and symbol of a quantity, each of which may be empty.
+    /// Creates a label of the name and the symbol of a quantity; either may be empty.
     pub fn quantity(name: &str, symbol: &str) -> Label {
         let space = if name.is_empty() || symbol.is_empty() { "" } else { " " };
         Label::plain(name).then(space).join(&Label::symbol(symbol))
     }
 
-    /// Symbol of a quantity, or the name of a quantity without one.
+    /// Creates a label of the symbol of a quantity, or of its name if `symbol` is empty.
     pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
         if symbol.is_empty() { Label::plain(name) } else { Label::symbol(symbol) }
     }
 
-    /// A statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
+    /// Creates a label of a statement such as `H = 0.3`: a symbol before ` = `, upright text after it.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => statement("", symbol, value),
@@ -104,7 +104,7 @@ impl Label {
         self.runs.iter().flat_map(|(face, text)| text.chars().map(|c| width_of(*face, c))).sum()
     }
 
-    /// Lines no wider than `most`, in units of the font size, broken between words, and within a longer word.
+    /// Divides the label into lines no wider than `most`, in units of the font size, at blanks or within a longer word.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
         let all = self.runs.iter().flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
         let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
@@ -184,7 +184,8 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Divisor and name of a unit with the SI prefix for numbers up to `largest`; `1` has no name.
+/// Divisor of numbers up to `largest` and the unit with the corresponding SI prefix: 1e-3 and `mN` for 0.02 N. Numbers
+/// without a unit have the divisor 1 and an empty unit.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -202,7 +203,7 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     (10_f64.powi(power), format!("{prefix}{unit}"))
 }
 
-/// A number with the decimals of `step`.
+/// A number with as many decimals as `step` needs.
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{:.decimals$}", value.abs());
@@ -212,13 +213,13 @@ pub fn number(value: f64, step: f64) -> String {
     format!("{}{whole}{fraction}", if value < 0.0 && !zero { "-" } else { "" })
 }
 
-/// A value with its symbol, or with its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
+/// A value with its unit after its symbol, or after its name if `symbol` is empty: `H = 0.3`, `points 12.5 µN`.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     statement(name, symbol, &if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) })
 }
 
-/// A symbol, or a name if `symbol` is empty, with a value in words.
+/// A value in words after its symbol, or after its name if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     match symbol {

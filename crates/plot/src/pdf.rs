@@ -1,4 +1,4 @@
-//! SVG documents as PDF of one page in its real size: the outlines of [`super::png::tree`], letters included.
+//! SVG documents as a PDF of one page in its real size: the outlines of [`super::png::tree`], letters included.
 
 use super::chart::Figure;
 use super::png::tree;
@@ -13,13 +13,13 @@ use std::collections::BTreeSet;
 use std::io;
 use std::io::Write;
 
-/// Points of a print for each px of a document, 1/96 inch.
+/// Points (1/72 inch) of a print for each px (1/96 inch) of a document.
 const POINTS: f32 = 0.75;
-/// Width by which adjacent cells overlap, px: viewers show the paper through edges that only touch.
+/// Width by which adjacent cells overlap, px: viewers show the paper between edges that only touch.
 const OVERLAP: f32 = 0.2;
 
 impl Figure {
-    /// The figure as the content of a PDF file.
+    /// Draws the figure and returns the content of a PDF file.
     pub fn pdf(&self) -> io::Result<Vec<u8>> {
         pdf(&tree(&self.svg())?, &self.title)
     }
@@ -53,7 +53,7 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     Ok(pdf.finish())
 }
 
-/// The drawing operators of a page, and the opacities that they name, %.
+/// Drawing operators of a page, and the opacities in per cent that they refer to.
 struct Page {
     content: Content,
     opacities: BTreeSet<u8>,

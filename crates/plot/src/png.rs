@@ -1,4 +1,4 @@
-//! SVG documents as PNG, drawn with embedded fonts: equal documents have equal pixels on every machine.
+//! SVG documents as PNG, drawn with embedded fonts: equal documents give equal pixels on every machine.
 
 use super::chart::Figure;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Upright and oblique letters with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
 /// files.
 const FONTS: [&[u8]; 2] = [include_bytes!("font/sans.ttf"), include_bytes!("font/sans-oblique.ttf")];
-/// Pixels for each px of a document; with a given width for a print, 600 in an inch.
+/// Pixels for each px of a document: 2, or for a figure with a given width 600 in an inch.
 const SCALE: f32 = 2.0;
 const PRINT_SCALE: f32 = 6.25;
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
@@ -19,13 +19,13 @@ const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
-    /// The figure as the content of a PNG file.
+    /// Draws the figure and returns the content of a PNG file.
     pub fn png(&self) -> io::Result<Vec<u8>> {
         png(&self.svg(), if self.width.is_some() { PRINT_SCALE } else { SCALE })
     }
 }
 
-/// The outlines of an SVG document in px of 1/96 inch.
+/// Converts an SVG document to outlines, in px of 1/96 inch.
 pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     let mut fonts = Database::new();
     FONTS.iter().for_each(|font| fonts.load_font_data(font.to_vec()));
@@ -33,7 +33,7 @@ pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     Tree::from_str(svg, &options).map_err(io::Error::other)
 }
 
-/// An SVG document on white as the content of a PNG file.
+/// Draws an SVG document on white and returns the content of a PNG file.
 fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
     let tree = tree(svg)?;
     let [width, height] = [tree.size().width(), tree.size().height()].map(|side| (scale * side).ceil());
@@ -62,7 +62,6 @@ fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
 mod tests {
     use super::*;
 
-    /// A document of 40 × 30.5 px.
     fn document(elements: &str) -> String {
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"30.5\">{elements}</svg>")
     }

@@ -2,7 +2,7 @@
 
 use asperity_data::AxisScale;
 
-/// A range of coordinates, wider than a point.
+/// A range of coordinates with a width above zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Lower end.
@@ -11,12 +11,12 @@ pub struct Span {
     pub high: f64,
 }
 
-/// Relative width below which a range is one number.
+/// Relative width below which a range counts as a single number.
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
-    /// Range of finite coordinates with the share `room` of its width added at each end; a range around a single
-    /// coordinate, and 0 to 1 without any.
+    /// Range of the finite coordinates among these, widened at each end by the share `room` of its width. Around a single
+    /// coordinate the range has some width; without coordinates it is 0 to 1.
     pub fn around(coordinates: impl Iterator<Item = f64>, room: f64) -> Span {
         let finite = coordinates.filter(|coordinate| coordinate.is_finite());
         let (low, high) =
@@ -34,8 +34,8 @@ impl Span {
         Span { low: low - margin, high: high + margin }
     }
 
-    /// Range of values of a quantity, as coordinates of a scale. A linear range begins at zero if no value is below
-    /// zero and the lowest is at most 0.3 of the highest; a logarithmic one has at most `decades`.
+    /// Range of coordinates for values of a quantity. A linear range begins at zero if no value is negative and the lowest
+    /// value is at most 0.3 of the highest; a logarithmic range has at most `decades` decades.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -45,7 +45,7 @@ impl Span {
         }
     }
 
-    /// Whole decades around coordinates of a logarithmic scale, at least one.
+    /// Range of whole decades around coordinates of a logarithmic scale, at least one decade.
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();

@@ -12,8 +12,8 @@ pub struct Tick {
     pub label: Option<Label>,
 }
 
-/// Ticks over a range of coordinates, about `most` of them labelled. Numbers are divided by `divisor`, which
-/// belongs to the prefix of the unit.
+/// Ticks over a range of coordinates, about `most` of them labelled. The numbers are divided by `divisor`, the factor of
+/// the prefix of the unit.
 pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, most: usize) -> Vec<Tick> {
     if high <= low || !(high - low).is_finite() {
         return Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, mo
     ticks
 }
 
-/// Step of 1, 2 or 5 times a power of ten for about `most` ticks at most, and its number of minor steps.
+/// Step of 1, 2 or 5 times a power of ten that gives about `most` ticks over a width, and the number of minor steps in it.
 fn step_for(width: f64, most: usize) -> (f64, usize) {
     let least = width / most.max(1) as f64;
     let power = 10_f64.powf(least.log10().floor());

@@ -1,4 +1,4 @@
-//! Legends in cells.
+//! Legends of charts in terminal cells.
 
 use super::style::{CellStyle, glyph};
 use crate::chart::{Chart, Entry, Sample, Stroke};
@@ -28,7 +28,7 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Entries of the legend of charts: sample and name.
+/// Entries of the legend of charts, each a sample and a name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
     let classes = || charts.iter().filter_map(Chart::map).flat_map(|map| &map.class_names);

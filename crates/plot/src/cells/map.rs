@@ -1,4 +1,4 @@
-//! Heat maps in cells: shades, letters of classes, and bars along the contour.
+//! Heat maps in terminal cells: shades, letters of classes, and bars along the contour.
 
 use super::style::{CellStyle, Colours};
 use crate::axis::Axis;
@@ -10,12 +10,12 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use std::ops::Range;
 
-/// Shades from low to high without colours; a cell without a value is blank.
+/// Characters for shades from low to high on a terminal without colours; a cell without a value is blank.
 pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
-/// Fewest columns of a cell with the letter of its class.
+/// Number of columns from which on a cell shows the letter of its class.
 const WITH_LETTER: usize = 3;
 
-/// Indices of the values behind the middles of cells of the screen along an axis, from its lower end on.
+/// Index of the value shown by each screen cell along an axis, from its lower end on.
 pub(super) fn values_behind(axis: &Axis, values: &[f64], cells: u16) -> Vec<usize> {
     let borders = HeatMap::borders(axis.scale, values);
     let value = |cell: u16| {
@@ -26,7 +26,7 @@ pub(super) fn values_behind(axis: &Axis, values: &[f64], cells: u16) -> Vec<usiz
     (0..cells).map(value).collect()
 }
 
-/// Cells of the screen with the same value as this one.
+/// Range of the screen cells that show the same value as this one.
 fn run(values: &[usize], cell: usize) -> Range<usize> {
     let first = |value: usize| values.partition_point(|one| *one < value);
     first(values[cell])..first(values[cell] + 1)
@@ -84,7 +84,7 @@ fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
     below(cell).zip(below(other)).is_some_and(|(here, there)| here != there)
 }
 
-/// Scale of shades: samples of the shades with numbers between them.
+/// Colour scale of a map: samples of the shades with numbers between them.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

@@ -1,4 +1,4 @@
-//! A chart in an area of the screen: plot and scales.
+//! A chart in an area of a terminal: the plot and the scales beside it.
 
 use super::map;
 use super::shapes::LayerShape;
@@ -14,19 +14,19 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::Canvas;
 use std::ops::RangeInclusive;
 
-/// Smallest area whose plot has a scale on the left: columns and rows.
+/// Smallest area, columns and rows, whose plot has a scale on the left.
 pub(super) const WITH_LEFT_SCALE: (u16, u16) = (26, 6);
-/// Fewest rows of an area whose plot has a scale below, and of one with a line between plot and scale.
+/// Smallest number of rows of an area with a scale below the plot, and of an area that also has a line between the two.
 const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
-/// Fewest rows of an area where the label below has a row of its own if it would hide a number.
+/// Number of rows of an area from which on the label of the horizontal axis has a row of its own if it would cover a number.
 const WITH_LABEL_BELOW: u16 = 16;
-/// Columns and rows of dots in a cell.
+/// Columns and rows of Braille dots in a cell.
 const DOTS: (u16, u16) = (2, 4);
 
-/// Place of a chart in an area: plot and scales.
+/// Division of an area of the screen into the plot and the scales of a chart.
 pub struct CellPlot {
-    /// Cells of the plot.
+    /// Area of the plot.
     pub plot: Rect,
     left: u16,
     line: bool,
@@ -35,7 +35,7 @@ pub struct CellPlot {
 }
 
 impl CellPlot {
-    /// Divides an area between the plot and the scales of a chart.
+    /// Divides an area of the screen between the plot and the scales of a chart.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let line = area.height >= WITH_LINE_BELOW;
@@ -53,8 +53,8 @@ impl CellPlot {
         CellPlot { plot, left, line, below, label }
     }
 
-    /// Numbers on both axes at a cell of the screen: on a map those of the value behind the cell, if any, else those of
-    /// the middle of the nearest cell of the plot.
+    /// Numbers on both axes at a cell of the screen: for a map the numbers of the value that the cell shows, if any;
+    /// otherwise the numbers at the middle of the nearest cell of the plot.
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {
@@ -74,7 +74,7 @@ impl CellPlot {
         Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
 
-    /// Cell of a point; `None` outside the chart, except for a map, which has the point at its edge.
+    /// Screen cell of a point; for a point outside the chart `None`, or on a map the nearest cell at its edge.
     pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
@@ -118,7 +118,7 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes each name beside its point where the plot is blank.
+    /// Writes each name (point, text and ink) beside its point, where the plot is blank.
     pub fn draw_names(
         &self,
         buffer: &mut Buffer,
@@ -210,20 +210,21 @@ impl CellPlot {
     }
 }
 
-/// Cell at a share of a plot of this number of dots in a cell, rounded to dots as on the canvas, so that signs and ticks fit their curves.
+/// Cell at a share of `cells` cells, rounded to one of the `dots` dots of each, as the canvas does, so that signs and ticks
+/// fit their curves.
 fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
     let last = f64::from(cells) * f64::from(dots) - 1.0;
     (share * last).round().max(0.0) as u16 / dots
 }
 
-/// Rows of a plot of this height with their numbers.
+/// Rows of a plot of this height that have a number of the vertical axis, with these numbers.
 fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
     let place = |at: f64| cell_at((chart.y.span.high - at) / chart.y.span.width(), height, DOTS.1);
     let fewest = usize::from(height / 3).clamp(2, 6);
     numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| true)
 }
 
-/// Numbers of an axis with the fewest ticks of which two are visible, or with the fewest of all.
+/// Numbers of an axis, each with its place: with the fewest ticks of which two are visible, or else with the fewest of all.
 fn numbers_at(
     axis: &Axis,
     ticks: RangeInclusive<usize>,
@@ -241,8 +242,8 @@ fn numbers_at(
     ticks.map(numbers).find(two).unwrap_or_else(|| numbers(fewest))
 }
 
-/// Columns of a plot of this width with their numbers, and the label of the axis: in full in a row of its own, else
-/// only the symbol if the name would take more than half of the columns.
+/// Columns of a plot of this width with the numbers of the horizontal axis, and the label of the axis: complete if it has a
+/// row of its own; otherwise only the symbol, if the name would take more than half of the columns.
 fn scale_below(chart: &Chart, width: u16, own_row: bool) -> (Vec<(u16, String)>, String) {
     let mut label = chart.x.label_with_unit().to_string();
     let room = if own_row { width } else { width / 2 };
@@ -257,7 +258,7 @@ fn scale_below(chart: &Chart, width: u16, own_row: bool) -> (Vec<(u16, String)>,
     (numbers, label)
 }
 
-/// Returns true for a number that a label at the right end of the same row covers.
+/// Returns true for a number that a label at the right end of the same row would cover.
 fn is_covered((column, text): &(u16, String), width: u16, label: &str) -> bool {
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     usize::from(*column) + text.chars().count().div_ceil(2) > end

@@ -1,4 +1,4 @@
-//! Layers as dots of a canvas whose bounds are those of the axes, 0 to 1.
+//! Layers of a chart as Braille dots on a canvas with coordinates from 0 to 1.
 
 use crate::axis::{Axes, Share};
 use crate::chart::{Chart, Shape, Stroke};
@@ -11,7 +11,7 @@ pub(super) struct LayerShape<'a> {
     pub colour: Color,
 }
 
-/// A column and a row of dots.
+/// Column and row of a dot.
 type Dot = (usize, usize);
 
 impl LayerShape<'_> {
@@ -38,7 +38,8 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Every other dot of the inside of a closed line: dots with an odd number of crossings of the border below them.
+    /// Dots of the area inside a closed line, every other one. A dot is inside if the line crosses the column below it an
+    /// odd number of times.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
         let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
         let shares: Vec<(f64, f64)> =
@@ -98,7 +99,7 @@ impl CanvasShape for LayerShape<'_> {
     }
 }
 
-/// Returns true for the painted dots of a stroke: lines differ without colours.
+/// Returns true if a stroke paints its dot with this number, so that lines differ without colours.
 fn paints(stroke: Stroke, dot: usize) -> bool {
     match stroke {
         Stroke::Solid => true,
@@ -108,7 +109,7 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
     }
 }
 
-/// The dots from one to another, without the first unless both are the same.
+/// The dots on the straight line from one dot to another, without the first, unless both are the same.
 fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
     let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
     let steps = dx.abs().max(dy.abs()).max(1.0) as usize;

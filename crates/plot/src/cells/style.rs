@@ -1,12 +1,12 @@
-//! Appearance of charts in cells: inks, colours, characters of signs.
+//! Appearance of charts in terminal cells: inks, colours, characters of signs.
 
 use crate::chart::Sign;
 use crate::colour::{Ink, Rgb};
 use ratatui::style::{Color, Style};
 
-/// Styles of the inks and the colours that a terminal has.
+/// Styles of the inks, and the colours that the terminal has.
 pub struct CellStyle<'a> {
-    /// Style of an ink.
+    /// Style of each ink.
     pub ink: &'a dyn Fn(Ink) -> Style,
     /// Colours of the terminal.
     pub colours: Colours,
@@ -17,14 +17,14 @@ pub struct CellStyle<'a> {
 pub enum Colours {
     /// No colours: shades are characters.
     None,
-    /// 256 fixed colours.
+    /// 256 fixed colours of a palette.
     Palette,
-    /// All colours.
+    /// All 24-bit colours.
     All,
 }
 
 impl Colours {
-    /// A colour in the palette of the terminal.
+    /// The nearest colour that the terminal has.
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;

@@ -13,17 +13,17 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
-/// Narrowest and widest text, columns.
+/// Smallest and largest width of the text, columns.
 const COLUMNS: (usize, usize) = (40, 160);
-/// Widest plot of curves, columns, and its rows with those of the scale below.
+/// Largest width of a plot of curves, columns; and its height, rows, with the scale below.
 const WIDEST_PLOT: u16 = 110;
 const ROWS: u16 = 20;
-/// Widest cell of a map, columns, and fewest and most rows of a map.
+/// Largest width of a cell of a map, columns; and the smallest and the largest height of a map, rows.
 const WIDEST_CELL: usize = 5;
 const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
-/// A figure as text within a number of columns, one chart below the other.
+/// A figure as text of at most `columns` columns, one chart below the other.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
     let ink = |ink: Ink| match (ink, colours) {
@@ -109,7 +109,7 @@ fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellSty
     }
 }
 
-/// Adds a line without trailing blanks, with the escape sequences of its colours.
+/// Appends a line of styled texts, without trailing blanks and with the escape sequences of the styles.
 fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
     let is_blank = |(text, style): &&(S, Style)| {
         text.as_ref().trim_matches([' ', '\u{2800}']).is_empty() && code(style).is_empty()

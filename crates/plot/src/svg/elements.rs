@@ -8,19 +8,19 @@ use std::fmt::{Arguments, Write};
 pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
 pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
 pub(super) const PAPER: Rgb = Palette::LIGHT.background;
-/// Fill of cells without a value: a grey, which no scale of colours has.
+/// Fill of cells without a value: a grey that occurs in no colour scale.
 pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
 
-/// A place in a picture, px from the upper left.
+/// A position in a picture, px from the upper left corner.
 pub(super) type Place = (f64, f64);
 
-/// Point of a label at its place; vertically always the middle.
+/// Point of a label that is placed at a position; vertically it is always the middle.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
     Middle,
     Right,
-    /// Middle of a label that runs upwards.
+    /// Middle of a label that is written upwards.
     Upwards,
 }
 
@@ -48,7 +48,7 @@ impl Pen {
     }
 }
 
-/// An SVG document of version 1.1 without references to other files, or a part of one.
+/// An SVG 1.1 document without references to other files, or a part of one.
 #[derive(Default)]
 pub struct Svg {
     text: String,
@@ -113,7 +113,7 @@ impl Svg {
         ));
     }
 
-    /// Draws straight lines with round ends.
+    /// Draws straight lines with round ends, each given by its two ends.
     pub(super) fn pieces(&mut self, pieces: impl Iterator<Item = [Place; 2]>, pen: Pen) {
         let piece =
             |[from, to]: [Place; 2]| format!("M{} {}L{} {}", px(from.0), px(from.1), px(to.0), px(to.1));
@@ -128,8 +128,8 @@ impl Svg {
         self.push(format_args!("<polygon points=\"{points}\" fill=\"{fill}\"{opacity}/>"));
     }
 
-    /// Fills boxes by their upper left and lower right corners, at least half a pixel wide and high. Boxes with a common
-    /// edge meet without a seam.
+    /// Fills boxes, each given by its upper left and lower right corner; each is at least half a pixel wide and high. Boxes
+    /// with a common edge meet without a seam.
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
@@ -146,7 +146,7 @@ impl Svg {
         self.push(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"));
     }
 
-    /// Writes lines of labels below each other, the first at this place, and returns the height of the next one.
+    /// Writes labels below each other, the first at this position, and returns the height at which the next would be.
     pub(super) fn lines(&mut self, lines: &[Label], (x, y): Place, size: f64, anchor: Anchor) -> f64 {
         lines.iter().fold(y, |y, line| {
             self.label(line, (x, y), size, anchor);
@@ -171,7 +171,7 @@ impl Svg {
     }
 }
 
-/// Text with minus signs in place of the hyphens before numbers.
+/// Replaces the hyphen before a number by a minus sign.
 fn with_minus(text: &str) -> String {
     let characters: Vec<char> = text.chars().collect();
     let is_minus = |at: usize| {
@@ -181,7 +181,7 @@ fn with_minus(text: &str) -> String {
     (0..characters.len()).map(|at| if is_minus(at) { '−' } else { characters[at] }).collect()
 }
 
-/// The runs of a label as elements within a text of this size, px.
+/// The parts of a label as elements within a text of this font size, px.
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
@@ -213,14 +213,14 @@ fn points(places: &[Place]) -> String {
     texts.join(" ")
 }
 
-/// A length to a hundredth of a pixel.
+/// A length in px, to a hundredth.
 fn px(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text with markup escaped. Characters that are invalid in XML become U+FFFD.
+/// Escapes text for XML. Characters that are invalid in XML become U+FFFD.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

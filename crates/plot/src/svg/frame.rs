@@ -1,18 +1,18 @@
-//! The frame of a chart: conversion of numbers to places, and the axes.
+//! Frame of a chart: the conversion of numbers to positions, and the axes.
 
 use super::elements::{Anchor, Pen, Place, Svg, TEXT};
 use crate::axis::{Axes, Axis, Share};
 use crate::label::Label;
 use crate::ticks::Tick;
 
-/// Size of labels of axes, px.
+/// Font size of the labels of axes, px.
 pub(super) const LABEL: f64 = 13.0;
-/// Size of numbers at ticks, px.
+/// Font size of the numbers at ticks, px.
 pub(super) const NUMBER: f64 = 11.5;
 /// Approximate number of labelled ticks of an axis.
 const TICKS: usize = 6;
 
-/// A rectangle in a picture with two axes.
+/// Rectangle of a chart in a picture, with its two axes.
 #[derive(Clone, Copy)]
 pub(super) struct Frame<'a> {
     /// Upper left corner.
@@ -22,7 +22,7 @@ pub(super) struct Frame<'a> {
     pub axes: Axes<'a>,
 }
 
-/// A side of a frame with an axis.
+/// Side of a frame on which an axis is drawn.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     Below,
@@ -39,7 +39,7 @@ impl Frame<'_> {
         self.to.1 - self.from.1
     }
 
-    /// Place of shares of the axes.
+    /// Position in the picture of a position in shares of the axes.
     pub(super) fn at(&self, (x, y): Share) -> Place {
         (self.from.0 + x * self.width(), self.to.1 - y * self.height())
     }
@@ -89,14 +89,14 @@ impl Frame<'_> {
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
     }
 
-    /// Width of an upright axis beside the frame, px.
+    /// Width that a vertical axis takes beside the frame, px.
     pub(super) fn room(&self, side: Side) -> f64 {
         let ticks = self.axes.y.ticks(self.ticks(side));
         beside(&ticks) + 0.7 * LABEL
     }
 }
 
-/// Distance from an axis to the middle of its label, beyond the widest number, px.
+/// Distance from a vertical axis to the middle of its label, beyond its widest number, px.
 fn beside(ticks: &[Tick]) -> f64 {
     let widest = ticks.iter().filter_map(|tick| tick.label.as_ref()).map(Label::width).fold(0.0, f64::max);
     (widest + 1.9) * NUMBER

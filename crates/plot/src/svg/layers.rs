@@ -1,4 +1,4 @@
-//! Layers of a chart in its frame.
+//! Layers of a chart, drawn into its frame.
 
 use super::elements::{EMPTY, PAPER, Pen, Place, QUIET, Svg, TEXT};
 use super::frame::Frame;
@@ -9,12 +9,12 @@ use crate::contour::contour;
 use std::collections::BTreeMap;
 
 pub(super) const AREA_OPACITY: f64 = 0.25;
-/// Least distance of two signs on a map, px.
+/// Smallest distance of two signs on a map, px.
 const SIGN_DISTANCE: f64 = 13.0;
 /// Half the size of a sign, px.
 pub(super) const SIGN: f64 = 2.7;
 
-/// Draws the layers, areas below lines.
+/// Draws the layers of a chart, areas below lines.
 pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
     let place = |point| frame.axes.place(point).map(|place| frame.at(place));
     let is_line = |layer: &&Layer| matches!(layer.shape, Shape::Curve { .. } | Shape::Envelope { .. });
@@ -56,7 +56,7 @@ pub(super) fn guide(ink: Ink) -> Pen {
     Pen { colour, width: 1.0, stroke: Stroke::Dashed }
 }
 
-/// Half the size of signs; smaller for many, so that neighbours do not touch.
+/// Half the size of the signs of a curve, px; smaller for many points, so that neighbours do not touch.
 fn radius(frame: &Frame<'_>, points: usize) -> f64 {
     SIGN.min(0.3 * frame.width() / points.max(1) as f64).max(0.9)
 }
@@ -108,7 +108,7 @@ fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rg
     }
 }
 
-/// Draws a sign of half this size.
+/// Draws a sign with half the size `r`, px.
 pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, (x, y): Place, r: f64, colour: Rgb) {
     match sign {
         Sign::Dot => svg.circle((x, y), r, colour, None),

@@ -5,17 +5,17 @@ use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
 use crate::chart::{Entry, Sample};
 use crate::label::Label;
 
-/// Size of names, px.
+/// Font size of the names, px.
 const SIZE: f64 = 11.5;
-/// Distance of two entries, px.
+/// Distance between two entries of a row, px.
 const BETWEEN: f64 = 20.0;
 /// Height of a row, px.
 const ROW: f64 = 20.0;
 
-/// An entry with its width and the lines of its name.
+/// An entry with its width, px, and the lines of its name.
 type Named<'a> = (f64, &'a Entry, Vec<Label>);
 
-/// Draws entries in rows around a middle, no wider than `most`, and returns their lower end.
+/// Draws the entries in rows centred on `middle`, no wider than `most` (px), and returns the height of their lower end.
 pub(super) fn draw(svg: &mut Svg, entries: &[Entry], (middle, top): Place, most: f64) -> f64 {
     let mut rows: Vec<(f64, Vec<Named<'_>>)> = Vec::new();
     for entry in entries {
@@ -43,7 +43,7 @@ pub(super) fn draw(svg: &mut Svg, entries: &[Entry], (middle, top): Place, most:
     y
 }
 
-/// Room for the samples of an entry, px.
+/// Width of the samples of an entry, px.
 fn room(entry: &Entry) -> f64 {
     match entry.samples[..] {
         [(_, Sample::Guide)] => 16.0,

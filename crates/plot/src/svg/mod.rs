@@ -13,27 +13,28 @@ use elements::{Anchor, PAPER, Pen, Place, TEXT};
 use elements::{Svg, escaped};
 use frame::{Frame, LABEL, Side};
 
-/// Fonts of figures, with nearly the same letters on all systems.
+/// Fonts of figures, whose letters are nearly the same on all systems.
 const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
-/// Room below a chart for its axis, and least room on its right, px.
+/// Room below a chart for its axis, and smallest room on its right, px.
 const BELOW: f64 = 50.0;
 const BESIDE: f64 = 22.0;
-/// Distance of the colour scale from its map, and its width, px.
+/// Distance of the colour scale from its map, and width of the scale, px.
 const FROM_MAP: f64 = 14.0;
 const BAR: f64 = 13.0;
-/// Least distance of text from the border, px.
+/// Smallest distance of text from the border, px.
 const MARGIN: f64 = 6.0;
-/// Sizes of the title and of text below it and below the legend, px.
+/// Font sizes of the title and of the text below title and legend, px.
 const TITLE: f64 = 14.5;
 const TEXT_SIZE: f64 = LABEL - 1.0;
-/// Least frame of charts side by side in a figure of a given width, and largest width of another figure of several, px.
+/// Smallest width of frames side by side in a figure with a given width, and largest width of any other figure with several
+/// charts, px.
 const LEAST: f64 = 110.0;
 const WIDEST: f64 = 1400.0;
-/// Frames up to this height are no lower than wide, px.
+/// Width up to which a frame is at least as high as it is wide, px.
 const SQUARE: f64 = 150.0;
 
 impl Figure {
-    /// Draws the figure as SVG.
+    /// Draws the figure and returns the SVG document.
     pub fn svg(&self) -> String {
         let (size, rooms) = self.columns();
         let width = self.width.unwrap_or_else(|| width_of(&rooms, size));
@@ -68,8 +69,8 @@ impl Figure {
         document.finish()
     }
 
-    /// Size of the frames, and the room on the left and on the right of each column of charts, px, in the fewest rows
-    /// that fit.
+    /// Size of the frames, and the room on the left and on the right of each column of charts, px, for the fewest rows that
+    /// fit the width.
     fn columns(&self) -> ((f64, f64), Vec<(f64, f64)>) {
         let count = self.charts.len().max(1);
         let rooms = |columns: usize, size| -> Vec<(f64, f64)> {
@@ -96,7 +97,8 @@ impl Figure {
         layouts.find(fits).unwrap_or_else(|| within(1))
     }
 
-    /// Draws charts side by side below this height, with the index of the first, and returns the height below them.
+    /// Draws charts side by side, from the height `y` down, with the index `first` of the first chart; returns the height
+    /// below them.
     fn draw_row(
         &self,
         svg: &mut Svg,
@@ -130,7 +132,7 @@ fn frame_of(chart: &Chart, from: Place, size: (f64, f64)) -> Frame<'_> {
     Frame { from, to: (from.0 + size.0, from.1 + size.1), axes: Axes { x: &chart.x, y: &chart.y } }
 }
 
-/// The frame of the colour scale on the right of a map.
+/// The frame of the colour scale, on the right of its map.
 fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
     let left = chart.to.0 + FROM_MAP;
     let axes = Axes { y: &map.key, ..chart.axes };
