@@ -1,4 +1,4 @@
-//! Loading cycles for programs: a profile, a material and a work of adhesion under any loading history.
+//! Contacts for programs that use the library: a profile, a material and a work of adhesion under any loading history.
 
 use crate::analysis::figures::Figures;
 use crate::error::Error;
@@ -12,7 +12,7 @@ use asperity_contact::{
 use asperity_contact::{Edges, Move};
 use std::sync::Arc;
 
-/// A rigid profile on an elastic half-space, with or without adhesion; the contact of a loading history is exact.
+/// A rigid profile on an elastic half-space, with or without adhesion. Loading it gives exact forces, without a step error.
 ///
 /// ```
 /// use asperity_scene::{Contact, Material, Profile};
@@ -33,7 +33,7 @@ pub struct Contact {
     samples: usize,
 }
 
-/// Properties of a [`Contact`] to be built.
+/// Properties of a [`Contact`] that is being built.
 #[derive(Clone, Debug)]
 pub struct ContactBuilder<'p> {
     profile: &'p Profile,
@@ -53,8 +53,8 @@ pub struct Cycle {
 }
 
 impl Contact {
-    /// Contact of a profile with a half-space of this material: by default without adhesion, with sub-cell edges
-    /// and 512 samples on each loading stage.
+    /// Begins a contact of a profile with a half-space of this material; by default without adhesion, with edges between
+    /// springs, a rigid instrument, and 512 samples on each loading stage.
     #[must_use]
     pub fn builder(profile: &Profile, material: Material) -> ContactBuilder<'_> {
         let (edges, loading_stiffness) = (Edges::SubCell, f64::INFINITY);
@@ -62,26 +62,27 @@ impl Contact {
         ContactBuilder { profile, material, work, closing_work, loading_stiffness, edges, samples }
     }
 
-    /// Loads the separated body, one loading stage after the other.
+    /// Loads the separated body through these loading stages, one after the other.
     ///
     /// # Errors
-    /// [`Error::Value`] for a target that is not between −1e50 and 1e50, [`Error::Run`] for a target that the contact cannot
-    /// reach.
+    /// [`Error::Value`] for a target that is not between −1e50 and 1e50, [`Error::Run`] for a target that the contact
+    /// cannot reach.
     pub fn load(&self, legs: &[Move]) -> Result<Cycle, Error> {
         check_targets(legs)?;
         let history = run(&mut self.body(), legs, |_, _| Ok(())).map_err(RunError::Contact)?;
         Ok(Cycle { figures: Figures::of(&history), history })
     }
 
-    /// Loads the separated body once and unloads it from the ends of these stages, each of which begins at separation:
-    /// the results of [`Contact::load`] for each stage followed by [`Move::ToSeparation`], at the cost of a few. A pulling force
-    /// is an end as well: where the loading first reaches it, at touch or while adhesion draws the bodies together.
+    /// Loads the separated body once, and unloads it from the end of each of these stages, every one of which begins at
+    /// separation. The results equal [`Contact::load`] of each stage followed by [`Move::ToSeparation`], at the cost of a
+    /// few loads. A tensile force is reached where the loading first has it, at touch or while adhesion draws the bodies
+    /// together.
     ///
-    /// The reversals have no [`Reversal::forces`].
+    /// The field [`Reversal::forces`] of the results is empty.
     ///
     /// # Errors
-    /// [`Error::Value`] for an end that is not between −1e50 and 1e50, [`Error::Run`] for one without contact or out of
-    /// reach.
+    /// [`Error::Value`] for a target that is not between −1e50 and 1e50, [`Error::Run`] for a target without contact or out
+    /// of reach.
     pub fn reversals(&self, ends: &[Move]) -> Result<Vec<Reversal>, Error> {
         check_targets(ends)?;
         let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
@@ -100,33 +101,34 @@ impl Contact {
 }
 
 impl ContactBuilder<'_> {
-    /// Work of adhesion γ, J/m²; 0 for a contact without adhesion.
+    /// Sets the work of adhesion γ, J/m²; 0 for a contact without adhesion.
     #[must_use]
     pub fn work_of_adhesion(self, work: f64) -> Self {
         ContactBuilder { work, ..self }
     }
 
-    /// Work of adhesion γ₁ on closing, J/m², at most that of [`ContactBuilder::work_of_adhesion`], which then holds
-    /// on opening; by default both are equal.
+    /// Sets the work of adhesion γ₁ on closing, J/m², at most the [`ContactBuilder::work_of_adhesion`], which then holds on
+    /// opening; by default both are equal.
     #[must_use]
     pub fn closing_work(self, work: f64) -> Self {
         ContactBuilder { closing_work: Some(work), ..self }
     }
 
-    /// Stiffness k of the instrument that moves the body, N/m; by default infinite, a rigid one. Stages
+    /// Sets the stiffness k of the instrument that moves the body, N/m; by default infinite, a rigid instrument. Stages
     /// [`Move::ToDisplacement`] then prescribe D = d + F/k; see [`crate::analysis::instrument::DisplacementCurve`].
     #[must_use]
     pub fn loading_stiffness(self, stiffness: f64) -> Self {
         ContactBuilder { loading_stiffness: stiffness, ..self }
     }
 
-    /// Edge model of the contact patches.
+    /// Sets the edge model of the contact patches.
     #[must_use]
     pub fn edges(self, edges: Edges) -> Self {
         ContactBuilder { edges, ..self }
     }
 
-    /// Samples of the force curve on each loading stage, from 2 to a million; its extremes are exact for any number.
+    /// Sets the number of samples of the force curve on each loading stage, from 2 to a million; extremes of the force are
+    /// exact for any number.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         ContactBuilder { samples, ..self }
@@ -135,7 +137,7 @@ impl ContactBuilder<'_> {
     /// Builds the contact.
     ///
     /// # Errors
-    /// [`Error::Value`] for a value out of range, [`Error::Run`] without enough memory.
+    /// [`Error::Value`] for a value out of range, [`Error::Run`] for lack of memory.
     pub fn build(self) -> Result<Contact, Error> {
         let ContactBuilder { profile, work, loading_stiffness, edges, samples, .. } = self;
         let effective_modulus = checked_modulus(self.material)?;
@@ -163,7 +165,7 @@ impl ContactBuilder<'_> {
     }
 }
 
-/// Effective modulus E* of a material, Pa, from either E* or E and ν.
+/// Effective modulus E* of a material, Pa, given as E* or as E and ν.
 fn checked_modulus(material: Material) -> Result<f64, Error> {
     let Material { youngs_modulus, poisson_ratio, effective_modulus } = material;
     let pascals = "from 1e-50 to 1e50 Pa";
@@ -180,7 +182,7 @@ fn checked_modulus(material: Material) -> Result<f64, Error> {
     Ok(material.effective_modulus())
 }
 
-/// Refuses targets with which a result may not be a number.
+/// Returns an error for a target with which a result might not be a finite number.
 fn check_targets(targets: &[Move]) -> Result<(), Error> {
     for (index, target) in targets.iter().enumerate() {
         if let Move::ToForce(value) | Move::ToIndentation(value) | Move::ToDisplacement(value) = *target {
@@ -277,7 +279,7 @@ mod tests {
         }
     }
 
-    /// Whatever is accepted has finite results: values of all magnitudes that are allowed.
+    /// Every accepted value, of any allowed magnitude, gives finite results.
     #[test]
     fn no_result_is_other_than_a_finite_number() {
         for seed in 0..2000 {

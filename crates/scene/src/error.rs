@@ -1,4 +1,4 @@
-//! The error of the front of the library.
+//! The error type of the functions at the root of this crate.
 
 use crate::scene::errors::SceneErrors;
 use crate::simulation::outcome::RunError;
@@ -7,25 +7,25 @@ use thiserror::Error;
 /// Error of the functions at the root of this crate.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum Error {
-    /// Values out of their ranges: field, value and allowed range of each.
+    /// Values of a scene are out of their ranges; each error has field, value and allowed range.
     #[error(transparent)]
     Values(#[from] SceneErrors),
-    /// A value of a profile or a contact out of its range.
+    /// A value of a profile or a contact is out of its range.
     #[error("{name} = {}; allowed: {allowed}", shown(*value))]
     Value {
         /// Name of the value.
         name: String,
-        /// The value.
+        /// The value as it was given, in SI units.
         value: f64,
-        /// Allowed range.
+        /// Allowed range, with its unit.
         allowed: &'static str,
     },
-    /// A force out of reach, a file that cannot be read, or not enough memory.
+    /// A computation failed: a force out of reach, a file that cannot be read, or not enough memory.
     #[error(transparent)]
     Run(#[from] RunError),
 }
 
-/// A value as a user would write it: a count without an exponent.
+/// A value as a user would write it: numbers of ordinary size without an exponent.
 fn shown(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-3..1e10).contains(&value.abs());
     if is_plain { value.to_string() } else { format!("{value:e}") }

@@ -1,11 +1,11 @@
-//! The computation of a scene in one call.
+//! Computation of a scene in one call.
 
 use crate::error::Error;
 use crate::scene::document::Document;
 use crate::simulation::outcome::Outcome;
 use crate::simulation::stages::Simulation;
 
-/// Computes the scene of a document. Its measured files are looked for in the folder of the scene file.
+/// Computes the scene of a document. Measured files are searched in the folder of the scene file.
 ///
 /// # Errors
 /// [`Error::Run`] for a scene that cannot be computed.

@@ -1,4 +1,4 @@
-//! Profiles for programs: heights from measurements, a form or a random spectrum.
+//! Profiles for programs that use the library: from measured heights, a form or a random spectrum.
 
 use crate::error::Error;
 use crate::scene::fields::MOST_POINTS;
@@ -6,20 +6,19 @@ use crate::scene::model::SPRINGS_PER_WAVE;
 use crate::simulation::outcome::RunError;
 use asperity_surface::{Form, Line, SelfAffine};
 
-/// One-dimensional equivalent profile of a rigid body: heights of equally spaced points, positive towards the
-/// half-space.
+/// One-dimensional equivalent profile of a rigid body: heights at equally spaced points, positive towards the half-space.
 ///
-/// N points at a distance Δx cover the length N Δx; each lies in the middle of its cell.
+/// N points at a spacing Δx cover the length N Δx; each lies in the middle of its cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     pub(crate) line: Line,
 }
 
 impl Profile {
-    /// Profile of measured or computed heights (m) at a spacing (m).
+    /// Creates a profile of measured or computed heights (m) at this spacing (m).
     ///
     /// # Errors
-    /// [`Error::Value`] without points, and with a spacing or a height out of its range.
+    /// [`Error::Value`] without points, or for a spacing or a height out of its range.
     pub fn from_heights(heights: &[f64], spacing: f64) -> Result<Self, Error> {
         check_points(heights.len())?;
         check_length("spacing", spacing)?;
@@ -33,10 +32,9 @@ impl Profile {
         Profile::of(line)
     }
 
-    /// Equivalent profile of a smooth sphere of a radius (m) on a number of points along a length (m).
+    /// Creates the equivalent profile of a smooth sphere of this radius (m) on `points` points along a length (m).
     ///
-    /// The equivalent profile z = −x²/R has half the radius of the sphere (rule of the method of dimensionality
-    /// reduction).
+    /// The equivalent profile z = −x²/R has half the radius of the sphere, by the method of dimensionality reduction.
     ///
     /// # Errors
     /// [`Error::Value`] for a radius or a length out of its range, or without points.
@@ -49,15 +47,16 @@ impl Profile {
         Profile::of(line)
     }
 
-    /// Random self-affine profile: cosines with amplitudes ∝ k^(−H−1/2) and random phases, scaled to an rms height (m).
+    /// Creates a random self-affine profile: cosines with amplitudes ∝ k^(−H−1/2) and random phases, scaled to an rms
+    /// height (m).
     ///
     /// `spectrum` holds the Hurst exponent, the modes k and the mode of the roll-off, all modes in waves per length. A seed
     /// determines the phases on any machine and for any number of points.
     ///
     /// # Errors
     /// [`Error::Value`] for modes beyond a quarter of the number of points (a resolved wave has four springs), a roll-off
-    /// between 0 and 1 wave per length (its wavelength in m, for example), a Hurst exponent outside (0, 1), and lengths
-    /// out of their ranges.
+    /// between 0 and 1 wave per length (perhaps a wavelength in m), a Hurst exponent outside (0, 1), or a length out of its
+    /// range.
     pub fn self_affine(
         spectrum: SelfAffine,
         rms_height: f64,
@@ -113,11 +112,11 @@ impl Profile {
     }
 }
 
-/// Largest value, in SI units, of all that enters a contact; its inverse is the smallest one of a length, a modulus or a
-/// stiffness. Products of such values are numbers.
+/// Largest value, in SI units, of any quantity of a contact; its inverse is the smallest length, modulus or stiffness.
+/// Products of such values are finite.
 pub(crate) const LARGEST: f64 = 1e50;
 
-/// Returns true for a value above 0 whose size is allowed.
+/// Returns true for a positive value within the allowed magnitudes.
 pub(crate) fn is_positive(value: f64) -> bool {
     (1e-50..=LARGEST).contains(&value)
 }

@@ -1,16 +1,16 @@
-//! Closed forms that the profile must reproduce: adhesive contact of a power-law body b rⁿ, including JKR (n = 2) and the
-//! cone (n = 1), and of the flat punch (Kendall).
+//! Closed forms that the profile must reproduce: adhesive contact of a power-law body b rⁿ, which includes JKR (n = 2) and
+//! the cone (n = 1), and of the flat punch (Kendall).
 
 use crate::analysis::governing::ideal_adhesion_force;
 use asperity_surface::Form;
 use std::f64::consts::PI;
 
-/// A body with the equivalent profile g(x) = c |x|ⁿ, on a half-space with adhesion.
+/// A body with the equivalent profile g(x) = c |x|ⁿ on a half-space with adhesion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLaw {
-    /// c = κₙ b, m^(1−n).
+    /// Coefficient c = κₙ b of the equivalent profile, m^(1−n).
     pub line_coefficient: f64,
-    /// n > 1/2.
+    /// Exponent n > 1/2.
     pub exponent: f64,
     /// Effective modulus E*, Pa.
     pub effective_modulus: f64,
@@ -19,7 +19,7 @@ pub struct PowerLaw {
 }
 
 impl PowerLaw {
-    /// The closed form of a body, if it is a power law: neither the punch nor a sphere with waves.
+    /// The closed form of a form, if its profile is a power law; `None` for punches, waves and tables.
     pub fn of(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<Self> {
         let (line_coefficient, exponent) = form.power_law()?;
         Some(PowerLaw { line_coefficient, exponent, effective_modulus, work_of_adhesion })
@@ -40,21 +40,21 @@ impl PowerLaw {
         pressed - self.detaching(radius)
     }
 
-    /// Contact radius, m, and force, N, of pull-off under force control, where dF/da = 0; the smallest force.
+    /// Contact radius, m, and force, N, at pull-off under force control, where dF/da = 0: the smallest force.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
         (radius, -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
     }
 
-    /// Contact radius, m, and force, N, of pull-off under displacement control, where dd/da = 0.
+    /// Contact radius, m, and force, N, at pull-off under displacement control, where dd/da = 0.
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);
         (radius, -(2.0 * n + 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
     }
 
-    /// [m π γ/(2n²c²E*)]^(1/(2n−1)), m.
+    /// Contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)), m, for m = `multiple`.
     fn critical_radius(&self, multiple: f64) -> f64 {
         let n = self.exponent;
         let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.effective_modulus;
@@ -66,14 +66,15 @@ impl PowerLaw {
     }
 }
 
-/// Adhesion force √(8π a³ E* γ), N, of a flat punch of radius a m (Kendall).
+/// Adhesion force √(8π a³ E* γ), N, of a flat punch of radius a (m) (Kendall).
 pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
     (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
 }
 
-/// Adhesion force in closed form, N, of a smooth body of a form (`None`: flat) and apparent diameter `length` m after a
-/// preload, N, under works of adhesion on closing and on opening, J/m². `None` where there is none: for waves and tables, for
-/// a body whose contact at pull-off is longer than the profile, and for a preload that does not press it beyond that contact.
+/// Adhesion force, N, in closed form, of a smooth body with this form (`None`: flat) and apparent diameter `length` (m),
+/// after a preload (N), for works of adhesion on closing and on opening (J/m²). `None` where there is no closed form: for
+/// waves and tables, for a body whose contact at pull-off is longer than the profile, and for a preload that does not press
+/// it beyond that contact.
 pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,

@@ -1,4 +1,4 @@
-//! The fewest springs, with edges at or between them, that reach a tolerance.
+//! The fewest springs, with either edge model, that reach a tolerance.
 
 use super::estimate::{Estimate, Evidence, own_errors};
 use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
@@ -13,9 +13,9 @@ use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
 
-/// In the order of preference at the same number of springs.
+/// Edge models in the order of preference at the same number of springs.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
-/// Most springs tried, unless the modes of the scene need more: then four times that number.
+/// Largest number of springs tried; four times as many if the modes of the scene need more than this number.
 const MOST_TRIED: u64 = 1 << 21;
 
 /// Parses a tolerance: `1e-3` or `0.1 %`; the error is the allowed range.
@@ -27,43 +27,43 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
 }
 
-/// Springs and edges that reach a tolerance.
+/// Number of springs and edge model that reach a tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Allowed relative error.
     pub tolerance: f64,
-    /// Quantity of the error.
+    /// Quantity to which the tolerance applies.
     pub target: Target,
-    /// Springs N.
+    /// Number of springs N.
     pub points: u64,
     /// Edge model.
     pub edges: Edges,
-    /// Reached relative error: with a closed form the error itself, else an estimate that includes the estimated
-    /// error of the finest solution.
+    /// Relative error that is reached: with a closed form the error itself, otherwise an estimate that includes the
+    /// estimated error of the finest solution.
     pub error: f64,
     /// True if the error is relative to a closed form.
     pub closed_form: bool,
-    /// Springs of the finest solution tried for the choice.
+    /// Number of springs of the finest solution tried.
     pub finest: u64,
 }
 
 impl Choice {
-    /// The scene with these springs and edges.
+    /// The scene with this number of springs and this edge model.
     ///
     /// # Errors
-    /// Another scene than the one of the choice, which does not allow them.
+    /// For another scene than the choice was made for, if it does not allow these values.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
 
-    /// The error of the scene with these springs and edges.
+    /// Estimated error of the scene with this number of springs and this edge model.
     pub fn estimate(&self) -> Estimate {
         let evidence =
             if self.closed_form { Evidence::ClosedForm } else { Evidence::Solutions(vec![self.finest]) };
         Estimate { target: self.target, error: self.error, near_step: false, evidence }
     }
 
-    /// Choice and reason in one sentence.
+    /// The choice and its reason in one sentence.
     pub fn sentence(&self) -> String {
         let Choice { tolerance, target, points, edges, error, closed_form, finest } = *self;
         let (points, target, edges) = (grouped(points), target.name(), edges.name());
@@ -76,16 +76,16 @@ impl Choice {
     }
 }
 
-/// Reason why no springs were chosen.
+/// Reason why no number of springs was chosen.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ChoiceError {
     /// The scene could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A tolerance out of its range.
+    /// The tolerance is out of its range.
     #[error("a tolerance of {0:e}; allowed: a relative error above 0 and below 1")]
     Range(f64),
-    /// The stepwise solver has an error of its own that is independent of the springs.
+    /// The scene uses the stepwise solver, whose error also depends on its step.
     #[error(
         "a tolerance needs numerics.solver: Exact; the step of the stepwise solver is an error of its own"
     )]
@@ -93,12 +93,12 @@ pub enum ChoiceError {
     /// The search was stopped.
     #[error("the search for springs was stopped")]
     Stopped,
-    /// Not reached with the largest number of tried springs.
+    /// The largest number of tried springs does not reach the tolerance.
     #[error("{}", unreached(.tolerance, .best))]
     Unreached {
         /// Requested relative error.
         tolerance: f64,
-        /// The best choice, with a tolerance that it reaches; `None` if nothing is known.
+        /// The best choice, with the tolerance that it reaches; `None` if no error is known.
         best: Option<Box<Choice>>,
     },
 }
@@ -116,13 +116,13 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     )
 }
 
-/// Springs and edges with which a checked scene, with files in `folder`, reaches a relative error of at most
-/// `tolerance` in its adhesion force, or in its force curve without a tensile force.
+/// Finds springs and edge model with which a checked scene, with files in `folder`, reaches a relative error of at most
+/// `tolerance` in its adhesion force, or in its force curve if there is no tensile force.
 ///
-/// Doubles the springs, and chooses the fewest from which on the error, including that of the finest solution, stays
-/// within the tolerance over at least two refinements: under the loads of the scene, half of them and twice of them (its
-/// target forces and indentations above zero), except where a closed form gives the error itself. With equal springs both
-/// kinds of edges take about the same time, and edges between springs are preferred, whose error falls faster if the
+/// Doubles the number of springs, and chooses the smallest from which on the error, including that of the finest solution,
+/// stays within the tolerance over at least two refinements. The error counts under the loads of the scene, half of them
+/// and twice of them (its target forces and indentations above zero), unless a closed form gives it. With equal springs
+/// both edge models take about the same time; edges between springs are preferred, since their error falls faster if the
 /// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is polled now and then;
 /// `trying` receives the next number of springs.
 pub fn choose(
@@ -174,8 +174,8 @@ pub fn choose(
     Err(ChoiceError::Unreached { tolerance, best })
 }
 
-/// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and
-/// around them; 0 for a scene with a closed form, and `None` if unknown.
+/// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and around
+/// them; 0 for a scene with a closed form, `None` if the error is unknown.
 fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution; 2]]) -> Option<f64> {
     let [finest, _] = tried.last()?;
     if finest.closed_form.is_some() {
@@ -184,8 +184,8 @@ fn error_of_finest(scene: &CheckedScene, runs: &mut Runs<'_>, tried: &[[Solution
     own_errors(scene, finest, runs)?[Target::of(finest) as usize]
 }
 
-/// Returns the choice among solutions with edges between and at springs, given the error of the finest; if none is good
-/// enough, the best that is confirmed. `None` for too few solutions.
+/// Returns the choice among solutions with both edge models, given the error of the finest one; if none reaches the
+/// tolerance, the best whose error is confirmed. `None` for too few solutions.
 fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choice> {
     let [finest, _] = tried.last()?;
     let (target, reference, closed_form) =
@@ -210,7 +210,7 @@ fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choi
 mod tests {
     use super::*;
 
-    /// Solutions whose adhesion force converges to 1 N from these errors with these orders.
+    /// Solutions whose adhesion force converges to 1 N: first error, and order of convergence, for each edge model.
     fn solutions(count: u32, edges: [(f64, i32); 2]) -> Vec<[Solution; 2]> {
         let solution = |k: u32, (error, order): (f64, i32)| Solution {
             points: 16 << k,

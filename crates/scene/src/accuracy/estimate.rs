@@ -1,4 +1,4 @@
-//! Estimated error of one outcome, from two more solutions.
+//! Estimated error of one outcome, by comparison with two more solutions.
 
 use super::solution::{Errors, FEWEST, Runs, Solution, Target, loaded, refined, relative_error};
 use crate::scene::checked::CheckedScene;
@@ -9,53 +9,54 @@ use serde::Serialize;
 use std::array;
 use std::path::Path;
 
-/// Most springs of a solution for an estimate only.
+/// Largest number of springs of a solution that serves an estimate only.
 const MOST_SPRINGS: u64 = 1 << 23;
-/// Springs from which on the transform takes most of the time of a solution.
+/// Number of springs above which the Fourier transform takes most of the time of a solution.
 const MANY_SPRINGS: u64 = 1 << 16;
-/// Springs of two other solutions over those of an estimate: fewer springs, or more where the waves need more.
+/// Numbers of springs of the two other solutions, as fractions of the number of springs of the scene: fewer springs, or
+/// more where the waves need more.
 const OTHERS: [[(u64, u64); 2]; 2] = [[(7, 8), (2, 3)], [(3, 2), (2, 1)]];
-/// Error over the larger difference from the other solutions.
+/// Estimated error over the larger of the two differences from the other solutions.
 ///
-/// The other solutions have edges between springs. Whole springs differ from them by their whole error of the first order
-/// in the spacing, and do not agree with them by chance as whole springs on several grids do. An error that falls with the
-/// square of the spacing differs by more than itself on 2/3 of the springs. On rough profiles errors change their sign by
-/// chance. On random scenes at least 95 of 100 true errors are within the estimate, and the estimate is at most ten times
-/// the true error in the median (`tests/program/estimates.rs`).
+/// The other solutions have edges between springs. Whole springs differ from them by their whole error, which is of first
+/// order in the spacing, and do not agree with them by chance as whole springs on several grids do. An error that falls
+/// with the square of the spacing differs by more than itself on 2/3 of the springs. On rough profiles errors change sign
+/// by chance. On random scenes at least 95 of 100 true errors are within the estimate, and the median of estimate over true
+/// error is at most ten (`tests/program/estimates.rs`).
 const FACTOR: f64 = 4.0;
-/// Relative difference of an adhesion force that may be a step of F_a(F_n).
+/// Relative difference of adhesion forces above which F_a(F_n) may have a step.
 const STEP: f64 = 0.05;
-/// Factors of the loads near those of a scene.
+/// Factors that give loads near the loads of a scene.
 const NEAR: [f64; 2] = [0.95, 1.05];
 
 /// The estimated relative error of an outcome.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Quantity of the error.
+    /// Quantity whose error is estimated.
     pub target: Target,
     /// The relative error.
     pub error: f64,
-    /// True if F_n lies near a step of F_a(F_n): another number of springs has another adhesion force, and nearly the same
-    /// under slightly other loads. The error then includes the step.
+    /// True if F_n lies near a step of F_a(F_n): another number of springs gives another adhesion force, and under slightly
+    /// different loads nearly the same one. The error then includes the step.
     pub near_step: bool,
-    /// Basis of the estimate.
+    /// What the estimate is based on.
     pub evidence: Evidence,
 }
 
 impl Estimate {
-    /// Absolute error of the adhesion force of an outcome, N; `None` for an estimate of the curve.
+    /// Absolute error of the adhesion force of an outcome, N; `None` for an estimate for the force curve.
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome.figures.adhesion_force.filter(|_| self.target == Target::AdhesionForce)?;
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// Error of the force curve, as a share of the largest force; `None` for an estimate of the adhesion force.
+    /// Error of the force curve as a share of the largest force; `None` for an estimate for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }
 
-    /// The error in words that name its kind, to follow the adhesion force: in per cent, with one digit, or two after
-    /// a leading one, according to the accuracy of an estimate.
+    /// The error in words, to follow the adhesion force: in per cent, to one significant digit, or two if the first is 1,
+    /// as accurate as the estimate is.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -65,24 +66,24 @@ impl Estimate {
     }
 }
 
-/// Basis of an estimate.
+/// What an estimate is based on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Evidence {
-    /// A closed form: the value is the error itself.
+    /// A closed form: the estimate is the error itself.
     ClosedForm,
-    /// Solutions of the same profile with these numbers of springs, with edges between springs.
+    /// Solutions of the same profile with these numbers of springs and edges between springs.
     Solutions(Vec<u64>),
 }
 
-/// Estimates the error of the adhesion force of an outcome, or of its force curve without a tensile force.
+/// Estimates the error of the adhesion force of an outcome, or of its force curve if there is no tensile force.
 ///
-/// A closed form yields the error itself. Otherwise the same profile is solved exactly with about 7/8 and 2/3 of the springs,
-/// with edges between springs, and the error is four times the larger difference. A profile whose modes need more springs
-/// than that is solved with about 3/2 and twice as many instead. A difference is relative to the smaller of two values.
+/// A closed form yields the error itself. Otherwise the same profile is solved exactly with about 7/8 and 2/3 of the
+/// springs and edges between springs, and the error is four times the larger difference. A profile whose modes need more
+/// springs is solved with about 3/2 and twice as many instead. Differences are relative to the smaller of two values.
 ///
-/// Returns `None` if the scene has no such figure, if the foundation allows no other number of springs or would need more
-/// than the limit, if a solution on another number of springs cannot reach a target of the loading, or if `stop` ends the
+/// Returns `None` if the scene has neither figure, if the foundation allows no other number of springs or would need more
+/// than the limit, if a solution with another number of springs cannot reach a target of the loading, or if `stop` ends the
 /// computation.
 pub fn estimate(
     scene: &CheckedScene,
@@ -114,7 +115,7 @@ pub fn estimate(
     Some(Estimate { target, error, near_step, evidence: Evidence::Solutions(springs) })
 }
 
-/// Estimates the errors of a solution of a scene with edges between springs, under all loads.
+/// Estimates the errors of a solution with edges between springs, under the loads of the scene and around them.
 pub(super) fn own_errors(scene: &CheckedScene, finest: &Solution, runs: &mut Runs<'_>) -> Option<Errors> {
     let scene = refined(scene, finest.points, Edges::SubCell).ok()?;
     let others = others(&scene, &mut |scene| runs.solve_around(scene).ok())?;
@@ -122,8 +123,8 @@ pub(super) fn own_errors(scene: &CheckedScene, finest: &Solution, runs: &mut Run
     Some(array::from_fn(|index| Some(FACTOR * one[index]?.max(other[index]?))))
 }
 
-/// Solves a scene on two other numbers of springs, with edges between springs; `None` where they are not allowed or have
-/// no solution.
+/// Solves a scene with two other numbers of springs and edges between springs; `None` if they are not allowed or have no
+/// solution.
 fn others(
     scene: &CheckedScene,
     solved: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
@@ -140,11 +141,11 @@ fn others(
     Some([(one, of_one), (other, of_other)])
 }
 
-/// The least number of springs from this one on that suits a Fourier transform, without a prime factor above 13: an odd
-/// one, or twice an odd one where the transform takes most of the time and an odd one doubles it.
+/// The smallest number of springs, at least `least`, that suits a Fourier transform, with no prime factor above 13: an odd
+/// number, or twice an odd number where the transform takes most of the time and would double it for an odd one.
 ///
-/// Springs of an even number lie at no springs of an odd one, whether the axis of a form is on a spring or not, and powers
-/// of two share two springs with twice an odd number. So no height is the same by the arrangement of the springs.
+/// The positions of an even and an odd number of springs never coincide, wherever the axis of a form is; a power of two and
+/// twice an odd number have two positions in common. So the arrangement of the springs does not make heights equal.
 fn apart_from(least: u64) -> u64 {
     let without = |mut number: u64, prime: &u64| {
         while number.is_multiple_of(*prime) {

@@ -1,5 +1,5 @@
-//! The cost of accuracy of one scene: one ladder from coarse to fine within a budget of time. Each rung has twice the springs
-//! of the one before, with both edge models, and half of the step of the stepwise solver.
+//! The cost of accuracy of one scene: solutions from coarse to fine within a budget of time. Each rung of this ladder has
+//! twice the springs of the rung before, with both edge models, and half the step of the stepwise solver.
 
 use super::estimate::own_errors;
 use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
@@ -16,48 +16,49 @@ use asperity_fourier::plan_real_forward;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Least time left for another rung over that of the last one: a rung takes about twice as long, the error of the finest
-/// solution as long as the last one, and a busy machine longer.
+/// Smallest time left for another rung over the time of the last one: the next rung takes about twice as long, the error of
+/// the finest solution as long as the last rung, and a busy machine longer.
 const LATER: f64 = 4.0;
-/// Points of a compared curve, all loading stages together: many, so that sampling hides no error of the springs.
+/// Number of points of a compared curve, over all loading stages: so many that sampling hides no error of the springs.
 const COMPARED_POINTS: u64 = 1 << 16;
-/// Most samples of a compared loading stage.
+/// Limit of the samples of a compared loading stage.
 const MOST_COMPARED: u64 = 4096;
-/// Errors below this are indistinguishable from rounding.
+/// Relative errors below this are indistinguishable from rounding.
 const ROUNDING: f64 = 1e-14;
-/// Springs of the stepwise solver, unless the scene needs more.
+/// Number of springs of the stepwise solver, unless the scene needs more.
 const STEPWISE_SPRINGS: u64 = 256;
-/// Steps of the coarsest run over the range of its indentations.
+/// Number of steps of the coarsest run over its range of indentations.
 const FEWEST_STEPS: f64 = 16.0;
-/// Most runs of one setting for its time, and the time after which no other begins, s.
+/// Limit of the runs that time one setting, and the time after which no further run begins, s.
 const MOST_RUNS: usize = 9;
 const ENOUGH_RUNS: f64 = 0.05;
-/// Points of the transform that is the unit of time.
+/// Number of points of the Fourier transform whose time is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
 /// Progress of a measurement.
 pub enum Progress<'a> {
-    /// A setting of a knob is tried next.
+    /// The setting of a knob that is tried next.
     Trying(Knob, &'a str),
     /// The table so far, with errors relative to the finest solution so far.
     Rows(&'a CostTable),
 }
 
-/// A scene from coarse to fine, within a budget of time.
+/// Solutions of a scene from coarse to fine, within a budget of time.
 struct Ladder<'a> {
     scene: &'a CheckedScene,
     folder: &'a Path,
     is_over: &'a dyn Fn() -> bool,
-    /// Solutions, and their settings and times: rows without errors.
+    /// Rows without errors yet (setting and times), each with its solution.
     rungs: Vec<(Row, Solution)>,
     table: CostTable,
 }
 
-/// Measures the table of a checked scene with files in `folder`, within a budget of time. `stop` is polled now and
+/// Measures the cost table of a checked scene with files in `folder`, within a budget of time. `stop` is polled now and
 /// then; `watch` receives each setting and its result.
 ///
 /// # Errors
-/// The reason in a sentence: a scene that cannot be computed, a budget for fewer than two solutions, or a stop.
+/// The reason in a sentence: the scene cannot be computed, the budget allows fewer than two solutions, or `stop` returned
+/// true.
 pub fn measure(
     scene: &CheckedScene,
     folder: &Path,
@@ -88,7 +89,7 @@ pub fn measure(
     }
 }
 
-/// Returns the scene with the number of samples for a comparison of curves.
+/// Returns the scene with as many samples as a comparison of curves needs.
 fn compared(scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
     scene.with(|scene| scene.numerics.samples = compared_samples(scene))
 }
@@ -99,7 +100,7 @@ fn compared_samples(scene: &Scene) -> u64 {
 }
 
 impl Ladder<'_> {
-    /// Adds rungs while there is time; returns the error that refused too few springs.
+    /// Adds rungs while there is time; returns the error with which too few springs were refused, if any were.
     fn climb(
         &mut self,
         left: &dyn Fn() -> f64,
@@ -138,8 +139,8 @@ impl Ladder<'_> {
         Ok(refused)
     }
 
-    /// Returns the settings with this number of springs. The step of the stepwise solver halves from rung to rung once its
-    /// reference is known.
+    /// Returns the settings with this number of springs. The step of the stepwise solver is halved from rung to rung, once
+    /// the exact reference solution is known.
     fn settings(&self, points: u64) -> Vec<(Knob, f64, CheckedScene)> {
         let of = |(knob, edges)| Some((knob, points as f64, refined(self.scene, points, edges).ok()?));
         let springs = [(Knob::SubCellSprings, Edges::SubCell), (Knob::GridSprings, Edges::Grid)].map(of);
@@ -167,7 +168,8 @@ impl Ladder<'_> {
         Ok((Row { knob, setting, springs, seconds, transforms, errors }, solution))
     }
 
-    /// Measures the times of a few whole runs of a scene, at least one, without any reuse; `None` without time for one.
+    /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused; `None` if no time is
+    /// left.
     fn time(&self, scene: &CheckedScene) -> Option<Timing> {
         let (began, mut seconds) = (Instant::now(), Vec::new());
         while seconds.is_empty() || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
@@ -183,7 +185,7 @@ impl Ladder<'_> {
         self.rungs.iter().filter(move |(row, _)| row.knob == knob)
     }
 
-    /// Returns the reference of steps: the exact solution on as many springs as the stepwise solver has.
+    /// Returns the reference for steps: the exact solution with as many springs as the stepwise solver has.
     fn exact(&self) -> Option<&Solution> {
         let mut exact = self.rungs_of(Knob::GridSprings).map(|(_, solution)| solution);
         exact.find(|solution| solution.points >= STEPWISE_SPRINGS)
@@ -195,8 +197,8 @@ impl Ladder<'_> {
         Some([finer.next()?, finer.next()?])
     }
 
-    /// Makes the rows, with errors relative to the finest solution or the closed form, and those of steps to the exact
-    /// solution. The reference has its own errors, or without them twice the last differences. Returns false with fewer
+    /// Computes the errors of all rows: relative to the finest solution or the closed form, and for steps relative to the
+    /// exact solution. The error of the reference itself is `own`, or twice the last differences. Returns false for fewer
     /// than two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
         let Some([finest, last]) = self.finest() else { return false };
@@ -228,7 +230,8 @@ impl Ladder<'_> {
     }
 }
 
-/// Returns the errors of a setting as far as they are above the floors, with orders relative to the row before.
+/// Returns the errors of a setting where they exceed the errors of the reference, with orders of convergence relative to
+/// the row before.
 fn resolved(errors: Errors, floors: Errors, setting: f64, before: Option<&Row>) -> [Option<ErrorFigure>; 4] {
     let ratio = before.map_or(1.0, |row| (setting / row.setting).max(row.setting / setting));
     let coarse = before.map_or([None; 4], |row| row.errors);

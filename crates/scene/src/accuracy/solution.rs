@@ -1,4 +1,4 @@
-//! Solutions of a scene and its variants, and their relative differences.
+//! Solutions of a scene and of its variants, and their relative differences.
 
 use crate::analysis::branches::{Branch, pull_off_point};
 use crate::reference::{PowerLaw, smooth_adhesion_force};
@@ -17,20 +17,20 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 pub(super) const FEWEST: u64 = 16;
-/// Factors of the loads of a scene for the loads around them.
+/// Factors that give the loads around the loads of a scene.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences in the order of [`crate::accuracy::table::QUANTITIES`]; `None` without such a figure.
+/// Relative errors or differences of [`crate::accuracy::table::QUANTITIES`], in that order; `None` for a missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
-/// Figures and curve of one solution; a figure of zero has no relative error and is left out.
+/// Figures and force curve of one solution. A figure of zero has no relative error and is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solution {
     pub points: u64,
     pub adhesion_force: Option<f64>,
     /// The adhesion force in closed form, N, if the scene has one.
     pub closed_form: Option<f64>,
-    /// Adhesion forces under half and under twice the loads, N, if solved.
+    /// Adhesion forces under half and twice the loads, N, where they were computed.
     pub around: Vec<Option<f64>>,
     pub dissipated_energy: Option<f64>,
     pub contact_length: Option<f64>,
@@ -52,7 +52,7 @@ impl Solution {
         }
     }
 
-    /// Returns this solution as a reference, with the adhesion force in closed form if there is one.
+    /// Returns this solution as a reference; an adhesion force in closed form replaces the computed one.
     pub(super) fn reference(&self) -> Solution {
         match self.closed_form {
             Some(_) => Solution { adhesion_force: self.closed_form, around: Vec::new(), ..self.clone() },
@@ -60,8 +60,8 @@ impl Solution {
         }
     }
 
-    /// Returns the relative differences from a reference. That of the adhesion force is the largest under all loads which
-    /// both have: an error that changes its sign from load to load is not small at all of them by chance.
+    /// Returns the relative differences from a reference. The difference of the adhesion force is the largest over all
+    /// loads that both have: an error that changes sign from load to load is not small at all of them by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
@@ -80,13 +80,14 @@ impl Solution {
     }
 }
 
-/// Quantity of a tolerance: one of the first two of [`crate::accuracy::table::QUANTITIES`].
+/// Quantity to which a tolerance applies: one of the first two of [`crate::accuracy::table::QUANTITIES`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
     /// The adhesion force.
     AdhesionForce,
-    /// The force curve, without a tensile force; the mean difference of forces at equal indentations over the largest force.
+    /// The force curve, where there is no tensile force: the mean difference of forces at equal indentations over the
+    /// largest force.
     Curve,
 }
 
@@ -103,7 +104,7 @@ impl Target {
         if solution.adhesion_force.is_some() { Target::AdhesionForce } else { Target::Curve }
     }
 
-    /// Returns a scene that is solved for this quantity alone.
+    /// Returns the scene reduced to what this quantity needs.
     pub(super) fn only(self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         scene.with(|scene| {
             scene.observe.clear();
@@ -120,12 +121,11 @@ impl Target {
     }
 }
 
-/// |value − reference|/|reference|.
 pub(super) fn relative_error(value: f64, reference: f64) -> f64 {
     ((value - reference) / reference).abs()
 }
 
-/// Returns the scene with another number of springs and edge model, and with the exact solver.
+/// Returns the scene with this number of springs, this edge model and the exact solver.
 pub(super) fn refined(scene: &CheckedScene, points: u64, edges: Edges) -> Result<CheckedScene, SceneErrors> {
     scene.with(|scene| {
         let numerics = &mut scene.numerics;
@@ -133,8 +133,8 @@ pub(super) fn refined(scene: &CheckedScene, points: u64, edges: Edges) -> Result
     })
 }
 
-/// Returns the scene with its target forces and indentations above zero multiplied by a factor; `None` without such
-/// targets, or beyond their range.
+/// Returns the scene with all target forces and indentations above zero multiplied by a factor; `None` if there are none,
+/// or if a product is out of range.
 pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> {
     let loaded = |other: &mut Scene| {
         for leg in &mut other.loading {
@@ -148,7 +148,7 @@ pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> 
     scene.with(loaded).ok().filter(|other| other.loading != scene.loading)
 }
 
-/// Returns the powers of two allowed as the scene's number of springs, ascending.
+/// Returns the powers of two that the scene allows as its number of springs, ascending.
 pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
     let allowed = |points| refined(scene, points, scene.numerics.edges).is_ok();
@@ -156,7 +156,7 @@ pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> 
     powers.take(40).skip_while(move |&points| !allowed(points)).take_while(move |&points| allowed(points))
 }
 
-/// Runs of scenes that share an unchanged profile.
+/// Runs of scenes that reuse an unchanged profile.
 pub(super) struct Runs<'a>(Simulation, &'a dyn Fn() -> bool);
 
 impl<'a> Runs<'a> {
@@ -169,7 +169,7 @@ impl<'a> Runs<'a> {
         Ok(Solution::of(scene, &outcome))
     }
 
-    /// Solves a scene, with the adhesion forces under the loads around its own.
+    /// Solves a scene, and computes the adhesion forces under the loads around its own.
     pub(super) fn solve_around(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
         let mut solution = self.solve(scene)?;
         let scene = Target::of(&solution).only(scene)?;
@@ -184,14 +184,14 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// Returns true if the memory or the time did not suffice.
+/// Returns true if memory or time did not suffice.
 pub(super) fn is_spent(error: &RunError) -> bool {
     use RunError::{Contact, OutOfMemory, Surface};
     let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory(_)));
     is_short || matches!(error, Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted))
 }
 
-/// Returns true if no spring is under the body, or the contact of too few springs does not reach a target of the loading.
+/// Returns true if too few springs are the reason: none is under the body, or their contact does not reach a target.
 pub(super) fn is_too_coarse(error: &RunError) -> bool {
     match error {
         RunError::Contact(error) => error.is_out_of_reach(),
@@ -204,8 +204,8 @@ fn longest_contact(outcome: &Outcome) -> f64 {
     points.map(|point| point.contact_length).fold(0.0, f64::max)
 }
 
-/// Returns the adhesion force of a scene in closed form, N, if there is one: a smooth body that is pulled beyond the
-/// indentation of its smallest force, on a profile longer than its contact. `outcome` is its solution.
+/// Returns the adhesion force of a scene in closed form, N; `None` unless a smooth body is pulled beyond the indentation of
+/// its smallest force, on a profile longer than its contact. `outcome` is the solution of the scene.
 fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
     if scene.roughness.is_some() {
@@ -233,10 +233,10 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     smooth_adhesion_force(form, length, modulus, [work; 2], f64::INFINITY).filter(|_| passes && is_inside)
 }
 
-/// Indentations at which the forces of a loading stage are compared.
+/// Number of indentations at which the forces of a loading stage are compared.
 const COMPARED: usize = 2048;
 
-/// Indentation, m, and force, N, at points of ascending indentation, for each loading stage.
+/// Force curve of each loading stage as points of indentation (m) and force (N), ascending in indentation.
 pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
 
 pub(super) fn force_curve(history: &History) -> ForceCurve {
@@ -250,9 +250,9 @@ pub(super) fn force_curve(history: &History) -> ForceCurve {
     history.legs.iter().map(points).collect()
 }
 
-/// Mean difference of the forces of a loading stage from those of a reference at equal indentations, in units of the
-/// largest force of the reference; the largest of all stages. A jump that is late by a hundredth of the indentations
-/// counts a hundredth of its height. `None` if the reference has no forces or another number of stages.
+/// Mean difference of the forces of a loading stage from a reference at equal indentations, over the largest force of the
+/// reference; the largest of all stages. A jump that is late by a hundredth of the range of indentations counts a hundredth
+/// of its height. `None` if the reference has no forces or another number of stages.
 pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f64> {
     let largest = reference.iter().flatten().map(|point| point[1].abs()).fold(0.0, f64::max);
     if curve.len() != reference.len() || largest == 0.0 || largest.is_nan() {
@@ -268,7 +268,7 @@ pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f
     curve.iter().zip(reference).map(mean).try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
 }
 
-/// Force of a curve at an indentation; beyond its ends that of the end. `None` without points.
+/// Force of a curve at an indentation; beyond the ends of the curve the force at the end. `None` without points.
 fn force(curve: &[[f64; 2]], at: f64) -> Option<f64> {
     let above = curve.partition_point(|point| point[0] < at).min(curve.len().checked_sub(1)?);
     let ([low, before], [high, after]) = (curve[above.saturating_sub(1)], curve[above]);

@@ -6,25 +6,25 @@ use asperity_data::slope;
 use serde::{Serialize, Serializer};
 use strum::IntoStaticStr;
 
-/// Finer solutions that confirm an error.
+/// Number of finer solutions that must confirm an error.
 pub(super) const REFINEMENTS: usize = 2;
-/// Quantities with errors: the adhesion force F_a, the whole force curve (the mean difference of forces at equal
-/// indentations over the largest force), the dissipated energy, and the largest length in contact.
+/// Quantities whose errors are measured: the adhesion force F_a, the force curve (the mean difference of forces at equal
+/// indentations over the largest force), the dissipated energy, and the largest contact length.
 pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
-/// Relative errors of the answers.
+/// Relative errors for which the answer states springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
-/// Setting that affects accuracy.
+/// A setting that affects the accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
-    /// Springs N with edges between them.
+    /// Number of springs N, with edges between springs.
     SubCellSprings,
-    /// Springs N with edges at them, as in the paper.
+    /// Number of springs N, with edges at springs, as in the paper.
     GridSprings,
-    /// Step Δd of the stepwise solver.
+    /// Step Δd of the stepwise solver, m.
     Step,
 }
 
@@ -42,19 +42,19 @@ impl Knob {
     }
 }
 
-/// Times of repeated runs after a warm-up run, s.
+/// Times of repeated runs after a first run that does not count, s.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Timing {
-    /// The shortest.
+    /// The shortest time, s.
     pub minimum: f64,
-    /// The median.
+    /// The median time, s.
     pub median: f64,
-    /// Number of runs.
+    /// Number of timed runs.
     pub runs: usize,
 }
 
 impl Timing {
-    /// Timing from the times of some runs, s; `None` without any.
+    /// Timing from the times of some runs, s; `None` without runs.
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         seconds.sort_by(f64::total_cmp);
         let runs = seconds.len();
@@ -64,43 +64,43 @@ impl Timing {
     }
 }
 
-/// One relative error.
+/// A relative error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigure {
-    /// The error; if it is not resolved, that of the reference itself.
+    /// The error; if it is not resolved, the error of the reference itself.
     pub error: f64,
-    /// True if the error is larger than that of the reference.
+    /// True if the error is larger than the error of the reference.
     pub resolved: bool,
-    /// Observed order of convergence relative to the previous row, if both errors are resolved.
+    /// Observed order of convergence from the previous row to this one; `None` unless both errors are resolved.
     pub order: Option<f64>,
 }
 
 /// One setting: its cost and its errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// Setting.
+    /// Which setting is varied.
     pub knob: Knob,
-    /// Value of the setting: a number, or m for a step.
+    /// Value of the setting: a number of springs, or a step in m.
     pub setting: f64,
-    /// Springs N.
+    /// Number of springs N.
     pub springs: u64,
-    /// Time of a whole run without any reuse; `None` without time for one.
+    /// Time of a whole run in which nothing is reused; `None` if there was no time for one.
     pub seconds: Option<Timing>,
-    /// The shortest time in Fourier transforms, see [`CostTable::transform_seconds`].
+    /// The shortest time in units of a Fourier transform; see [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
     /// Relative errors of the [`QUANTITIES`].
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Reference of the errors.
+/// What the errors are relative to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Reference {
-    /// Springs of the finest solution with edges between springs.
+    /// Number of springs of the finest solution with edges between springs.
     pub springs: u64,
-    /// Adhesion force, N.
+    /// Adhesion force of the reference, N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// True if `adhesion_force` is a closed form; all other references are from the finest solution.
+    /// True if `adhesion_force` is from a closed form; everything else is always from the finest solution.
     pub closed_form: bool,
     /// Estimated relative errors of the reference itself in the [`QUANTITIES`].
     #[serde(serialize_with = "by_name")]
@@ -114,18 +114,17 @@ fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Resul
 /// Cost of accuracy for one scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
-    /// Time limit, s.
+    /// Budget of time, s.
     pub budget: f64,
     /// Time used, s.
     pub spent: f64,
-    /// The unit of time: the shortest time of one real Fourier transform of 2^20 points, planned beforehand,
-    /// s.
+    /// The unit of time: the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
     pub transform_seconds: f64,
     /// Reference of the errors.
     pub reference: Reference,
-    /// The settings, knob by knob, from coarse to fine.
+    /// The settings, grouped by knob, each group from coarse to fine.
     pub rows: Vec<Row>,
-    /// Settings that were not tried or not reached, with reasons.
+    /// Settings that were not tried or did not work, with reasons.
     pub left_out: Vec<String>,
 }
 
@@ -135,27 +134,27 @@ impl CostTable {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
 
-    /// The main error: that of the adhesion force, or of the curve without a tensile force.
+    /// The main error of a row: the error of the adhesion force, or of the force curve if there is no tensile force.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() { adhesion_force } else { curve }
     }
 
-    /// Least time, s, and main error of a row, if both have logarithms.
+    /// Shortest time, s, and main error of a row; `None` unless both can be on a logarithmic axis.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }
 
-    /// The first row of a knob from which on the main error is within a bound, as at least two finer rows confirm.
+    /// The first row of a knob from which on the main error stays within a bound; at least two finer rows must confirm it.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// Order of convergence of a knob over all its rows with resolved errors, by least squares. `None` with fewer than
-    /// three such rows.
+    /// Order of convergence of a knob by least squares over all rows with resolved errors; `None` for fewer than three such
+    /// rows.
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;
@@ -166,8 +165,8 @@ impl CostTable {
         slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
     }
 
-    /// Returns the springs and times for one per cent and one per mille of the adhesion force, or of the force curve
-    /// without a tensile force: one sentence each.
+    /// Returns in sentences the numbers of springs and the times for 1 % and 0.1 % error of the adhesion force, or of the
+    /// force curve if there is no tensile force.
     pub fn answer(&self) -> Vec<String> {
         let of_force = self.reference.adhesion_force.is_some();
         let what = if of_force { "the adhesion force" } else { "the force curve" };
@@ -189,8 +188,8 @@ impl CostTable {
     }
 }
 
-/// Index of the first of these errors, from coarse to fine, from which on none is above a bound. Two finer ones confirm
-/// an error: one that changes its sign may be small by chance.
+/// Index of the first of these errors, from coarse to fine, from which on all are within a bound. At least two finer errors
+/// must confirm it, since an error that changes sign may be small by chance.
 pub(super) fn first_within(
     errors: impl DoubleEndedIterator<Item = Option<f64>>,
     bound: f64,

@@ -1,20 +1,20 @@
-//! Branches of a loading history, and the preload and the pull-off on them. They depend on the path of the body alone, not on
-//! the stages that it is cut into.
+//! Branches of a loading history, and the preload and pull-off on them. These depend on the path of the body alone, not on
+//! how it is divided into loading stages.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord};
 use std::ops::Range;
 
-/// Relative difference of equal forces, which are different sums, and of equal indentations.
+/// Relative difference within which forces, which are different sums, and indentations count as equal.
 pub(super) const ROUNDING: f64 = 1e-9;
-/// Motion over the indentation that is rounding alone: a force or a displacement that is reached again.
+/// Relative motion that counts as rounding, for a force or displacement that is reached again.
 const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 
-/// Consecutive loading stages of a history that move the body in one direction: one motion.
+/// Consecutive loading stages of a history that move the body in one direction, as one motion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Branch {
     /// Direction of the motion.
     pub direction: Direction,
-    /// Numbers of its stages, with those that leave the body in place.
+    /// Indices of its stages, including stages that leave the body in place.
     pub stages: Range<usize>,
 }
 
@@ -43,13 +43,13 @@ impl Branch {
         Branch::all(legs).into_iter().rfind(unloads)
     }
 
-    /// Stages of the branch with contact in its direction, and their numbers. Stages of a separated body have no extremes of
-    /// the contact.
+    /// Stages of the branch that move in its direction and have contact, with their indices. Stages of a separated body
+    /// have no extremes of the contact.
     fn touching<'l>(&self, legs: &'l [LegRecord]) -> impl DoubleEndedIterator<Item = (usize, &'l LegRecord)> {
         touching(legs, self.stages.clone(), self.direction)
     }
 
-    /// The smallest force in contact, and the number of its stage.
+    /// Point of the smallest force in contact, and the index of its stage.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let smallest = self.touching(legs).map(|(stage, leg)| (stage, leg.smallest));
         // Of equal forces the one at the smallest indentation, as on one stage.
@@ -75,8 +75,8 @@ fn touching(
     numbered.filter(move |(_, leg)| leg.direction == direction && touches(leg))
 }
 
-/// Finds the preload: the largest force of a loading since the last separation and before the last unloading, and the number
-/// of its stage.
+/// Finds the preload: the point of the largest force while loading, since the last separation and before the last
+/// unloading, and the index of its stage.
 pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     let end = Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
     let separates = |leg: &LegRecord| leg.direction == Direction::Unloading && leg.end_in_contact().is_none();
@@ -86,8 +86,8 @@ pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
 }
 
-/// Finds the pull-off: the smallest force of the last unloading in contact, and the number of its stage. There is none if that
-/// force is above zero, or if the unloading ends in contact while the force still falls.
+/// Finds the pull-off: the point of the smallest force of the last unloading in contact, and the index of its stage. `None`
+/// if that force is above zero, or if the unloading ends in contact while the force still falls.
 pub fn pull_off_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     let unloading = Branch::last_unloading(legs)?;
     let (stage, least) = unloading.smallest(legs)?;

@@ -1,5 +1,5 @@
-//! The headline figures of a loading history, the remarkable points of its force curve, and the three regimes of adhesion of
-//! Fig. 4 with the rule for one loading.
+//! The headline figures of a loading history, the marked points of its force curve, and the regime of adhesion (Fig. 4) of
+//! one loading.
 
 use super::branches::{Branch, ROUNDING, preload_point, pull_off_point};
 use asperity_contact::Move;
@@ -7,26 +7,26 @@ use asperity_contact::{CurvePoint, Direction, History, LegRecord, Reversal};
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Figures of one history; `None` for a figure that the history does not have.
+/// Figures of a loading history; `None` for a figure that the history does not have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// Preload F_n: largest force while loading, since the last separation and before the last unloading, N.
     pub preload: Option<f64>,
     /// Indentation at the preload, m.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a: minus the smallest force of the last unloading, N, in any number of stages; `None` if that force is
-    /// above zero, or if the unloading ends in contact while the force still falls.
+    /// Adhesion force F_a, N: minus the smallest force of the last unloading, in any number of stages; `None` if that force
+    /// is above zero, or if the unloading ends in contact while the force still falls.
     pub adhesion_force: Option<f64>,
-    /// Adhesion coefficient F_a/F_n; only under a preload.
+    /// Adhesion coefficient F_a/F_n; `None` without a compressive preload.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation at the smallest force, m.
+    /// Indentation at the smallest force of the last unloading, m.
     pub pull_off_indentation: Option<f64>,
     /// Dissipated energy of a history that ends separated, J.
     pub dissipated_energy: Option<f64>,
 }
 
 impl Figures {
-    /// Figures of `history`.
+    /// Computes the figures of a history.
     pub fn of(history: &History) -> Self {
         let legs = &history.legs;
         let ends_separated =
@@ -38,7 +38,8 @@ impl Figures {
         )
     }
 
-    /// Figures of a loading from separation to the end of this stage, at the turning point of `reversal`, and back.
+    /// Computes the figures of a history that loads from separation to `leg`, the turning point of `reversal`, and unloads
+    /// to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         Figures::at(
@@ -48,8 +49,8 @@ impl Figures {
         )
     }
 
-    /// Figures from the point of the largest force with its stage, the pull-off, and the energy
-    /// of all stages, J.
+    /// Figures from the point of the largest force with the target of its stage, the pull-off point, and the released
+    /// energy of all stages, J.
     fn at(pressed: Option<(Move, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
         // The force that remains at a target force of zero is rounding.
         let force = |(target, point): (Move, CurvePoint)| match target {
@@ -74,17 +75,17 @@ impl Figures {
     }
 }
 
-/// A remarkable point of a force curve.
+/// A marked point of a force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Mark {
-    /// First contact at a tensile force: the contact forms in a jump.
+    /// First contact at a tensile force, where the contact forms in a jump.
     JumpIn,
-    /// See [`preload_point`].
+    /// Point of the preload; see [`preload_point`].
     Preload,
-    /// See [`pull_off_point`]; at a tensile force.
+    /// Point of the pull-off at a tensile force; see [`pull_off_point`].
     PullOff,
-    /// Last contact of the unloading of the pull-off, if not the pull-off: the contact is lost in a jump.
+    /// Last contact of the unloading with the pull-off, if the contact is lost in a jump after the pull-off.
     JumpOut,
 }
 
@@ -95,7 +96,7 @@ impl Mark {
     }
 }
 
-/// Existing marks of a loading history, in their order.
+/// The marked points that a loading history has, in their order.
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     let into_contact = |leg: &LegRecord| {
         let pair = leg.curve.windows(2).find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
@@ -122,20 +123,19 @@ pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     found.filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0).collect()
 }
 
-/// Share of the adhesion after the preload from which on adhesion without a preload is pressure-insensitive: half
-/// of the adhesion needs no pressing.
+/// Share of the adhesion force after the preload from which on adhesion without a preload counts as pressure-insensitive:
+/// half of the adhesion needs no pressing.
 pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-/// Share of the adhesion of the smooth body below which adhesion without a preload has vanished. The transition
-/// from above one half to below one twentieth spans a factor of about three in κ, so the choice has little effect
-/// on the boundary.
+/// Share of the adhesion force of the smooth body below which adhesion without a preload has vanished. The transition from
+/// above one half to below one twentieth spans a factor of about three in κ, so the choice has little effect on the boundary.
 pub const VANISHING_SHARE: f64 = 0.05;
 
 /// Adhesion coefficient F_a/F_n below which adhesion is negligible: the bodies adhere with less than a
 /// hundredth of the force that pressed them together.
 pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
-/// Dependence of adhesion on the load, Fig. 4.
+/// Regime of adhesion: how adhesion depends on the load, Fig. 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
@@ -153,10 +153,10 @@ impl Regime {
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 
-    /// Returns the regime of one loading of one profile from the adhesion force F_a(0) by the touch or the zero-force
-    /// protocol and that of the same body without its roughness, N, both `None` without adhesion; `None` for a loading
-    /// without a tensile force. F_a(0) is larger by the zero-force protocol, so where the regimes by the two protocols
-    /// differ, that protocol gives the pressure-insensitive one.
+    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force. `zero_load` is the
+    /// adhesion force F_a(0) by the touch or the zero-force protocol and `smooth` that of the same body without roughness,
+    /// both in N and `None` without adhesion. F_a(0) is larger by the zero-force protocol, so where both protocols give
+    /// different regimes, the zero-force one gives the pressure-insensitive regime.
     ///
     /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
     /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
@@ -186,15 +186,15 @@ impl Regime {
         }
     }
 
-    /// Characters of the longest name.
+    /// Number of characters of the longest name of a regime.
     pub const LONGEST_NAME: usize = "pressure-insensitive".len();
 
-    /// The name in words.
+    /// Name of the regime in words.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// The name with its protocols of F_a(0), and the other name where the regime after zero net force differs.
+    /// Name of the regime with the protocols for F_a(0) that give it; also the regime after zero net force, if that differs.
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

@@ -1,7 +1,7 @@
-//! Governing parameters of a scene: κ, eq. (11), and e_el/γ, which compare roughness with adhesion; and the limits of the rule
-//! of Hess, which is that of short-ranged attraction and of profiles that rise everywhere.
+//! Governing parameters of a scene, κ of eq. (11) and e_el/γ, which compare roughness with adhesion; and the limits of the
+//! rule of Hess, which holds for short-ranged attraction and for profiles that rise everywhere.
 //!
-//! Attraction of a finite range dissipates less: in three dimensions the hysteresis vanishes at a Tabor number near 1.
+//! Attraction of finite range dissipates less energy: in three dimensions the hysteresis vanishes at a Tabor number near 1.
 //! Adhesion forces of smooth bodies are in [`crate::reference`], the rule of Hess is [`asperity_contact::HessRule`].
 
 use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
@@ -12,28 +12,28 @@ use asperity_surface::Form;
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// The governing parameters of a scene, each given or derived from the others.
+/// The governing parameters of a scene, given or derived from each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Governing {
     /// Effective modulus E*, Pa.
     pub effective_modulus: f64,
     /// Work of adhesion γ, J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Work of adhesion γ₁ on closing, J/m²; `None` if equal to `work_of_adhesion`.
+    /// Work of adhesion γ₁ on closing, J/m²; `None` if it equals `work_of_adhesion`.
     pub closing_work: Option<f64>,
     /// Amplitude of the roughness; `None` for a smooth profile.
     pub amplitude: Option<Amplitude>,
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11); `None` without roughness or adhesion.
     pub kappa: Option<f64>,
-    /// Elastic energy of conformity over the work of adhesion e_el/γ; `None` without roughness or adhesion.
+    /// Elastic energy of conformity over work of adhesion, e_el/γ; `None` without roughness or adhesion.
     pub elastic_energy_ratio: Option<f64>,
 }
 
 impl Governing {
-    /// Derives the parameters of a checked scene from the amplitude of its self-affine profile of rms height 1, or that
-    /// of its measured one.
+    /// Derives the parameters of a checked scene. `unit` is the amplitude of its self-affine profile scaled to rms height 1
+    /// m, `measured` the amplitude of its measured profile.
     ///
-    /// Given κ, γ = h⟨∇z⟩E*/κ². Similarly for e_el/γ, with e_el = E* h² q̄/4 and the mean wave number q̄.
+    /// If κ is given, γ = h⟨∇z⟩E*/κ². If e_el/γ is given, γ follows from e_el = E* h² q̄/4 with the mean wave number q̄.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
@@ -48,7 +48,7 @@ impl Governing {
         Governing { effective_modulus, amplitude, ..Governing::default() }.with_adhesion(scene.adhesion)
     }
 
-    /// The same profile with another adhesion.
+    /// The parameters of the same profile with another adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
         let given = adhesion.and_then(|adhesion| adhesion.parameter());
         let work_of_adhesion = adhesion.and_then(|adhesion| self.work_of(adhesion));
@@ -65,7 +65,7 @@ impl Governing {
         }
     }
 
-    /// Work of adhesion of an adhesion on the same profile, J/m²; `None` for a parameter without roughness.
+    /// Work of adhesion of `adhesion` on this profile, J/m²; `None` if it is given by a parameter and there is no roughness.
     fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
         match adhesion.strength {
             Strength::Work { opening, .. } => Some(opening),
@@ -73,7 +73,7 @@ impl Governing {
         }
     }
 
-    /// Work of adhesion for this value of a parameter, J/m²; `None` without roughness.
+    /// Work of adhesion at which a parameter has this value, J/m²; `None` without roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
@@ -96,24 +96,24 @@ impl Governing {
         self.amplitude.map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Unit of forces E* h L, N, of a body of this length, m; `None` without roughness. Pohrt, Popov and Filippov (2012).
+    /// Unit of force E* h L, N, for a profile of this length, m; `None` without roughness. Pohrt, Popov and Filippov (2012).
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// The rule of Hess on the foundation under a profile; `None` without adhesion.
+    /// The rule of Hess on the foundation under the profile; `None` without adhesion.
     pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
         let [closing, opening] = self.adhesive_works()?;
         Some(HessRule::from_works(foundation, closing, opening))
     }
 
-    /// The works of adhesion on closing and on opening if there is any, J/m².
+    /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
     pub fn adhesive_works(&self) -> Option<[f64; 2]> {
         let work = self.adhesive_work()?;
         Some([self.closing_work.unwrap_or(work), work])
     }
 
-    /// The work of adhesion if there is any, J/m².
+    /// Work of adhesion above zero, J/m²; `None` without adhesion.
     pub fn adhesive_work(&self) -> Option<f64> {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
@@ -126,37 +126,37 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
     }
 }
 
-/// Value of a parameter at this energy and work of adhesion per area, J/m². `None` if adhesion is so small that the
-/// value overflows.
+/// Value of a parameter from its energy and the work of adhesion per area, both J/m². `None` if adhesion is so small that
+/// the value overflows.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
     Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
 }
 
-/// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L, m, with a work of adhesion γ, J/m², and an
-/// effective modulus E*, Pa. Popov and Filippov (2012), eq. (14); Kendall (1971).
+/// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L (m) with work of adhesion γ (J/m²) and effective
+/// modulus E* (Pa). Popov and Filippov (2012), eq. (14); Kendall (1971).
 pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
 
-/// Default range of attraction z₀, m, of a scene: an interatomic distance.
+/// Range of attraction z₀, m, of a scene that states none: an interatomic distance.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
 
-/// Tabor number below which dissipated energies are overestimated.
+/// Tabor number below which the model overestimates dissipated energies.
 pub const LEAST_TABOR_NUMBER: f64 = 5.0;
 
-/// Tabor number μ of a scene, (ργ²/(E*²z₀³))^(1/3); `None` without adhesion, and for bodies without a radius of
-/// curvature. Of two works of adhesion, that of opening is used.
+/// Tabor number μ of a scene, (ργ²/(E*²z₀³))^(1/3); `None` without adhesion or a radius of curvature. Of two works of
+/// adhesion, the one on opening counts.
 pub fn scene_tabor_number(scene: &Scene, governing: &Governing) -> Option<f64> {
     let (radius, work) = (curvature_radius(scene.form.as_ref(), governing)?, governing.adhesive_work()?);
     let range = scene.adhesion?.range.unwrap_or(DEFAULT_RANGE);
     Some(tabor_number(radius, work, governing.effective_modulus, range)).filter(|number| number.is_finite())
 }
 
-/// Radius of curvature ρ of the summits of a form and its roughness, m; `None` for flat faces, cones and powers.
+/// Radius of curvature ρ of the summits of a form with roughness, m; `None` for flat faces, cones and power laws.
 ///
-/// ρ = 2/z″ with the rms curvature z″ of the profile, the rms Laplacian of the surface: twice its mean curvature.
-/// A paraboloid of radius R has the profile x²/R and thus ρ = R; crests of a sphere with waves have 1/R + 4π²A/λ². On a
-/// rough form the squares of both curvatures add.
+/// ρ = 2/z″ with the rms curvature z″ of the profile, which is the rms Laplacian of the surface, twice its mean curvature.
+/// A paraboloid of radius R has the profile x²/R and thus ρ = R; a crest of a sphere with waves has the curvature 1/R +
+/// 4π²A/λ². On a rough form the squares of both curvatures add.
 fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     // A flat face has the curvature of the flat end of a punch.
     let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
@@ -164,28 +164,28 @@ fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
 }
 
-/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a summit of curvature radius ρ, m, under a work of adhesion γ, J/m², an effective
-/// modulus E*, Pa, and an attraction of range z₀, m. Tabor (1977).
+/// Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a summit of curvature radius ρ (m) with work of adhesion γ (J/m²), effective
+/// modulus E* (Pa) and attraction of range z₀ (m). Tabor (1977).
 fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus: f64, range: f64) -> f64 {
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a sphere whose equivalent profile does not rise everywhere: by the rule of Hess the most stretched spring,
-/// here an inner one, detaches first, while JKR lets the contact recede at its edge.
+/// Waves of a sphere so steep that its equivalent profile does not rise everywhere. By the rule of Hess the most stretched
+/// spring, here an inner one, detaches first, while in JKR theory the contact recedes at its edge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
     /// λ²/(AR), below [`SteepWaves::LEAST_RATIO`].
     pub ratio: f64,
-    /// Pull-off force over that of the sphere without waves by JKR, (1 + A√(πE*/2λγ))², for waves short against the
-    /// contact radius (Kesari and Lew 2011).
+    /// Pull-off force over the JKR pull-off force of the sphere without waves, (1 + A√(πE*/2λγ))², for waves short against
+    /// the contact radius (Kesari and Lew 2011).
     pub jkr_factor: f64,
 }
 
 impl SteepWaves {
-    /// Quotient λ²/(AR) above which the equivalent profile rises everywhere.
+    /// Smallest λ²/(AR) at which the equivalent profile rises everywhere.
     pub const LEAST_RATIO: f64 = 12.391;
 
-    /// Finds the waves of an adhesive scene that are too steep; `None` for any other scene.
+    /// Finds the waves of an adhesive scene if they are too steep; `None` for any other scene.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
             return None;

@@ -1,8 +1,8 @@
-//! Force over the displacement of a compliant instrument, D = d + F/k, from the curve of a loading stage.
+//! Force over the displacement D = d + F/k of a compliant instrument, from the force curve of a loading stage.
 //!
-//! On one stage the contact depends on d alone. While D grows, d(D) is the smallest d at which the running maximum of
-//! d + F(d)/k reaches D; while D falls, the largest d at which the running minimum reaches D. Where d + F(d)/k turns
-//! back, dF/dd < −k, the body jumps at a fixed D to the next d at which the instrument can hold it.
+//! On one stage the contact depends on d alone. While D grows, d(D) is the smallest d at which the running maximum of d +
+//! F(d)/k reaches D; while D falls, the largest d at which the running minimum reaches D. Where d + F(d)/k turns back,
+//! dF/dd < −k, and the body jumps at fixed D to the next d at which the instrument can hold it.
 
 use super::branches::{Branch, pull_off_point};
 use super::figures::Figures;
@@ -19,23 +19,24 @@ pub struct DisplacementPoint {
     pub force: f64,
 }
 
-/// The force curve of one loading stage over the displacement of the instrument, straight between its points. It is
-/// exact at the points of the stage and made in a time proportional to their number.
+/// Force curve of one loading stage over the displacement of the instrument, linear between its points. It is exact at the
+/// points of the stage; computing it takes a time proportional to their number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DisplacementCurve {
-    /// In the order of the stage: D never turns back. Two neighbours at one D are the ends of a jump.
+    /// Points in the order of the stage, along which D never turns back. Two neighbours with the same D are the ends of a
+    /// jump.
     points: Vec<DisplacementPoint>,
-    /// 1 where D grows, −1 where it falls.
+    /// 1 if D grows along the stage, −1 if it falls.
     sign: f64,
-    /// True for a body that is separated before the first and after the last point.
+    /// True if the body is separated before the first point; true if it is separated after the last one.
     free: [bool; 2],
 }
 
 impl DisplacementCurve {
-    /// The curve of a stage, at least one point in the order of its `direction`, with an instrument of this stiffness k,
-    /// N/m; infinite: rigid.
+    /// Computes the curve of a stage from at least one point in the order of its `direction`, for an instrument of this
+    /// stiffness k, N/m (infinite: rigid).
     ///
-    /// A stage that ends where the instrument would have jumped on ends at the beginning of that jump.
+    /// If the stage ends where the instrument would jump on, the curve ends at the beginning of that jump.
     pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
         let sign = sign_of(direction);
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
@@ -62,12 +63,12 @@ impl DisplacementCurve {
         DisplacementCurve { points, sign, free }
     }
 
-    /// Points in the order of the stage, the displacement of which never turns back.
+    /// Points in the order of the stage, along which the displacement never turns back.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }
 
-    /// Parts of the curve without a jump.
+    /// Parts of the curve between its jumps.
     pub fn steady_parts(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points.chunk_by(|one, next| one.displacement != next.displacement)
     }
@@ -77,8 +78,8 @@ impl DisplacementCurve {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// The point at a displacement, m; at a jump, the point before it. `None` beyond the ends of the stage, unless
-    /// the body is separated there.
+    /// The point at a displacement, m; at a jump, the point before it. `None` beyond the ends of the stage, unless the body
+    /// is separated there.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -99,7 +100,7 @@ impl DisplacementCurve {
 }
 
 impl DisplacementPoint {
-    /// The point at this share of the way to another one.
+    /// Linear interpolation to another point: this one at share 0, the other one at share 1.
     fn towards(&self, to: &DisplacementPoint, share: f64) -> Self {
         let between = |from: f64, to: f64| from + share * (to - from);
         DisplacementPoint {
@@ -110,8 +111,8 @@ impl DisplacementPoint {
     }
 }
 
-/// Displacement of an instrument of this stiffness, N/m, at which the body is at each point of a stage, or passes the point in
-/// a jump, m: the running extremum of d + F/k.
+/// Displacement, m, of an instrument of this stiffness (N/m) when the body is at each point of a stage, or passes it in a
+/// jump: the running extremum of d + F/k.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {
@@ -129,15 +130,16 @@ fn sign_of(direction: Direction) -> f64 {
 pub struct InstrumentFigures {
     /// Loading stiffness k, N/m.
     pub stiffness: f64,
-    /// Smallest displacement of the instrument in contact on the unloading of the pull-off, m: where the body jumps off.
+    /// Smallest displacement of the instrument in contact, m, on the unloading with the pull-off, where the body jumps off.
     pub pull_off_displacement: Option<f64>,
-    /// Area of the loop of force over displacement, J: the energy dissipated in the contact and that lost in jumps of
-    /// the instrument, of a history that ends separated.
+    /// Area of the loop of force over displacement, J, of a history that ends separated: the energy dissipated in the
+    /// contact and the energy lost in jumps of the instrument.
     pub loop_area: Option<f64>,
 }
 
 impl InstrumentFigures {
-    /// Figures of a history with its own figures, under an instrument of this stiffness, N/m.
+    /// Computes the figures of a history under an instrument of this stiffness, N/m; `figures` are the headline figures of
+    /// the history.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

@@ -1,4 +1,4 @@
-//! Figures derived from a scene and its history: the governing parameters, adhesion, regime and energy.
+//! Figures derived from a scene and its loading history: governing parameters, adhesion, regime and energy.
 
 pub(crate) mod branches;
 pub(crate) mod figures;

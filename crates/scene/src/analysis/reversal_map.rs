@@ -2,14 +2,14 @@
 
 use asperity_contact::Reversal;
 
-/// First-order reversal curves on a uniform grid of indentations.
+/// First-order reversal curves of one loading, on a uniform grid of indentations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Equally spaced indentations, m; the last ones are the turning points.
+    /// Indentations of the grid, m, equally spaced and ascending; the last ones are the turning points.
     pub points: Vec<f64>,
-    /// Number of points below the first turning point.
+    /// Number of grid points below the first turning point.
     pub below: usize,
-    /// The reversal from each turning point, with its forces at the points up to the turning point.
+    /// Reversal from each turning point, with its forces at the grid points up to the turning point.
     pub reversals: Vec<Reversal>,
 }
 
@@ -19,13 +19,13 @@ impl ReversalMap {
         &self.points[self.below..]
     }
 
-    /// Distance between points, m.
+    /// Distance between grid points, m.
     pub fn step(&self) -> f64 {
         let intervals = self.points.len().saturating_sub(1).max(1);
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
-    /// Force on the reversal from a turning point at a point, both by number, N; `None` above the turning point.
+    /// Force, N, at a grid point on the reversal from a turning point, both given by index; `None` above the turning point.
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }

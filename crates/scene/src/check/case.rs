@@ -1,5 +1,5 @@
-//! A row of the catalogue of checks, and what its measurements share: rough profiles under adhesion, loaded through the front
-//! of the library.
+//! A case of the catalogue of checks, and what its measurements share: adhesive rough bodies, loaded through the public
+//! interface.
 
 use crate::contact_cycle::{Contact, Cycle};
 use crate::profile::Profile;
@@ -17,12 +17,12 @@ pub(super) const CLOSED_FORM: &str = "closed form";
 pub(super) const INDEPENDENT: &str = "independent computation";
 pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 
-/// Input of a case and measurement of its error.
+/// What a case computes, and the function that measures its error.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Subject {
-    /// The text of a scene.
+    /// A scene, by its text.
     Scene(&'static str, fn(&CheckedScene) -> Measured),
-    /// Random bodies: self-affine profiles, noise, few levels. The largest error counts.
+    /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The largest error counts.
     Bodies(fn(&Body) -> Measured),
 }
 
@@ -33,11 +33,11 @@ pub struct Case {
     pub name: &'static str,
     /// Family: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of the rules.
     pub family: &'static str,
-    /// Statement that the check of this case judges.
+    /// Statement that the case checks.
     pub holds: &'static str,
-    /// Origin of the known result.
+    /// Source of the known result.
     pub evidence: &'static str,
-    /// Quantity whose error is judged.
+    /// Quantity whose error is compared with the bound.
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
     pub(super) subject: Subject,
@@ -54,7 +54,7 @@ impl Case {
     }
 }
 
-/// Bounds for edges at the springs and between them.
+/// Bounds for edges at springs and for edges between springs.
 pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
@@ -79,7 +79,7 @@ pub(super) fn relative_errors<const N: usize>(pairs: [(f64, f64); N]) -> Measure
     largest(pairs.map(|(found, expected)| Ok(relative_error(found, expected))))
 }
 
-/// Returns the largest of errors; NaN counts as infinite.
+/// Returns the largest error; NaN counts as infinite.
 pub(super) fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
     errors.into_iter().try_fold(0.0, |most: f64, error| {
         let error = error?;
@@ -92,13 +92,12 @@ pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
 
 pub const RANDOM: u64 = 48;
 
-/// E* of random bodies, Pa; their length, m; and their rms height or largest height, m.
+/// Effective modulus of random bodies, Pa; their length, m; and their rms height or largest height, m.
 const MODULUS: f64 = 2.0e6;
 const LENGTH: f64 = 1.0e-4;
 const HEIGHT: f64 = 1.0e-7;
 
-/// A rigid profile on an adhesive foundation: heights and length, m, effective modulus E*, Pa, and work of adhesion γ,
-/// J/m².
+/// A rigid profile on an adhesive foundation: heights (m), length (m), effective modulus E* (Pa), work of adhesion γ (J/m²).
 #[derive(Clone, Debug)]
 pub struct Body {
     pub heights: Vec<f64>,
@@ -109,8 +108,8 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates one of several kinds of profiles. The adhesion ranges from almost none to far more than that of full
-    /// contact; the seed determines the body everywhere.
+    /// Creates a body with one of several kinds of profiles. Its adhesion ranges from almost none to far more than full
+    /// contact needs; the seed determines the body on every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
@@ -135,7 +134,7 @@ impl Body {
         Ok(Body { heights, length: LENGTH, modulus: MODULUS, work, edges })
     }
 
-    /// Returns the height of the profile, m: its largest gap.
+    /// Returns the height of the profile from its lowest to its highest point, m.
     pub fn depth(&self) -> f64 {
         let (least, most) =
             self.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
@@ -144,25 +143,25 @@ impl Body {
         most - least
     }
 
-    /// Returns the largest stretch under the whole profile, eq. (10), m.
+    /// Returns the largest stretch, m, by eq. (10), of a patch as long as the whole profile.
     pub fn stretch(&self) -> f64 {
         (PI * self.length * self.work / self.modulus).sqrt()
     }
 
-    /// Returns a force of the order of the acting ones, N.
+    /// Returns a force of the order of the forces that act, N.
     pub fn force_unit(&self) -> f64 {
         self.modulus * self.length * (self.depth() + self.stretch())
     }
 
-    /// Returns irregular indentations from just before separation to full contact, m.
+    /// Returns irregular indentations from just before separation to full contact, m, as turning points.
     pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
         let (low, high) = (-0.9 * self.stretch(), 1.1 * self.depth() + 1e-3 * self.stretch());
         let mut turns = phases(seed, 1).map(|phase| low + (high - low) * phase / TAU);
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
 
-    /// Loads the separated body from indentation to indentation, and off it where it `separates`, with this number of
-    /// samples.
+    /// Loads the separated body to one indentation after the other, and if it `separates` finally to separation; `samples`
+    /// is the number of curve points of each stage.
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
         let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();

@@ -1,4 +1,4 @@
-//! Bodies whose loop has a closed form.
+//! Cases whose force curve has a closed form.
 
 use super::case::Subject::Scene as OfScene;
 use super::case::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_errors};

@@ -1,4 +1,4 @@
-//! Laws valid for every body: reversibility without adhesion, memory, energy, scales, and the agreement of
+//! Cases with laws that hold for every body: reversibility without adhesion, memory, energy, scaling, and the agreement of
 //! both solvers.
 
 use super::case::Subject::{Bodies, Scene as OfScene};
@@ -87,7 +87,8 @@ fn energy(body: &Body) -> Measured {
     Ok((lost(cycle.legs()) - done).abs() / scale)
 }
 
-/// Scales lengths along the profile, heights and stresses by these powers of two: no bit of the mantissas may change.
+/// Scales lengths along the profile, heights and stresses by these powers of two, which must not change a bit of any
+/// mantissa.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;

@@ -1,9 +1,9 @@
-//! The catalogue of checks: claims about scenes and profiles, each with its evidence and a bound, judged on this machine
-//! through the public interface alone.
+//! The catalogue of checks: statements about scenes and profiles, each with its evidence and an error bound, computed on
+//! this machine through the public interface alone.
 //!
-//! A row returns one number, the error, against a bound that is stated beforehand. Its evidence is a closed form, the
-//! stepwise solver, which applies the rules without tree and thresholds, or a law of every body. A row that cannot be
-//! computed fails with a sentence about the place.
+//! A check computes one number, the error, and compares it with a bound stated beforehand. The evidence is a closed form,
+//! the stepwise solver, which applies the rules without tree and thresholds, or a law that holds for every body. A check
+//! that cannot be computed fails with a sentence that says why.
 
 pub(crate) mod case;
 pub(crate) mod closed_forms;
@@ -17,7 +17,7 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// A case with one edge model.
+/// A case, with the edge model for which it is checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// The case.
@@ -31,9 +31,9 @@ pub struct Check {
 /// The result of a check.
 #[derive(Debug)]
 pub struct Verdict {
-    /// The check.
+    /// The check that was computed.
     pub check: Check,
-    /// The error, or the reason why there is none.
+    /// The error, or the reason why it could not be computed.
     pub error: Result<f64, String>,
     /// Time of the check, s.
     pub seconds: f64,
@@ -58,7 +58,7 @@ pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()
 }
 
-/// Computes a check.
+/// Computes a check and its error.
 pub fn judge(check: Check) -> Verdict {
     let (clock, edges) = (Instant::now(), check.edges);
     let error = match check.case.subject {

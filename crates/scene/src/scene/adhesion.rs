@@ -1,11 +1,11 @@
-//! Adhesion by the work of adhesion, or by a dimensionless parameter that compares the roughness with it.
+//! Adhesion, given by the work of adhesion or by a dimensionless parameter that compares roughness with adhesion.
 
 use serde::{Deserialize, Serialize};
 
 use super::fields::field;
 use super::text::ron_float;
 
-/// Dimensionless roughness-adhesion parameter, which may replace the work of adhesion.
+/// Dimensionless roughness-adhesion parameter, which may be given in place of the work of adhesion.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
@@ -29,22 +29,22 @@ impl RoughnessParameter {
         }
     }
 
-    /// Name of the field within `adhesion`, of axes and of columns.
+    /// Name of the parameter: of its field within `adhesion`, and in axes and columns.
     pub fn name(self) -> &'static str {
         self.path().trim_start_matches("adhesion.")
     }
 
-    /// Symbol in the equations.
+    /// Symbol of the parameter in the equations.
     pub fn symbol(self) -> &'static str {
         field(self.path(), None).map_or("", |field| field.symbol)
     }
 
-    /// The parameter with this name or path of its field.
+    /// The parameter with this name, or with this path of its field.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Energy per area over the work of adhesion at a value of the parameter: h⟨∇z⟩E*/γ = κ², or e_el/γ.
+    /// Energy per area over the work of adhesion at this value of the parameter: h⟨∇z⟩E*/γ = κ², or e_el/γ.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -52,7 +52,7 @@ impl RoughnessParameter {
         }
     }
 
-    /// Value of the parameter for this energy per area over the work of adhesion.
+    /// Value of the parameter for this ratio of energy per area to work of adhesion.
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -61,18 +61,18 @@ impl RoughnessParameter {
     }
 }
 
-/// Adhesion between the bodies: its strength, stated in one way, and the range of the attraction. In a file
+/// Adhesion between the bodies: its strength, given in one of several ways, and the range of the attraction. In a file
 /// `(work: 0.05, range: 3.0e-10)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
     /// Strength of the adhesion.
     pub strength: Strength,
-    /// Range z₀ of the attraction, m, for the Tabor number alone; `None`: 0.3 nm.
+    /// Range z₀ of the attraction, m, which only enters the Tabor number; `None`: 0.3 nm.
     pub range: Option<f64>,
 }
 
-/// Strength of an adhesion.
+/// Strength of the adhesion, as it is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
     /// Given by works of adhesion.
@@ -82,17 +82,17 @@ pub enum Strength {
         /// Work of adhesion γ₁ on closing, J/m², at most `opening`; `None`: equal to `opening`.
         closing: Option<f64>,
     },
-    /// Given by a parameter, which determines the work of adhesion on a given roughness.
+    /// Given by a parameter and its value, which determine the work of adhesion for the roughness of the scene.
     Parameter(RoughnessParameter, f64),
 }
 
 impl Adhesion {
-    /// Adhesion by the work of adhesion, J/m².
+    /// Adhesion given by the work of adhesion, J/m².
     pub fn by_work(work: f64) -> Self {
         Adhesion { strength: Strength::Work { opening: work, closing: None }, range: None }
     }
 
-    /// Adhesion by a parameter.
+    /// Adhesion given by a parameter and its value.
     pub fn by_parameter(parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion { strength: Strength::Parameter(parameter, value), range: None }
     }
@@ -107,7 +107,7 @@ impl Adhesion {
         if let Strength::Work { closing, .. } = self.strength { closing } else { None }
     }
 
-    /// Returns true with a work of its own on closing.
+    /// Returns true if a separate work of adhesion on closing is given.
     pub fn has_two_works(&self) -> bool {
         self.closing_work().is_some()
     }
@@ -121,18 +121,18 @@ impl Adhesion {
         }
     }
 
-    /// Adhesion of the same range, and of the same work on closing if that is given, by this work of adhesion, J/m².
+    /// The adhesion with this work of adhesion on opening, J/m²; range and work on closing stay.
     pub fn with_work(self, work: f64) -> Self {
         Adhesion { strength: Strength::Work { opening: work, closing: self.closing_work() }, ..self }
     }
 
-    /// Adhesion of the same range by this value of a parameter.
+    /// The adhesion given by this value of a parameter; the range stays.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion { strength: Strength::Parameter(parameter, value), ..self }
     }
 }
 
-/// Adhesion as it is written in a file, where contradictory fields can be typed.
+/// Adhesion as written in a file, where contradictory fields may be given.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Adhesion")]
 struct AdhesionText {

@@ -1,4 +1,4 @@
-//! Differences between two scenes, by technical names.
+//! Differences between two scenes, in words.
 
 use super::document::Document;
 use super::field::{Field, target_field};
@@ -16,7 +16,7 @@ pub struct Change {
     pub name: String,
     /// Value in the first scene, with its unit.
     pub from: String,
-    /// Value in the second scene.
+    /// Value in the second scene, with its unit.
     pub to: String,
 }
 
@@ -35,7 +35,7 @@ fn with_unit(field: &Field, value: &str) -> String {
     field.quantities(value, format_quantity).unwrap_or_else(words)
 }
 
-/// A field by its value, a group by its choice and the values given in it: `SelfAffine(H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
+/// A field by its value, and a group by its choice and the values in it: `SelfAffine(H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
 fn in_words(tree: &Tree, field: &Field) -> String {
     let value = tree.written(field).unwrap_or_default();
     let inside = tree.inside(field);
@@ -50,8 +50,8 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 }
 
 impl Document {
-    /// The fields, other than texts, with different values in this scene and another one: each by itself where both
-    /// scenes make the same choices, else their group; loading stages one by one if both scenes have as many.
+    /// The fields that differ from another scene, except texts: each field by itself where both scenes make the same choices,
+    /// otherwise the whole group. Loading stages are compared one by one if both scenes have the same number of stages.
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
         let scenes = [self, other].map(|document| &**document.scene());
         let [here, there] = scenes.map(Tree::of);
@@ -70,7 +70,7 @@ impl Document {
     }
 }
 
-/// The changed stages of two histories, or the histories as a whole where these are shorter to name.
+/// The changed stages of two histories, or the whole histories where that is shorter.
 fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
     let [one, other] = scenes.map(|scene| &scene.loading);
     let pairs = one.iter().zip(other).enumerate().filter(|(_, (one, other))| one != other);

@@ -1,8 +1,8 @@
-//! Invalid values of a scene: every field against its range, then the fields against each other, where values over-
-//! or under-determine a scene, or exclude each other.
+//! Invalid values of a scene: each field against its range, then fields against each other, where values over- or
+//! under-determine a scene or exclude each other.
 //!
-//! No allocation here is proportional to a value of the scene, so an excessive scene is refused before anything is
-//! built.
+//! No allocation here is proportional to a value of the scene, so that a scene of excessive size is refused before anything
+//! is built.
 
 use serde_json::Value;
 
@@ -21,10 +21,10 @@ use asperity_data::is_control;
 use asperity_surface::Form;
 use asperity_surface::{Unit, UnitError};
 
-/// Most samples of all loading stages together; a curve of this size still fits the memory of a small machine.
+/// Limit of the samples of all loading stages together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// All errors of a scene, in the order of its fields; empty for a scene that can be computed.
+/// All errors of a scene in the order of its fields; empty for a scene that can be computed.
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found { scene, tree: Tree::of(scene), errors: Vec::new() };
     for field in FIELDS {
@@ -41,7 +41,7 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     found.errors
 }
 
-/// The wrong part of a text, and what is allowed.
+/// The invalid part of a text, and what is allowed; `None` for a valid text.
 fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     let range = if let Range::Text { .. } = field.range { field.range } else { FILE_NAME };
     let Range::Text { least, most, lines } = range else { return None };
@@ -58,7 +58,6 @@ fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     }
 }
 
-/// The errors found so far in a scene.
 struct Found<'s> {
     scene: &'s Scene,
     tree: Tree,
@@ -66,13 +65,13 @@ struct Found<'s> {
 }
 
 impl Found<'_> {
-    /// Returns true if an error of this field, or of anything inside it, was found.
+    /// Returns true if an error of this field, or of a field inside it, was found.
     fn has(&self, path: &str) -> bool {
         self.errors.iter().any(|error| is_within(&error.field, path))
     }
 
-    /// Refuses the value of a field, unless a condition is met or there are errors of these fields already. `allowed` is
-    /// empty if `message` contains the allowed values; the value of a group is not repeated.
+    /// Adds an error of the field `path` unless the condition is met or one of the fields `of` has an error already.
+    /// `allowed` is empty if `message` contains the allowed values; the value of a group is not repeated.
     fn require(&mut self, is_met: bool, of: &[&str], path: &str, allowed: &str, message: &str) {
         if is_met || of.iter().any(|path| self.has(path)) {
             return;
@@ -88,7 +87,6 @@ impl Found<'_> {
         self.errors.push(SceneError { field, value, allowed, message, ..SceneError::default() });
     }
 
-    /// Checks the value of a field against its range.
     fn check_range(&mut self, field: &Field) {
         let Some(value) = self.tree.value(field) else { return };
         let range = &field.range;
@@ -241,7 +239,7 @@ impl Found<'_> {
         }
     }
 
-    /// Waves that fit the length and are resolved by the springs, with the roll-off among them.
+    /// Checks that the waves fit the length, that the springs resolve them, and that the roll-off lies among them.
     fn check_waves(
         &mut self,
         modes: Option<(u64, u64)>,
@@ -279,7 +277,7 @@ impl Found<'_> {
         self.require(is_met, &of, roll_off, &allowed, "a roll-off lies within the waves of the profile");
     }
 
-    /// Works of adhesion in their order, and a parameter only with roughness.
+    /// Checks that the work of adhesion on closing does not exceed the work on opening, and that a parameter has a roughness.
     fn check_adhesion(&mut self) {
         let Some(Adhesion { strength, .. }) = self.scene.adhesion else { return };
         match strength {
@@ -329,7 +327,6 @@ mod tests {
     use super::super::document::Document;
     use super::*;
 
-    /// A valid rough scene with adhesion.
     fn sound() -> Scene {
         const TEXT: &str = r#"(
             version: 1,

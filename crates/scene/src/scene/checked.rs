@@ -9,13 +9,12 @@ use super::model::{Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values have been checked, the only kind that is computed. Its fields are read as the fields of a
-/// [`Scene`]; a change is checked again.
+/// A scene whose values have been checked. It can be read like a [`Scene`]; a changed one is checked again.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckedScene(Scene);
 
 impl Scene {
-    /// This scene, checked.
+    /// Checks this scene.
     ///
     /// # Errors
     /// All invalid values, each with its field and its allowed range.
@@ -25,8 +24,8 @@ impl Scene {
 }
 
 impl Scene {
-    /// Removes all that changes no figure: texts, what is observed, and all but a few samples of the curve, as figures are at
-    /// the ends of loading stages or exact extremes.
+    /// Removes what does not affect the figures: texts, observed quantities, and all but `samples` samples of the curve,
+    /// since figures are at the ends of loading stages or exact extremes.
     pub fn strip(&mut self, samples: u64) {
         self.title.clear();
         self.notice.clear();
@@ -36,7 +35,7 @@ impl Scene {
 }
 
 impl CheckedScene {
-    /// The checked scene of a text. Its errors have numbers that are not finite as the text has them: `1e999`.
+    /// Checks a scene that was read from a text. Errors of numbers that are not finite show them as written, `1e999`.
     pub(super) fn of(
         scene: Scene,
         text: Option<&Text>,
@@ -51,7 +50,7 @@ impl CheckedScene {
         Ok(CheckedScene(scene))
     }
 
-    /// This scene with a change.
+    /// This scene with a change, checked.
     ///
     /// # Errors
     /// All values that the change makes invalid.
@@ -69,7 +68,7 @@ impl CheckedScene {
         scene.checked()
     }
 
-    /// This scene with another seed of its random phases, if it has any: each seed is allowed.
+    /// This scene with another seed of its random phases, if it has any. Every seed is allowed.
     #[must_use]
     pub fn with_seed(&self, seed: u64) -> CheckedScene {
         let mut scene = self.0.clone();
@@ -77,14 +76,14 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// This scene for its figures alone, see [`Scene::strip`].
+    /// This scene reduced to what its figures need; see [`Scene::strip`].
     pub fn stripped(&self, samples: u64) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.strip(samples);
         CheckedScene(scene)
     }
 
-    /// This scene, with one more quantity observed beside its force curve.
+    /// This scene with one more quantity observed besides the force curve.
     pub fn observing(&self, observer: Observer) -> CheckedScene {
         let mut scene = self.0.clone();
         if !scene.observe.contains(&observer) {
@@ -93,7 +92,7 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// This scene with other names of its files, which are checked by reading the files.
+    /// This scene with its files renamed. Names of files need no check here: reading the files checks them.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

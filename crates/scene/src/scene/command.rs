@@ -1,8 +1,8 @@
-//! The command that opens a scene.
+//! The shell command that opens a scene.
 
 use std::ffi::OsStr;
 
-/// The command of `program` on a scene with overrides, for a POSIX shell; only words that need quotes are quoted.
+/// The command of `program` that opens a scene with overrides, for a POSIX shell. Only words that need quotes are quoted.
 ///
 /// ```
 /// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];

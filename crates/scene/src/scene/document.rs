@@ -1,4 +1,4 @@
-//! A scene with its text, changed field by field without loss of a comment.
+//! A scene with its text, whose fields can be changed without loss of comments.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -17,11 +17,11 @@ use super::text::index::{Text, is_within, line_column};
 use super::tree::{Tree, in_ron, to_ron};
 use asperity_contact::Move;
 
-/// Longest text; longer ones are refused unread. Scenes are a few hundred bytes.
+/// Limit of the length of a text, bytes; a longer text is refused unread. Scenes have a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
 
-/// A checked scene, its text, and the overrides of its fields. A change returns a new document; a refused change
-/// leaves the old one unchanged.
+/// A checked scene with its text and the overrides of its fields. A change returns a new document; a refused change leaves
+/// the document as it was.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     name: String,
@@ -30,14 +30,14 @@ pub struct Document {
     scene: CheckedScene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects switched off, each with the paths of the changed values, their former and their present text.
+    /// Effects that are switched off, each with the path, the former text and the present text of every changed value.
     pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
-    /// Choices that keys have left, each with the path of its field and its last text.
+    /// Choices that were left by keys, each with the path of its field and its last text.
     pub(super) left: Vec<(&'static str, String)>,
 }
 
 impl Document {
-    /// Reads and checks a scene. `name` is that of the file or of the built-in scene, for errors.
+    /// Reads and checks a scene. `name`, of the file or of the built-in scene, is for errors.
     ///
     /// # Errors
     /// The first syntax error of the text, or all invalid values, each with line and column. An unsupported version is
@@ -65,7 +65,7 @@ impl Document {
         })
     }
 
-    /// The document of a scene that was not read from text, in canonical form.
+    /// Creates the document of a scene that was not read from a text, in canonical form.
     ///
     /// # Errors
     /// All invalid values.
@@ -82,14 +82,14 @@ impl Document {
         self.set_all(&[pair(path, value)])
     }
 
-    /// This document with fields overridden, one after the other. Values are in RON; a number may have an SI prefix
-    /// and its unit, `50 mJ/m²`.
+    /// This document with fields overridden, one after the other. Values are in RON; numbers may have an SI prefix and
+    /// their unit, `50 mJ/m²`.
     ///
-    /// A field missing from the text is inserted, with its group; `None` removes an optional part. Ranges are
-    /// checked once, at the end, so that overrides allowed only together may come in any order.
+    /// A field missing from the text is inserted, with its group; `None` removes an optional part. Ranges are checked once,
+    /// at the end, so that overrides that are only allowed together may come in any order.
     ///
     /// # Errors
-    /// All errors, each with the overrides that caused it.
+    /// All errors, each with the overrides that cause it.
     pub fn set_all(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let (mut new, mut errors) = (self.clone(), Vec::new());
         for (path, value) in overrides {
@@ -115,13 +115,13 @@ impl Document {
         Ok(new)
     }
 
-    /// The stages of the loading with their places.
+    /// The loading stages, each with its index.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
     }
 
-    /// This document with another loading: its stages, those that stay with their places in the present loading, by which
-    /// they keep their notation and their comments.
+    /// This document with other loading stages. A stage that is kept has its index in the present loading, and keeps its
+    /// notation and its comments.
     ///
     /// # Errors
     /// As [`Document::set`].
@@ -152,8 +152,8 @@ impl Document {
         &self.scene
     }
 
-    /// Value of a field as written, or its default if the field is omitted. `None` if the scene has no such field,
-    /// such as the radius of another form.
+    /// Value of a field as written, or its default if the field is omitted. `None` if the scene has no such field, such as
+    /// a field of another form.
     pub fn value(&self, path: &str) -> Option<&str> {
         self.text.value(path).or_else(|| {
             let field = FIELDS.iter().find(|field| field.path == path && self.has(field))?;
@@ -161,7 +161,7 @@ impl Document {
         })
     }
 
-    /// Fields that this scene has or could have: all but those of unselected choices.
+    /// Fields that this scene has or could have: all fields except fields of choices that are not selected.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -181,33 +181,33 @@ impl Document {
         if self.scene.title.is_empty() { file().unwrap_or(&self.name) } else { &self.scene.title }
     }
 
-    /// The effective overrides since the text was opened, in order: applied to the opened text they
-    /// result in this document's scene.
+    /// Overrides since the text was opened, without superseded ones: applied to the opened text they give this document's
+    /// scene.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
 
-    /// The document of a scene that was read from a table of results.
+    /// The document, marked as read from a table of results with these lines above the scene.
     pub(super) fn of_table(self, head: &str) -> Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// The lines above the scene in the table of results that it was read from; empty for a scene from another source.
+    /// The lines above the scene in the table of results from which the scene was read; empty for any other source.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
 
-    /// Number of comments in the text; smaller after a change that replaces a value with a comment inside.
+    /// Number of comments in the text. A change that replaces a value with a comment inside reduces it.
     pub fn comments(&self) -> usize {
         self.text.comments()
     }
 
-    /// Place of a field in the text, or of the nearest group around it: line and column, from 1.
+    /// Line and column, from 1, of a field in the text, or of the nearest group around it.
     pub fn place(&self, path: &str) -> (usize, usize) {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// This document with another opened text, from which these overrides have made the present one.
+    /// This document as if `opened` had been opened and these overrides had led to the present text.
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document { opened, overrides, ..self }
     }
@@ -222,7 +222,7 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// This document with other names of its measured files, in canonical form if one of them changes.
+    /// This document with its measured files renamed; in canonical form if a name changes.
     ///
     /// # Errors
     /// All invalid values.
@@ -238,7 +238,7 @@ impl Document {
     }
 }
 
-/// The text with another value of a field.
+/// The text with the field at `path` set to `value`.
 fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let band = || {
@@ -263,7 +263,7 @@ fn spliced(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
     Ok(text)
 }
 
-/// A group of values with prefixes and units inside, `Cone(angle: 70°)`, in RON; `None` for any other text and for a group
+/// A typed group of values with prefixes and units, `Cone(angle: 70°)`, in RON; `None` for any other text, and for a group
 /// that is in RON already.
 fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
@@ -293,12 +293,11 @@ fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     is_read.then(|| format!("{name}({})", read.join(", ")))
 }
 
-/// An override: a path and a value in RON.
 pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
 }
 
-/// Adds an override, replacing earlier ones of the same field or of fields inside it.
+/// Adds an override; it replaces earlier ones of the same field or of fields inside it.
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));

@@ -1,4 +1,4 @@
-//! Change of one field in the text of a scene, with every comment preserved.
+//! Change of one field in the text of a scene, which keeps every comment.
 
 use super::errors::did_you_mean;
 use super::field::{Field, LEG_FIELDS};
@@ -7,7 +7,7 @@ use super::range::{Range, choice_name};
 use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
 
-/// The field at a path, by the variant of its group or loading stage.
+/// The field at a path, given the variant of its group or loading stage in the text.
 pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
@@ -19,11 +19,11 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 
 /// Sets the field at `path` to `value`, in RON, and returns the new text.
 ///
-/// A missing field is inserted, with its group if that is missing too; a missing part set to `None` is not
-/// inserted. Any value changes this one place only.
+/// A missing field is inserted, with its group if that is missing too; a missing part is not inserted for the value `None`.
+/// Only this one place of the text changes.
 ///
 /// # Errors
-/// The reason in a sentence: no such field, not a single value, or no place for it.
+/// The reason in a sentence: no such field, not a single value, or no place for the field.
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = value.trim();
     // A position in a list or pair refers to that list or pair.
@@ -70,7 +70,7 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
     if edited.written(path) == Some(value) { Ok(edited) } else { Err(NOT_ONE_VALUE.into()) }
 }
 
-/// Message with the values of the choice that have the field.
+/// Message that names the choices that have this field.
 fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> String {
     let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
         return format!("{parent} has no such field");

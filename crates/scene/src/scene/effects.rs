@@ -1,4 +1,4 @@
-//! Optional effects of a scene beyond the nonadhesive contact of a flat body.
+//! Optional effects of a scene, in addition to the nonadhesive contact of a flat body.
 
 use super::adhesion::{Adhesion, RoughnessParameter};
 use super::model::{Roughness, Scene};
@@ -6,16 +6,17 @@ use asperity_contact::Move;
 use asperity_data::round_to;
 use asperity_surface::Form;
 
-/// Optional effect of a scene, switched by [`Document::with`](crate::scene::document::Document::with) and [`Document::without`](crate::scene::document::Document::without).
+/// Optional effect of a scene, switched by [`Document::with`](crate::scene::document::Document::with) and
+/// [`Document::without`](crate::scene::document::Document::without).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
-    /// A macroscopic form; off: nominally flat.
+    /// A macroscopic form; without it the body is nominally flat.
     Form,
-    /// Roughness; off: smooth.
+    /// Roughness; without it the profile is smooth.
     Roughness,
-    /// Adhesion; off: the bodies do not attract each other.
+    /// Adhesion; without it the bodies do not attract each other.
     Adhesion,
-    /// Loading stages that may pull; off: pressed and held.
+    /// Loading stages that may pull; without them the body is pressed and held.
     Unloading,
 }
 
@@ -33,12 +34,12 @@ impl Effect {
         }
     }
 
-    /// Path of the effect's [field](crate::scene::fields::FIELDS).
+    /// Path of the [field](crate::scene::fields::FIELDS) of the effect.
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self { "loading" } else { self.name() }
     }
 
-    /// Returns true if the scene has the effect. A work of adhesion of zero is no adhesion.
+    /// Returns true if the scene has the effect. A work of adhesion of zero counts as no adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
             Effect::Form => scene.form.is_some(),
@@ -48,7 +49,7 @@ impl Effect {
         }
     }
 
-    /// The scene with the effect, at values that suit the others.
+    /// The scene with the effect added, with values that suit the rest of the scene.
     pub(super) fn suited(self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         match self {
@@ -82,7 +83,7 @@ impl Effect {
     }
 }
 
-/// Returns true for a stage that may pull. A first stage cannot, since it begins at separation.
+/// Returns true if a stage may pull the body back. The first stage cannot, since it begins at separation.
 fn may_pull(loading: &[Move]) -> bool {
     let mut reached = f64::NEG_INFINITY;
     loading.iter().enumerate().any(|(index, stage)| {

@@ -1,4 +1,4 @@
-//! Errors of a scene: place, value, allowed values.
+//! Errors of a scene: place, value and allowed values.
 
 use std::fmt;
 
@@ -7,17 +7,17 @@ use strsim::osa_distance;
 use super::text::index::{is_within, line_column};
 use asperity_data::shown;
 
-/// Most errors listed; further ones are only counted.
+/// Number of errors that are listed; further ones are only counted.
 pub(super) const MOST_LISTED: usize = 100;
 
-/// Origin of an error.
+/// Where an error comes from.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
     /// A scene file.
     File {
         /// Name of the file or of the built-in scene.
         name: String,
-        /// Line and column, both from 1, columns counted in characters; `None`: the file as a whole.
+        /// Line and column, both from 1, columns counted in characters; `None` for the file as a whole.
         place: Option<(usize, usize)>,
     },
     /// One or more overrides, as `path=value`.
@@ -47,25 +47,25 @@ impl fmt::Display for Origin {
 #[derive(Clone, Debug, Default, PartialEq, Eq, thiserror::Error)]
 #[error("{origin}{}", self.what())]
 pub struct SceneError {
-    /// Origin.
+    /// Where the error comes from.
     pub origin: Origin,
-    /// Path of the field, `loading.0` for a loading stage; empty for an error of no single field.
+    /// Path of the field, `loading.0` for a loading stage; empty for an error that concerns no single field.
     pub field: String,
     /// The value as written; empty if there is none.
     pub value: String,
     /// Allowed values; empty if `message` contains them.
     pub allowed: String,
-    /// Reason, or the name of the field.
+    /// Reason of the error, or the name of the field.
     pub message: String,
 }
 
 impl SceneError {
-    /// An error about a file or scene as a whole.
+    /// An error that concerns a file or scene as a whole.
     pub(super) fn whole(origin: Origin, message: impl Into<String>) -> SceneError {
         SceneError { origin, message: message.into(), ..SceneError::default() }
     }
 
-    /// An error of a value without its origin.
+    /// An error of a value; its origin is set later.
     pub(super) fn of(
         field: &str,
         value: impl Into<String>,
@@ -95,12 +95,12 @@ impl SceneError {
     }
 }
 
-/// All errors of a scene in the order of their detection, at least one, each a line of its own.
+/// All errors of a scene, at least one, in the order of their detection; each is a line of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` for a list of errors that is not empty: the errors with their origins, a long list shortened.
+    /// Returns `Err` if there are errors: with the origin of each, and shortened if the list is long.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,
@@ -140,12 +140,13 @@ impl fmt::Display for SceneErrors {
 
 impl std::error::Error for SceneErrors {}
 
-/// Line and column of a byte in a scene with this name.
+/// Origin of an error at a byte of a scene with this name: its line and column.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::File { name: name.into(), place: Some(line_column(text, offset)) }
 }
 
-/// Overrides that cause an error: the overrides of its field, of a group around it or of a field inside it, else all.
+/// Overrides that cause an error: overrides of its field, of a group around it or of a field inside it, or else all
+/// overrides.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
     let is_behind = |path: &str| is_within(&error.field, path) || is_within(path, &error.field);
     let is_known = overrides.iter().any(|(path, _)| is_behind(path));
@@ -153,10 +154,10 @@ pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)
     Origin::Overrides(behind.map(|(path, value)| format!("{path}={value}")).collect())
 }
 
-/// Longest name that is compared; longer ones are not mistyped.
+/// Limit of the length of a name that is compared with other names; a longer one is not a mistyped name.
 const LONGEST: usize = 64;
 
-/// The nearest name, if it is near enough to be the intended one.
+/// The nearest of the names, if it is near enough to be the intended one.
 ///
 /// The last component of a name suffices: `hurst` means `roughness.hurst`.
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
@@ -175,7 +176,7 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
     names.filter_map(near).min_by_key(|(far, _)| *far).map(|(_, candidate)| candidate)
 }
 
-/// The question for the nearest name, behind a message: `; did you mean length?`. Empty if no name is near.
+/// A question for the nearest name, to append to a message: `; did you mean length?`. Empty if no name is near.
 pub fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }

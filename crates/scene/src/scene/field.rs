@@ -14,49 +14,48 @@ pub struct Field {
     /// Variant of the enclosing choice that has this field: `Paraboloid` for `form.radius`. `None` if the field
     /// does not depend on a choice.
     pub variant: Option<&'static str>,
-    /// Technical name: `Hurst exponent`.
+    /// Name in words: `Hurst exponent`.
     pub name: &'static str,
     /// Symbol in the equations; empty if there is none.
     pub symbol: &'static str,
-    /// SI unit; `1` for numbers without one, empty for other values.
+    /// SI unit; `1` for numbers without a unit, empty for other values.
     pub unit: &'static str,
     /// Allowed values.
     pub range: Range,
-    /// Steps of the keys.
+    /// How a key changes the value.
     pub step: Step,
     /// Value of an omitted field, as written; empty if the field is required.
     pub default: &'static str,
     /// Meaning in one line.
     pub meaning: &'static str,
-    /// The value of a typed text in RON.
+    /// Function that converts a typed text to RON.
     pub(super) read: Read,
 }
 
-/// Returns in RON what is typed, without blanks around it, as the value of a field.
+/// Function that converts typed text, without blanks around it, to RON as the value of a field.
 pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 
-/// Step of a field for a key press.
+/// Step of a field for one press of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// By addition of the first number, or of the second as the large step; the result is a multiple of the first.
+    /// Adds the first number, or the second as the large step; the result is a multiple of the first.
     Linear(f64, f64),
-    /// To the next preferred number: twenty to a decade (the Renard series R20) as the small step,
-    /// 1–2–5 as the large one.
+    /// To the next preferred number: twenty in a decade (the Renard series R20) as the small step, 1–2–5 as the large one.
     Logarithmic,
-    /// By addition of the first number to an integer, or of the second as the large step.
+    /// Adds the first number to an integer, or the second as the large step.
     Integer(u64, u64),
-    /// To the next power of two; the large step is four of them.
+    /// To the next power of two; the large step is four of these steps.
     Doubling,
-    /// The last mode of a pair to the next power of two; the large step moves the first mode. The shortest wavelength of
-    /// a pair to the next preferred number; the large step moves the longest one.
+    /// For a pair of modes, the last mode to the next power of two, and as the large step the first mode. For a pair of
+    /// wavelengths, the shortest one to the next preferred number, and as the large step the longest one.
     Band,
-    /// To the next choice.
+    /// To the next of the allowed choices.
     Choice,
-    /// No steps, only typed values.
+    /// Keys do not change the value; it is only typed.
     Typed,
 }
 
-/// A required field, with the usual unit and step of its range; its name is its path.
+/// A required field with the usual unit and step for its range, named by its path.
 pub(super) const fn row(path: &'static str, range: Range) -> Field {
     let (step, unit, read): (_, _, Read) = match range {
         Range::Real(..) => (Step::Logarithmic, "1", read_number),
@@ -69,7 +68,7 @@ pub(super) const fn row(path: &'static str, range: Range) -> Field {
     Field { path, variant: None, name: path, symbol: "", unit, range, step, default: "", meaning: "", read }
 }
 
-/// Changes of a row in the table of fields.
+/// Methods that change one column of a row in the table of fields.
 impl Field {
     pub(super) const fn of(self, variant: &'static str) -> Field {
         Field { variant: Some(variant), ..self }
@@ -114,7 +113,8 @@ impl Field {
         }
     }
 
-    /// The number, or both wavelengths, of a written value with the unit: `100 µm, 200 nm`; `None` for other values.
+    /// A written number, or both wavelengths of a pair, with the unit, in a given format: `100 µm, 200 nm`; `None` for
+    /// other values.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         let ends = match self.range {
             Range::Real(..) => vec![written.parse().ok()?],
@@ -124,8 +124,8 @@ impl Field {
         Some(ends.into_iter().map(|end| format(end, self.unit)).collect::<Vec<_>>().join(", "))
     }
 
-    /// A typed value with the units of the shown one, where it has none of its own: `50` beside `4.356 mJ/m²`, `80, 500`
-    /// beside `100 µm, 200 nm`.
+    /// A typed value that has no units, with the units of the shown value: `50` for `4.356 mJ/m²`, `80, 500` for `100 µm,
+    /// 200 nm`.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         match (self.range, shown.split_once(", "), split_pair(typed)) {
             (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
@@ -147,14 +147,12 @@ impl Field {
     }
 }
 
-/// Fields are equal if path and variant are equal.
 impl PartialEq for Field {
     fn eq(&self, other: &Field) -> bool {
         (self.path, self.variant) == (other.path, other.variant)
     }
 }
 
-/// Range of file names.
 pub(super) const FILE_NAME: Range = Range::Text { least: 1, most: 4096, lines: false };
 
 /// The force of a loading stage [`ToForce`](asperity_contact::Move::ToForce), at `loading.0.0` for the first stage.
@@ -194,14 +192,14 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     }
 }
 
-/// Integers from here on are not all exact as floating-point numbers.
+/// Integers from this one on are not all exact as floating-point numbers.
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
-    /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, a work with
-    /// its unit is an adhesion, and a loading may be a list of stages, as
-    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text is unchanged but for surrounding blanks.
+    /// Converts a typed value to RON. A number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
+    /// needs no quotes; the name of a file as a roughness becomes a measured surface with its equivalent line; a work with
+    /// its unit becomes an adhesion; and a loading may be a list of stages, as
+    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text only loses the blanks around it.
     ///
     /// # Errors
     /// Text that begins as a number and continues as another unit, or a number that is too large.
@@ -214,7 +212,7 @@ fn begins_as_number(typed: &str) -> bool {
     typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
 }
 
-/// A number in RON, or one with a prefix and the unit.
+/// Reads a number in RON, or one with a prefix or the unit.
 fn read_number(field: &Field, typed: &str) -> Result<String, QuantityError> {
     match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
         true => parse_quantity(typed, field.unit).map(ron_float),
@@ -226,7 +224,7 @@ fn whole(value: f64) -> Option<String> {
     (value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value)).then(|| (value as u64).to_string())
 }
 
-/// A whole number, with blanks between its digits or with a prefix.
+/// Reads a whole number, with blanks between its digits or with a prefix.
 fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let digits: String = typed.split_whitespace().collect();
     if digits.parse::<u64>().is_ok() {
@@ -239,7 +237,7 @@ fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
     }
 }
 
-/// Two numbers, or one as for a field of one number.
+/// Reads two numbers, or a single one as in a field of one number.
 fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let is_whole = matches!(field.range, Range::Band(..));
     let Some((first, last)) = split_pair(typed) else {
@@ -250,21 +248,21 @@ fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
     Ok(format!("({}, {})", written(first?), written(last?)))
 }
 
-/// A text with or without quotes.
+/// Reads a text with or without quotes.
 fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let is_omitted = field.range == FILE_NAME && (typed.is_empty() || typed == "None");
     let is_quoted = typed.starts_with('"') || ron::from_str::<String>(typed).is_ok();
     Ok(if is_omitted || is_quoted { typed.to_owned() } else { ron_string(typed) })
 }
 
-/// A choice in RON or in words.
+/// Reads a choice in RON or in words.
 fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let Range::Choice(choices) = field.range else { return Ok(typed.to_owned()) };
     let in_words = choices.iter().find(|choice| choice_in_words(choice) == typed);
     Ok(in_words.map_or(typed, |choice| choice).to_owned())
 }
 
-/// A form, or the file of a table.
+/// Reads a form, or the name of the file of a table.
 pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityError> {
     match is_file_name(typed) {
         true => Ok(format!("Table(file: {})", ron_string(typed))),
@@ -272,7 +270,7 @@ pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityEr
     }
 }
 
-/// A roughness, or the file of a measured surface.
+/// Reads a roughness, or the name of the file of a measured surface.
 pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, QuantityError> {
     match is_file_name(typed) {
         true => Ok(format!("Measured(file: {})", ron_string(typed))),
@@ -280,7 +278,7 @@ pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, Quant
     }
 }
 
-/// An adhesion, or a work of adhesion with its unit.
+/// Reads an adhesion, or a work of adhesion with its unit.
 pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, QuantityError> {
     match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
         true => parse_quantity(typed, "J/m²").map(|work| format!("(work: {})", ron_float(work))),
@@ -288,7 +286,7 @@ pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, Quanti
     }
 }
 
-/// A list of loading stages in RON or in words.
+/// Reads a list of loading stages in RON or in words.
 pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityError> {
     if ron::from_str::<Vec<Move>>(typed).is_ok() {
         return Ok(typed.to_owned());
@@ -303,7 +301,7 @@ fn split_pair(typed: &str) -> Option<(&str, &str)> {
     [",", "–", " to "].iter().find_map(|between| pair.split_once(between))
 }
 
-/// A choice without fields in words, as users read and type it: `sub-cell` of `SubCell`.
+/// A choice without fields in words, as users read and type it: `sub-cell` for `SubCell`.
 pub fn choice_in_words(name: &str) -> String {
     let mut words = String::new();
     for character in name.chars() {
@@ -315,7 +313,7 @@ pub fn choice_in_words(name: &str) -> String {
     words
 }
 
-/// Returns true for a name with an ending or a folder, unlike any choice of a field.
+/// Returns true for a text with a dot or a folder, as no choice of a field has.
 fn is_file_name(typed: &str) -> bool {
     typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
 }

@@ -1,7 +1,7 @@
 //! The table of all fields of a scene: paths, symbols, units, ranges, steps, defaults, meanings.
 //!
-//! Reading and writing, checks of ranges, defaults, overrides, steps of the keys, axes of studies, the explorer's list
-//! of parameters, random scenes of the tests and the reference in docs/scene-file.md are loops over this table.
+//! Reading and writing, checks of ranges, defaults, overrides, steps of the keys, axes of studies, the explorer's list of
+//! parameters, random scenes of the tests and the reference in docs/scene-file.md all iterate over this table.
 
 use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
@@ -19,8 +19,8 @@ pub const SCENE_VERSION: u32 = 1;
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// The field at a path. If variants of a choice share the name, `variant` decides; with `None` the
-/// first one is returned.
+/// The field at a path. Where variants of a choice have fields of the same name, `variant` decides; for `None` the first
+/// one is returned.
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
     let is_of = |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
     FIELDS.iter().find(|field| field.path == path && is_of(field))
@@ -32,7 +32,7 @@ pub(super) fn default_of<T: DeserializeOwned>(path: &str) -> T {
     row.and_then(|row| read_ron(row.default).ok()).expect("a row of the table with a default of this type")
 }
 
-/// Fields inside the group or choice at a path, with this variant; the top level for an empty path.
+/// Fields inside the group or choice at a path, for this variant; fields at the top for an empty path.
 pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
     let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
     FIELDS.iter().filter(move |field| field.parent() == path && is_of(field))

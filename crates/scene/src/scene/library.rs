@@ -1,4 +1,4 @@
-//! Sources of scenes: the user's own folder and the working folder, beside the built-in scenes.
+//! Sources of scenes: the built-in scenes, the user's own folder and the working folder.
 
 use std::fs;
 use std::io;
@@ -24,7 +24,7 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Built-in files of a folder of presets, by their names.
+/// Makes presets of the built-in files of a folder, by their names.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
@@ -57,12 +57,12 @@ pub fn presets() -> &'static [Preset] {
     PRESETS
 }
 
-/// Built-in scene of this name.
+/// The built-in scene with this name.
 pub fn find(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-/// A typed path: a leading `~` becomes the home folder, if there is one.
+/// Converts typed text to a path: a leading `~` becomes the home folder, if there is one.
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
     let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
@@ -72,7 +72,7 @@ pub fn typed_path(text: &str) -> PathBuf {
     }
 }
 
-/// Origin of a scene.
+/// Where a scene comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// Built into the program.
@@ -83,29 +83,28 @@ pub enum Source {
     Working,
 }
 
-/// A scene of the library, or a file that looked like one.
+/// A scene of the library, or a file that looks like a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name: of a built-in scene, of an own scene without `.ron`, of a file in the working folder with `.ron`.
+    /// Name: for a file in the working folder with `.ron`, for the user's own scene without.
     pub name: String,
-    /// Origin.
+    /// Where the scene comes from.
     pub origin: Source,
-    /// File; `None` for a built-in scene.
+    /// Path of the file; `None` for a built-in scene.
     pub path: Option<PathBuf>,
     /// Text of the file; empty if it cannot be read.
     pub text: String,
-    /// The scene, with files relative to its own file, or its errors.
+    /// The scene, whose files are relative to its own file, or the errors of the file.
     pub document: Result<Document, SceneErrors>,
 }
 
-/// The folder of the user's own scenes: `asperity/presets` in the configuration folder, which is `$XDG_CONFIG_HOME`, by
-/// default `~/.config`, and on Windows the roaming application data. It may not exist yet. A scene saved here opens by
-/// its name.
+/// The folder of the user's own scenes, which open by their names: `asperity/presets` in the configuration folder, which is
+/// `$XDG_CONFIG_HOME`, by default `~/.config`, and on Windows the roaming application data. It may not exist.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }
 
-/// The file of a scene of this name in the folder of the user's own scenes, if it exists.
+/// The file of the scene with this name in the folder of the user's own scenes, if it exists.
 pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
     let mut components = Path::new(name).components();
     let is_name = matches!((components.next(), components.next()), (Some(Component::Normal(_)), None));
@@ -117,10 +116,11 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
     scene_files(own).unwrap_or_default().iter().map(|path| name_of(path, Source::Own)).collect()
 }
 
-/// All scenes: the built-in ones in their order, then the user's own, then those of a working folder, each by name.
+/// All scenes: the built-in ones in their order, then the user's own, then those of a working folder, the latter two sorted
+/// by name.
 ///
-/// Lists files ending in `.ron`, except for plans of studies; subfolders are not searched. Files that are no
-/// scene or cannot be read are listed with their error. Only regular files are opened.
+/// Lists files that end in `.ron`, except plans of studies; subfolders are not searched. Files that are no scene or cannot
+/// be read are listed with their error. Only regular files are opened.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
     let built_in = presets()
         .iter()
@@ -136,7 +136,7 @@ pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
 }
 
 impl Entry {
-    /// The entry of a text, or of the reason why there is none.
+    /// Creates the entry of a text, or of the reason why the text could not be read.
     fn new(name: String, origin: Source, path: Option<PathBuf>, text: Result<String, String>) -> Entry {
         let file = path.as_ref().map_or_else(|| name.clone(), |path| path.display().to_string());
         let document = match &text {
@@ -158,7 +158,7 @@ impl Entry {
         self.document.as_ref().map_or("", |document| &document.scene().notice)
     }
 
-    /// The first error of the file with its place, and the number of further ones, on one line.
+    /// The first error of the file, with its place and the number of further errors, on one line.
     pub fn error(&self) -> Option<String> {
         let errors = self.document.as_ref().err()?;
         let (first, more) = (errors.first(), errors.iter().count() - 1);
@@ -171,7 +171,7 @@ impl Entry {
     }
 }
 
-/// The scene files of a folder by name; empty for a missing folder.
+/// The scenes of a folder, sorted by name; empty for a missing folder.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
@@ -193,7 +193,7 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     entries
 }
 
-/// The files of a folder that end in `.ron`, unread.
+/// Paths of the files of a folder that end in `.ron`; the files are not read.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let paths = fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
     // The target of a link decides; a link without a target is no folder.
@@ -206,7 +206,7 @@ fn name_of(path: &Path, origin: Source) -> String {
     name.unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// Reason why the file of a scene was not read.
+/// Reason why the file of a scene was not read, in words.
 pub(super) fn describe(error: ReadError) -> String {
     match error {
         ReadError::Folder => "this is a directory, not a scene file".into(),
@@ -222,7 +222,6 @@ mod tests {
     const SCENE: &str = "(version: 1, title: \"A title\", notice: \"A notice\", \
                          material: (effective_modulus: 1.0e6), length: 1.0e-4)";
 
-    /// Empty folders of own scenes and of work.
     fn folders() -> (tempfile::TempDir, PathBuf, PathBuf) {
         let root = tempfile::tempdir().unwrap();
         let [own, working] = ["own", "working"].map(|name| root.path().join(name));

@@ -1,4 +1,4 @@
-//! A measured surface as the roughness of a scene: its files, and the options of their reading and analysis.
+//! A measured surface as the roughness of a scene: its files, and the options for reading and analysing them.
 
 use super::fields::default_of;
 use asperity_surface::MeasuredOptions;
@@ -114,13 +114,13 @@ fn unit_name(text: &str) -> Result<String, asperity_surface::UnitError> {
 }
 
 impl Measured {
-    /// Files of each face.
+    /// Names of the files of each face.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
         let face = std::iter::once(&self.file).chain(&self.further_files).map(String::as_str).collect();
         std::iter::once(face).chain(self.opposite.iter().map(|file| vec![file.as_str()])).collect()
     }
 
-    /// Options of the readers and of the spectrum for a checked surface.
+    /// Options for reading and analysing a checked surface.
     pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
             as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),

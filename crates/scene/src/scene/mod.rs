@@ -1,4 +1,4 @@
-//! The scene: the author's choices, read from RON, checked, and changed field by field.
+//! The scene: what the author chooses, read from RON, checked, and changed field by field.
 //!
 //! [`open()`](crate::open) returns a [`Document`](crate::Document): a checked [`Scene`](crate::Scene) with its text. [`FIELDS`](crate::FIELDS) is the table of all fields of a
 //! scene, used by the checks, the overrides and the explorer.

@@ -1,6 +1,6 @@
-//! The types of a scene: the author's choices, in SI units, and quantities that follow from them by one formula.
+//! The types of a scene: what the author chooses, in SI units, and quantities that follow from it by one formula.
 //!
-//! These types hold values as written; [`Scene::checked`] finds the invalid ones.
+//! These types hold values as written, valid or not; [`Scene::checked`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
 use super::fields::default_of;
@@ -12,8 +12,9 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
-/// Fewest springs per wave of a form, of roughness and of the maps: the adhesion force of rough profiles then has an
-/// error of about one per cent with both edge models (docs/accuracy.md). Two springs per wave are the limit.
+/// Smallest recommended number of springs per wave of a form, of roughness and of the maps: the adhesion force of rough
+/// profiles then has an error of about one per cent with both edge models (docs/accuracy.md). At least two springs per wave
+/// are required.
 pub const SPRINGS_PER_WAVE: u64 = 4;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -32,13 +33,13 @@ pub struct Scene {
     pub material: Material,
     /// Apparent diameter L of the contact, m.
     pub length: f64,
-    /// Macroscopic form; `None`: nominally flat.
+    /// Macroscopic form; `None` for a nominally flat body.
     pub form: Option<Form>,
-    /// Roughness; `None`: smooth.
+    /// Roughness; `None` for a smooth profile.
     pub roughness: Option<Roughness>,
-    /// Adhesion; `None`: no adhesion.
+    /// Adhesion; `None` without adhesion.
     pub adhesion: Option<Adhesion>,
-    /// Stiffness k of the instrument that moves the body, N/m; `None`: rigid.
+    /// Stiffness k of the instrument that moves the body, N/m; `None` for a rigid instrument.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loading_stiffness: Option<f64>,
     /// Loading history from separation: consecutive loading stages.
@@ -47,12 +48,12 @@ pub struct Scene {
     /// Resolution and solver.
     #[serde(default)]
     pub numerics: Numerics,
-    /// Quantities observed beside the force curve.
+    /// Quantities to observe besides the force curve.
     #[serde(default)]
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants of the half-space, as written: E and ν of a half-space under a rigid body, or E* of two elastic bodies.
+/// Elastic constants of the half-space as written: E and ν of a half-space under a rigid body, or E* of two elastic bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -68,12 +69,12 @@ pub struct Material {
 }
 
 impl Material {
-    /// Material of this effective modulus E*, Pa.
+    /// Material with this effective modulus E*, Pa.
     pub fn effective(effective_modulus: f64) -> Self {
         Material { effective_modulus: Some(effective_modulus), ..Material::default() }
     }
 
-    /// Isotropic material under a rigid body, of Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
+    /// Isotropic material under a rigid body, with Young's modulus E (Pa) and Poisson's ratio ν: E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
         let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
         Material { youngs_modulus, poisson_ratio, effective_modulus: None }
@@ -102,13 +103,13 @@ pub enum Roughness {
         /// Root mean square gradient ⟨∇z⟩.
         #[serde(skip_serializing_if = "Option::is_none")]
         rms_gradient: Option<f64>,
-        /// First and last mode k, q = 2πk/L; `None` if given by `wavelengths`.
+        /// First and last mode k, q = 2πk/L; `None` if `wavelengths` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         modes: Option<(u64, u64)>,
         /// Longest and shortest wavelength, m, in place of `modes`.
         #[serde(skip_serializing_if = "Option::is_none")]
         wavelengths: Option<(f64, f64)>,
-        /// Wavelength, m, above which the spectrum of the surface is flat; `None`: nowhere.
+        /// Wavelength, m, above which the spectrum of the surface is flat; `None` without a roll-off.
         #[serde(skip_serializing_if = "Option::is_none")]
         roll_off: Option<f64>,
         /// Seed of the random phases.
@@ -119,19 +120,19 @@ pub enum Roughness {
 }
 
 impl Scene {
-    /// Distance Δx = L/N of the springs, m.
+    /// Spring spacing Δx = L/N, m.
     pub fn spacing(&self) -> f64 {
         self.length / self.numerics.points as f64
     }
 
-    /// Indices of the springs under the body: all of them but those beside a punch.
+    /// Index range of the springs under the body: all springs, except the springs beside a punch.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form.as_ref().map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Spectrum of a self-affine roughness on the length of the scene; `None` without one. Of wavelengths λ the modes are
-    /// those nearest to L/λ, so that the waves stay where the length changes.
+    /// Spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness. For given
+    /// wavelengths λ the modes are the whole numbers nearest to L/λ, so that the waves stay when the length changes.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine { hurst, modes, wavelengths, roll_off, .. }) = self.roughness else {
             return None;
@@ -143,7 +144,7 @@ impl Scene {
         Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
-    /// Warning about roughness whose shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.
+    /// Warning, in words, if the shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.
     pub fn warning(&self) -> Option<String> {
         let (path, springs) = match self.roughness.as_ref()? {
             Roughness::SelfAffine { modes, .. } => {
@@ -169,17 +170,17 @@ impl Scene {
         if let Some(Roughness::Measured(measured)) = &self.roughness { Some(measured) } else { None }
     }
 
-    /// Returns true if a measured profile is the line itself.
+    /// Returns true if a measured profile is itself the line.
     pub fn measured_as_line(&self) -> bool {
         self.measured().is_some_and(|measured| measured.as_line)
     }
 
-    /// Options of the readers and of the spectrum for the measured surface.
+    /// Options for reading and analysing the measured surface.
     pub fn measured_options(&self) -> MeasuredOptions {
         self.measured().map_or_else(MeasuredOptions::default, Measured::options)
     }
 
-    /// Files of the measured surfaces, and of the table of the form, relative to the scene file.
+    /// Names of the files of the measured surfaces and of the table of the form, relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
         let mut files = self.measured().map_or_else(Vec::new, |measured| measured.faces().concat());
         if let Some(Form::Table { file, .. }) = &self.form {
@@ -188,7 +189,7 @@ impl Scene {
         files
     }
 
-    /// Paths of the files of each face, with names relative to `folder`.
+    /// Paths of the files of each face, in `folder`.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()
@@ -231,11 +232,11 @@ impl Scene {
 pub struct Numerics {
     /// Number of springs N.
     pub points: u64,
-    /// Exact loop or stepwise relaxation.
+    /// Exact solver or stepwise relaxation.
     pub solver: Solver,
-    /// Edge model of a contact patch.
+    /// Edge model of the contact patches.
     pub edges: Edges,
-    /// Curve samples on each loading stage.
+    /// Number of curve samples on each loading stage.
     pub samples: u64,
 }
 
@@ -245,7 +246,7 @@ impl Default for Numerics {
     }
 }
 
-/// The same in the form of a file: omitted fields have their defaults.
+/// Resolution and solver as written in a file, where omitted fields have their defaults.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "Numerics")]
 struct NumericsText {
@@ -268,11 +269,11 @@ impl From<NumericsText> for Numerics {
     }
 }
 
-/// Equilibrium solver.
+/// Solver of the equilibrium of the springs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// All thresholds at once, without a step error.
+    /// The exact solver: all thresholds at once, without a step error.
     Exact,
     /// The method of the paper: move by a step, relax, repeat.
     Stepwise {
@@ -282,7 +283,7 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// The edges of a scene that does not specify them: between springs if the solver can find them there.
+    /// The edge model of a scene that states none: edges between springs if the solver supports them.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => default_of("numerics.edges"),
@@ -291,7 +292,7 @@ impl Solver {
     }
 }
 
-/// A quantity observed beside the force curve.
+/// A quantity that is observed besides the force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Observer {
     /// The contact patches and their lengths.

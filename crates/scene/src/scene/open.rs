@@ -12,13 +12,12 @@ use super::library::{describe, find, own_folder, own_names, own_scene, presets};
 use asperity_data::printable;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 
-/// Opens a scene: a file if one of that name exists or the name looks like a path (ends in `.ron` or has a path
-/// separator), else a built-in scene, else one of the user's own scenes, see [`own_folder`]. Only regular
-/// files are read, since a pipe, a terminal or a device would block. A table of results in CSV opens as its
-/// scene.
+/// Opens a scene: a file, if one of that name exists or the name looks like a path (ends in `.ron` or has a path
+/// separator); else a built-in scene; else one of the user's own scenes, see [`own_folder`]. Only regular files are read,
+/// since a pipe, a terminal or a device would block. A table of results in CSV opens as the scene that it contains.
 ///
 /// # Errors
-/// No such scene, an unreadable file, or the errors of its scene.
+/// There is no such scene, its file cannot be read, or the scene has errors.
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     let own = own_folder();
     let path = Path::new(name_or_path);
@@ -51,7 +50,7 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     Err(whole(name_or_path, message))
 }
 
-/// Returns true for the name of a file: that of an existing one, or one that looks like a path.
+/// Returns true for the name of a file: of one that exists, or one that looks like a path.
 pub fn is_file_name(name: &str) -> bool {
     is_path(name) || Path::new(name).is_file()
 }
@@ -61,11 +60,11 @@ pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene of a command argument: as [`open`], but also from a stream. `-` is standard input, and a pipe or
-/// a device, such as `<(…)` of a shell, is read up to its end.
+/// Opens the scene of a command argument: as [`open`] does, but also from a stream. `-` is standard input; a pipe or a
+/// device, such as `<(…)` of a shell, is read up to its end.
 ///
-/// Reading a stream waits for its writer, so this function is for commands that an interrupt ends, not for an
-/// explorer that has taken over the terminal.
+/// Reading a stream waits for its writer, so this function is for commands that an interrupt ends, not for an explorer that
+/// controls the terminal.
 ///
 /// # Errors
 /// As [`open`].
@@ -88,10 +87,10 @@ fn whole(name: &str, message: String) -> SceneErrors {
     SceneError::whole(Origin::File { name: name.into(), place: None }, message).into()
 }
 
-/// Start of the lines above the scene in a table of results, and the line between both.
+/// Beginning of the lines above the scene in a table of results, and the line between them and the scene.
 const TABLE: (&str, &str) = ("asperity ", "\nscene:\n");
 
-/// The document of a scene, or of a table of results, of which only the lines with its scene are read.
+/// The document of a scene, or of the scene in a table of results, of which no other lines are read.
 fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, SceneErrors> {
     let text = text.map_err(|error| whole(name, describe(error)))?;
     if !text.starts_with(TABLE.0) {

@@ -1,4 +1,4 @@
-//! Allowed values of fields: checks of numbers, and readable text.
+//! Allowed values of fields, as checks and as readable text.
 
 use std::fmt;
 use std::ops::Bound;
@@ -12,28 +12,28 @@ pub enum Range {
     Real(Bound<f64>, Bound<f64>),
     /// A whole number, both ends included.
     Whole(u64, u64),
-    /// A pair `(first, last)` of whole numbers, first ≤ last, both ends included.
+    /// A pair `(first, last)` of whole numbers between these ends, first ≤ last, both ends included.
     Band(u64, u64),
-    /// A pair `(longest, shortest)` of wavelengths, longest ≥ shortest, both ends included.
+    /// A pair `(longest, shortest)` of wavelengths between these ends, m, longest ≥ shortest, both ends included.
     Wavelengths(f64, f64),
     /// Text without control characters.
     Text {
-        /// Fewest characters.
+        /// Smallest allowed number of characters.
         least: usize,
-        /// Most characters.
+        /// Largest allowed number of characters.
         most: usize,
         /// True if line breaks are allowed.
         lines: bool,
     },
-    /// One of these, each a valid value as text.
+    /// One of these values, each written in RON.
     Choice(&'static [&'static str]),
-    /// A list of these, each a valid value as text.
+    /// A list of these values, each written in RON.
     List {
         /// Allowed elements.
         of: &'static [&'static str],
-        /// Fewest elements.
+        /// Smallest allowed number of elements.
         least: usize,
-        /// Most elements.
+        /// Largest allowed number of elements.
         most: usize,
     },
     /// A group of fields.
@@ -56,7 +56,7 @@ impl Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true for an allowed real number; NaN and the infinities never are.
+    /// Returns true for an allowed real number; NaN and infinity are never allowed.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -70,7 +70,7 @@ impl Range {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }
 
-    /// The smallest and the largest number, for a numeric field.
+    /// The smallest and the largest number of a numeric field; `None` for other fields.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => Some((min, max)),
@@ -81,12 +81,12 @@ impl Range {
     }
 }
 
-/// The name at the beginning of a choice: `Cone` of `Cone(angle: 0.1)`, the whole text without one.
+/// The name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`; the whole text if there is no name.
 pub(super) fn choice_name(choice: &str) -> &str {
     choice.split_once('(').map_or(choice, |(name, _)| if name.is_empty() { choice } else { name })
 }
 
-/// The distinguishing part of a choice: its name, or the first field of a group without a name.
+/// The part of a choice that identifies it: its name, or the first field of a group without a name.
 pub(super) fn choice_key(choice: &str) -> &str {
     let key = choice_name(choice.trim());
     key.split_once(':').filter(|_| key.starts_with('(')).map_or(key, |(key, _)| key)
@@ -133,7 +133,7 @@ fn counts(least: usize, most: usize) -> String {
     if least == 0 { format!("at most {most}") } else { format!("{least} to {most}") }
 }
 
-/// Names of choices: `Cone, Punch or None`.
+/// Names of choices as a list in words: `Cone, Punch or None`.
 fn listed(choices: &[&str], last: &str) -> String {
     let names: Vec<&str> = choices.iter().map(|choice| choice_name(choice)).collect();
     match names.split_last() {

@@ -1,4 +1,4 @@
-//! Reader of the text of a scene, with errors in the terms of the scene.
+//! Reader of the text of a scene, which explains errors in terms of scenes.
 
 use ron::Error;
 use ron::error::SpannedError;
@@ -11,10 +11,10 @@ use super::range::Range;
 use super::text::index::{Text, offset_of};
 use super::text::read_ron;
 
-/// Longest value that is repeated in messages.
+/// Limit of the length of a value that messages repeat.
 const MOST_REPEATED: usize = 60;
 
-/// Message for text that does not begin as a scene, such as the table of an instrument.
+/// Message for a text that does not begin as a scene, such as a table of an instrument.
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
@@ -26,8 +26,8 @@ pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene
     })
 }
 
-/// Error of a text that does not begin as a scene, or has an unsupported version, which may be why the rest of it cannot
-/// be read.
+/// The byte and the error of a text that does not begin as a scene, or has an unsupported version, which may be why the
+/// rest cannot be read; `None` for any other text.
 fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     if !source.trim().is_empty() && !source[..place_of(source, error).1].contains('(') {
         let start = source.len() - source.trim_start().len();
@@ -42,7 +42,7 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     Some((text.nearest_value("version"), error))
 }
 
-/// First byte of the error, and the position of the reader.
+/// First byte of the error, and the byte that the reader has reached.
 fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
@@ -55,7 +55,7 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     (if text[start..end].contains(something) { start } else { end }, end)
 }
 
-/// First byte of an error in text of any form, and the error.
+/// First byte of an error in a text, and the error in plain words.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);
@@ -92,7 +92,7 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
     (offset, error)
 }
 
-/// A single value is marked as a whole and repeated, with its allowed values.
+/// Explains the error of a value: a single value is marked as a whole and repeated, with the allowed values.
 fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
     let value = text
         .written(path)
@@ -108,7 +108,7 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
     (offset, error)
 }
 
-/// Message of the reader in plain words.
+/// Message of the RON reader in plain words.
 fn plain(error: &Error) -> String {
     let text = match error {
         Error::Eof => "the text ends too early",

@@ -1,4 +1,4 @@
-//! Loading stages: the one table of their kinds, and a loading as text, which reads back as the same loading.
+//! Loading stages: the one table of their kinds, and loadings as text, which reads back as the same loading.
 
 use super::range::choice_name;
 use super::text::ron_float;
@@ -7,24 +7,23 @@ use asperity_data::shown;
 use asperity_data::{QuantityError, parse_quantity};
 use std::mem::discriminant;
 
-/// Most stages of a loading.
+/// Limit of the number of stages of a loading.
 pub(super) const MOST_STAGES: usize = 100_000;
 
 /// A kind of loading stage.
 #[derive(Debug)]
 pub struct StageKind {
-    /// An example in RON.
     example: &'static str,
-    /// The target in words.
+    /// Name of the target in words.
     word: &'static str,
-    /// SI unit of its number; empty without a number.
+    /// SI unit of its number; empty for a kind without a number.
     pub unit: &'static str,
-    /// The stage with a number.
+    /// Creates the stage from its number.
     pub stage: fn(f64) -> Move,
 }
 
-/// All kinds, in the order in which a key changes them. Of the kinds with one unit the first is written as its number
-/// alone, the others as their word and their number.
+/// All kinds, in the order in which a key changes them. Of several kinds with the same unit, the first is written as a
+/// number alone, and the others as their word and a number.
 pub const STAGE_KINDS: [StageKind; 6] = [
     StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
     StageKind {
@@ -54,7 +53,7 @@ pub(super) const STAGES: [&str; STAGE_KINDS.len()] = {
     examples
 };
 
-/// Place of the kind of a stage in the table, and the number of the stage, if it has one.
+/// Index of the kind of a stage in [`STAGE_KINDS`], and the number of the stage, if it has one.
 pub fn kind_and_number(stage: &Move) -> (usize, Option<f64>) {
     let is_same = |kind: &StageKind| discriminant(&(kind.stage)(0.0)) == discriminant(stage);
     let number = match *stage {
@@ -64,7 +63,7 @@ pub fn kind_and_number(stage: &Move) -> (usize, Option<f64>) {
     (STAGE_KINDS.iter().position(is_same).unwrap_or_default(), number)
 }
 
-/// Largest force of loading stages, N; 0 where no stage presses to a force.
+/// Largest force that the loading stages press to, N; 0 if there is none.
 pub fn pressing_force(loading: &[Move]) -> f64 {
     let force = |stage: &Move| if let Move::ToForce(force) = *stage { force } else { 0.0 };
     loading.iter().map(force).fold(0.0, f64::max)
@@ -77,7 +76,7 @@ pub fn stage_in_ron(stage: &Move) -> String {
     number.map_or_else(|| name.to_owned(), |number| format!("{name}({})", ron_float(number)))
 }
 
-/// A stage as text, its number in a format: `10 µN`, `touch`.
+/// A stage as text, with its number in this format: `10 µN`, `touch`.
 fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     let (place, number) = kind_and_number(stage);
     let StageKind { word, unit, .. } = STAGE_KINDS[place];
@@ -89,8 +88,8 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// A loading as text, with minor loops that repeat as one item: `10 µN, 3 loops 0 N to 10 µN, separation`. With
-/// [`exact_quantity`](asperity_data::exact_quantity) as format, `read_loading` returns the same loading.
+/// A loading as text; repeated minor loops are one item: `10 µN, 3 loops 0 N to 10 µN, separation`. With
+/// [`exact_quantity`](asperity_data::exact_quantity) as the format, `read_loading` returns the same loading.
 pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String {
     let (mut items, mut rest) = (Vec::new(), loading);
     while let Some(&first) = rest.first() {
@@ -109,10 +108,10 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
     items.join(", ")
 }
 
-/// A loading as [`loading_text`] writes it, in brackets or not; stages may be in RON, with units or not.
+/// Reads a loading as [`loading_text`] writes it, in brackets or not; stages may also be in RON, with units or not.
 ///
 /// # Errors
-/// Text that is no stage, or too many stages.
+/// A text that is no stage, or too many stages.
 pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     let list = text.trim().strip_prefix('[').and_then(|list| list.strip_suffix(']')).unwrap_or(text);
     let mut loading = Vec::new();
@@ -135,10 +134,10 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// A stage as [`loading_text`] writes it. A number without unit is of the usual kind, by default a force.
+/// Reads a stage as [`loading_text`] writes it. A number without a unit is of the kind `usual`, by default a force.
 ///
 /// # Errors
-/// Text that is no stage.
+/// A text that is no stage.
 pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityError> {
     let plain = text.replace(['(', ')'], " ");
     let plain = plain.trim();

@@ -9,20 +9,20 @@ use super::tree::Tree;
 use asperity_data::exact_quantity;
 use asperity_data::grouped;
 
-/// Fields without an effect on the solution.
+/// Paths of fields without an effect on the solution.
 const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numerics.samples"];
 
-/// The value of a field of a scene.
+/// A field of a scene with its value in words.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
     /// The field.
     pub field: &'static Field,
-    /// Its value with its unit and all digits.
+    /// Value of the field, with its unit and all digits.
     pub value: String,
 }
 
-/// The given values of a scene: all numbers, and the choices and names that differ from their defaults. Where a choice has
-/// numbers, these alone.
+/// The values that a scene states: all numbers, and the choices and names that differ from their defaults. For a choice
+/// with numbers, only its numbers.
 pub fn statements(scene: &Scene) -> Vec<Statement> {
     let (tree, mut found) = (Tree::of(scene), Vec::new());
     fields_inside("", None).for_each(|field| add(scene, &tree, field, &mut found));

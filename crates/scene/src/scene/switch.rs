@@ -1,4 +1,4 @@
-//! Effects of a document switched off, on and to the next choice.
+//! Switching effects of a document off and on, and stepping through choices.
 
 use super::adhesion::Adhesion;
 use super::document::{Document, pair};
@@ -10,17 +10,17 @@ use super::range::{Range, choice_key};
 use super::text::read_ron;
 use super::tree::{Tree, differing};
 
-/// The usual adhesion of a smooth body.
+/// The adhesion that is given to a smooth body.
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
-    /// This document without an effect; unchanged if the effect is off.
+    /// This document without an effect; unchanged if the effect is off already.
     ///
-    /// Without roughness, adhesion by κ or e_el/γ becomes adhesion by work: the work that a key has left, else the usual
-    /// one. Without unloading, the stage that presses most remains.
+    /// Without roughness, adhesion given by κ or e_el/γ becomes adhesion by a work: the work that was replaced by a key,
+    /// else the usual one. Without unloading, only the stage that presses most remains.
     ///
     /// # Errors
-    /// The scene does not allow to leave the effect out.
+    /// The scene does not allow the effect to be left out.
     pub fn without(&self, effect: Effect) -> Result<Document, SceneErrors> {
         let mut scene = Scene::clone(self.scene());
         if !effect.is_on(&scene) {
@@ -47,9 +47,9 @@ impl Document {
         Ok(new)
     }
 
-    /// This document with an effect; unchanged if the effect is on.
+    /// This document with an effect; unchanged if the effect is on already.
     ///
-    /// Restores the values that were removed when the effect was switched off; values changed since stay. If there are
+    /// Restores the values that were removed when the effect was switched off; values changed since then stay. If there are
     /// none, or if they are no longer valid, the effect takes values that suit the scene.
     ///
     /// # Errors
@@ -66,7 +66,8 @@ impl Document {
         restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
     }
 
-    /// This document with the values of another scene. Of a group whose choices stay, the numbers change one by one.
+    /// This document with the values of another scene. In a group with the same choice, only the changed numbers are
+    /// replaced.
     ///
     /// # Errors
     /// Invalid values.
@@ -82,11 +83,11 @@ impl Document {
         self.with_scene(&Scene { adhesion: Some(adhesion), ..Scene::clone(self.scene()) })
     }
 
-    /// This document with the next choice of a field in this direction that the scene allows; `None` if there is no
+    /// This document with the next choice of a field, forwards or backwards, that the scene allows; `None` if there is no
     /// other.
     ///
-    /// Omitting an effect switches it off, and the next choice switches it on again. Any choice comes back as it was when
-    /// this document or one that led to it left the choice, and has its usual numbers before.
+    /// The choice that omits an effect switches it off, and the next one switches it on again. A choice that was left
+    /// before comes back as it was then; any other choice has its usual numbers.
     ///
     /// # Errors
     /// No other choice is allowed.
@@ -127,7 +128,8 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// A choice as it was left, if that is still allowed, else at values that suit the scene or are usual.
+    /// This document with a choice as it was left, if that is still allowed, else with values that suit the scene or are
+    /// usual.
     fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
         let is_same = |text: &str| choice_key(text) == choice_key(choice);
         let left = self.left.iter().find(|(of, text)| *of == path && is_same(text));
@@ -148,7 +150,7 @@ impl Document {
     }
 }
 
-/// Overrides that make one scene another: a field that is no longer given is replaced with its group.
+/// Overrides that turn one scene into another; a field that is no longer given is replaced together with its group.
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
     let [from, to] = [from, to].map(Tree::of);
     let changed = differing([&from, &to], |before, after| after || !before).into_iter();

@@ -1,4 +1,4 @@
-//! A scene as one tree of values: reading, setting and writing by the paths of the table of fields.
+//! A scene as a tree of values that are read, set and written by the paths of the table of fields.
 
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -9,8 +9,8 @@ use super::model::Scene;
 use super::range::Range;
 use super::text::{ron_float, ron_string};
 
-/// The values of a scene. A choice is the name of its variant, or a group in a group of this one name; an omitted field
-/// has no value.
+/// The values of a scene as JSON. A choice is the name of its variant, or an object with this name as its only key and the
+/// fields of the variant inside; an omitted field has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree(Value);
 
@@ -20,10 +20,10 @@ impl Tree {
         Tree(serde_json::to_value(scene).unwrap_or_default())
     }
 
-    /// The scene with these values.
+    /// The scene that has these values.
     ///
     /// # Errors
-    /// The contradiction between fields, with their path.
+    /// The contradiction between fields, with their paths.
     pub fn scene(self) -> Result<Scene, String> {
         serde_json::from_value(self.0).map_err(|error| error.to_string())
     }
@@ -33,8 +33,8 @@ impl Tree {
         self.at(path)?.as_f64()
     }
 
-    /// Sets the number at a path, valid or not. An omitted number of the selected choice is added, a missing adhesion
-    /// is made for it.
+    /// Sets the number at a path, valid or not. An omitted number of the selected choice is added; a missing adhesion is
+    /// created for one of its numbers.
     ///
     /// Returns `false`, with the tree unchanged, if the scene has no such number.
     pub fn set(&mut self, path: &str, value: f64) -> bool {
@@ -66,7 +66,7 @@ impl Tree {
         true
     }
 
-    /// Value at a path, without the names of variants around it.
+    /// Value at a path, where names of variants do not count.
     fn at(&self, path: &str) -> Option<&Value> {
         path.split('.').try_fold(&self.0, |group, name| match contents(group) {
             Value::Object(group) => group.get(name),
@@ -84,13 +84,14 @@ impl Tree {
         group.is_some_and(|group| !group.is_null() && is_of(group))
     }
 
-    /// Value of a field; `None` if it is omitted, or belongs to another choice. A number that is not finite is `null`.
+    /// Value of a field; `None` if it is omitted, or belongs to a choice that is not selected. A number that is not finite
+    /// is `null`.
     pub(super) fn value(&self, field: &Field) -> Option<&Value> {
         let is_given = |value: &&Value| !value.is_null() || matches!(field.range, Range::Real(..));
         self.at(field.path).filter(is_given).filter(|_| self.has(field))
     }
 
-    /// The fields inside a field, for its present choice.
+    /// The fields inside a field, for its selected choice.
     pub(super) fn inside(&self, field: &Field) -> Vec<&'static Field> {
         let has_fields = matches!(field.range, Range::Choice(_) | Range::Group);
         let value = self.value(field).filter(|_| has_fields);
@@ -103,7 +104,7 @@ impl Tree {
         if is_stepwise { "Grid" } else { field.default }
     }
 
-    /// Value of a field in RON, or its default. `None` if the field belongs to another choice.
+    /// Value of a field in RON, or its default. `None` if the field belongs to a choice that is not selected.
     pub(super) fn written(&self, field: &Field) -> Option<String> {
         let Some(value) = self.value(field) else {
             return self.has(field).then(|| self.default(field).into());
@@ -125,7 +126,7 @@ impl Tree {
         })
     }
 
-    /// Those fields that differ from their defaults, as `name: value`.
+    /// The fields that differ from their defaults, as `name: value`.
     fn entries(&self, fields: &[&Field]) -> impl Iterator<Item = String> {
         fields.iter().filter_map(|field| {
             let value = self.written(field).filter(|value| value != self.default(field))?;
@@ -134,8 +135,8 @@ impl Tree {
     }
 }
 
-/// Fields with different values in two scenes: each by itself where both make the same choices and `splits` holds for each
-/// field, given or omitted in the two scenes; else their group.
+/// Fields with different values in two scenes: each by itself where both scenes make the same choices and `splits` is true
+/// for every field of the group (given whether it is stated in each scene), otherwise the group.
 pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Vec<&'static Field> {
     let mut fields: Vec<&Field> = fields_inside("", None).collect();
     let mut found = Vec::new();
@@ -159,8 +160,8 @@ pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Ve
     found
 }
 
-/// The scene as canonical RON text, ending in a line break, without fields that have their default; parsing the text
-/// returns the same scene.
+/// The scene as canonical RON text that ends in a line break and omits fields with their default; parsing it returns the
+/// same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let tree = Tree::of(scene);
     let fields: Vec<&Field> = fields_inside("", None).collect();
@@ -189,7 +190,7 @@ fn joined(list: &[Value], written: impl Fn(&Value) -> String) -> String {
     list.iter().map(written).collect::<Vec<_>>().join(", ")
 }
 
-/// Name of the variant of a choice.
+/// Name of the variant of a choice; `None` for a value that is no choice.
 fn variant(value: &Value) -> Option<&str> {
     match value {
         Value::String(name) => Some(name),
@@ -200,7 +201,7 @@ fn variant(value: &Value) -> Option<&str> {
     }
 }
 
-/// The value inside the name of a variant.
+/// The value without the name of its variant.
 fn contents(value: &Value) -> &Value {
     match (value, variant(value)) {
         (Value::Object(group), Some(name)) => &group[name],
@@ -222,12 +223,10 @@ mod tests {
     use super::super::open::open;
     use super::*;
 
-    /// A rough scene with adhesion by work.
     fn sound() -> Scene {
         Scene::clone(open("rough-sphere").unwrap().set("form", "None").unwrap().scene())
     }
 
-    /// A scene for every variant of every choice.
     fn scenes_of_all_variants() -> Vec<Scene> {
         let base = Document::from_scene(&sound(), "base").unwrap();
         let all = |path: &'static str| match field(path, None).map(|field| field.range) {

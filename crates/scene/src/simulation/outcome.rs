@@ -12,7 +12,7 @@ use asperity_surface::{Histogram, SurfaceError};
 use serde::Serialize;
 use thiserror::Error;
 
-/// All results of one scene.
+/// All results of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// Facts about the profile.
@@ -21,46 +21,46 @@ pub struct Outcome {
     pub governing: Governing,
     /// Ideal adhesion force F_a,max, eq. (14), N; `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
-    /// Adhesion force F_smooth of the same body without roughness after the same preload, N; `None` without adhesion.
+    /// Adhesion force F_smooth, N, of the same body without roughness after the same preload; `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
     /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or an unloading stage.
     pub zero_load_adhesion_force: Option<f64>,
-    /// The same by the zero-force protocol, N.
+    /// Adhesion force F_a(0) by the zero-force protocol, N; `None` without adhesion or an unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
-    /// Tabor number μ; `None` without adhesion or radius of curvature.
+    /// Tabor number μ; `None` without adhesion or a radius of curvature.
     pub tabor_number: Option<f64>,
-    /// Waves too steep for the theory of Johnson, Kendall and Roberts.
+    /// Waves of a sphere, if they are too steep for the theory of Johnson, Kendall and Roberts.
     pub steep_waves: Option<SteepWaves>,
-    /// Regime of Fig. 4 by the touch protocol; `None` without a tensile force.
+    /// Regime of adhesion (Fig. 4) by the touch protocol; `None` without a tensile force.
     pub regime: Option<Regime>,
-    /// The same by the zero-force protocol.
+    /// Regime of adhesion by the zero-force protocol; `None` without a tensile force.
     pub regime_after_zero_force: Option<Regime>,
     /// Headline figures of the loading history.
     pub figures: Figures,
-    /// Figures over the displacement of the instrument; `None` for a rigid one.
+    /// Figures over the displacement of the instrument; `None` for a rigid instrument.
     pub instrument: Option<InstrumentFigures>,
     /// The loading history itself.
     pub history: History,
-    /// Patches in contact after each loading stage, if observed.
+    /// Contact patches after each loading stage, if observed.
     pub fragments: Vec<Vec<Patch>>,
     /// Histogram of the heights of the profile, if observed.
     pub histogram: Option<Histogram>,
-    /// Times of the stages.
+    /// Times of the computing stages.
     pub timings: Timings,
 }
 
-/// Facts about a profile besides its heights.
+/// Facts about a profile, without its heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineFacts {
-    /// Springs N of the foundation.
+    /// Number of springs N of the foundation.
     pub points: usize,
     /// Apparent diameter L, m.
     pub length: f64,
-    /// Distance Δx between springs, m.
+    /// Spring spacing Δx, m.
     pub spacing: f64,
     /// Index of the first spring under the body; above zero only under a punch.
     pub first: usize,
-    /// Height of the highest point, m.
+    /// Height of the highest point, m, above the apex of the form and the mean of the roughness.
     pub summit: f64,
     /// Largest gap, m.
     pub deepest: f64,
@@ -68,28 +68,28 @@ pub struct LineFacts {
     pub modes: Option<(u64, u64)>,
     /// Seed of the roughness.
     pub seed: Option<u64>,
-    /// The rms gradient by the integrals of eq. (12) for the same rms height.
+    /// Rms gradient by the integrals of eq. (12), for the same rms height.
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// Times of the stages, s; zero for a stage that did not run.
+/// Times of the computing stages, s; zero for a stage that did not run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
-    /// Making the profile.
+    /// Time for making the profile, s.
     pub line: f64,
-    /// Building the tree and counting heights into the histogram.
+    /// Time for building the contact tree and counting heights into the histogram, s.
     pub tree: f64,
-    /// Thresholds of all loading stages, or the steps of the stepwise solver.
+    /// Time for the thresholds of all loading stages, or for the steps of the stepwise solver, s.
     #[serde(rename = "loop")]
     pub passes: f64,
-    /// Curves and exact extremes of all loading stages.
+    /// Time for the curves and exact extremes of all loading stages, s.
     pub curve: f64,
-    /// F_a(0) by both protocols, for the regimes.
+    /// Time for F_a(0) by both protocols, for the regimes, s.
     pub zero_load: f64,
 }
 
 impl Timings {
-    /// Time of all stages, s.
+    /// Time of all computing stages, s.
     pub fn total(&self) -> f64 {
         self.line + self.tree + self.passes + self.curve + self.zero_load
     }
@@ -110,18 +110,18 @@ pub enum RunError {
         /// Required bytes.
         bytes: u64,
     },
-    /// The profile could not be made.
+    /// The profile could not be made, for this reason.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// Reversals with the stepwise solver.
+    /// Reversals were requested for the stepwise solver.
     #[error("numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact")]
     NeedsExactSolver,
-    /// Turning points of a loading that does not press.
+    /// Turning points were requested for a loading that never presses.
     #[error(
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
-    /// A preload that no loading reaches, since the first touch already pulls less.
+    /// No loading reaches the preload, since the contact already has a larger force at first touch.
     #[error(
         "preload {}: allowed: at least the force at first touch, {}",
         format_quantity(*preload, "N"),
@@ -133,10 +133,10 @@ pub enum RunError {
         /// Force at first touch, N.
         touch: f64,
     },
-    /// A stage that presses the body deeper than its length beyond full contact.
+    /// A stage presses the body deeper than one length of the profile beyond full contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
-    /// The contact could not be computed.
+    /// The contact could not be computed, for this reason.
     #[error("{}", out_of_reach(.0, Move::ToTouch))]
     Contact(#[from] ContactError),
 }

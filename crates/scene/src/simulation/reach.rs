@@ -1,4 +1,4 @@
-//! Forces that a contact does not reach or is not to reach, in words, with the nearest force within reach.
+//! Targets out of reach of a contact or of the model, in words, with the nearest target within reach.
 
 use crate::scene::field::target_field;
 use asperity_contact::Move;
@@ -7,11 +7,11 @@ use asperity_data::format_quantity;
 use asperity_data::round_to;
 use thiserror::Error;
 
-/// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. From full
-/// contact on the force curve is a straight line, and so deep a body is no longer on a half-space that deforms little.
+/// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. Beyond full
+/// contact the force curve is a straight line, and a body so deep is no longer on a half-space with small deformations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
-    /// Force and indentation at which the last spring touches, N and m.
+    /// Force, N, and indentation, m, at which the last spring touches.
     pub full_contact: (f64, f64),
     /// Force in the deepest state, N.
     pub force: f64,
@@ -32,7 +32,7 @@ impl Reach {
         Reach { full_contact, force, indentation, displacement }
     }
 
-    /// Reason against a stage beyond the deepest state, in words.
+    /// Reason why a stage beyond the deepest state is refused, in words; `None` for a stage within reach.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }
@@ -49,7 +49,7 @@ impl Reach {
     }
 }
 
-/// A stage that presses the body deeper than its length beyond full contact.
+/// A stage that presses the body deeper than one length of the profile beyond full contact.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
     "{} is far beyond full contact at {}, deeper by more than the length of the profile; allowed: at most {}",
@@ -60,15 +60,15 @@ impl Reach {
 pub struct BeyondFullContact {
     /// Target of the stage, in `unit`.
     pub found: f64,
-    /// Value of the refused quantity, a force, an indentation or a displacement, at full contact, in its SI unit.
+    /// Value at full contact of the quantity that is the target (force, indentation or displacement), in `unit`.
     pub full_contact: f64,
-    /// Largest allowed target, rounded to four digits.
+    /// Largest allowed target, rounded to four digits, in `unit`.
     pub allowed: f64,
-    /// Unit of the three numbers: N or m.
+    /// SI unit of the three numbers: N or m.
     pub unit: &'static str,
 }
 
-/// Refuses a loading with a stage out of reach.
+/// Returns an error for a loading with a stage beyond the deepest state.
 pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFullContact> {
     let length = contact.foundation().length;
     // Even without the way to full contact most loadings are within reach.
@@ -84,13 +84,13 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
     loading.iter().find_map(|stage| reach.beyond(*stage)).map_or(Ok(()), Err)
 }
 
-/// Force by which full contact resists one length of the profile more, N.
+/// Force by which an indentation of one length of the profile increases the force at full contact, N.
 fn force_of_a_length(contact: &Contact) -> f64 {
     let foundation = contact.foundation();
     foundation.spring_stiffness() * contact.gaps().len() as f64 * foundation.length
 }
 
-/// Reason for which a body does not move to a target, with forces rounded into the allowed range.
+/// Reason why a body does not move to a target, in words, with forces rounded into the allowed range.
 pub fn out_of_reach(error: &ContactError, target: Move) -> String {
     match (error, target) {
         (ContactError::Stage { index, target, reason }, _) => {
@@ -104,7 +104,7 @@ pub fn out_of_reach(error: &ContactError, target: Move) -> String {
     }
 }
 
-/// The nearest number of four digits not below a value.
+/// The smallest number of four digits that is not below a value.
 pub(super) fn rounded_up(value: f64) -> f64 {
     let nearest = round_to(value, 4);
     let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));

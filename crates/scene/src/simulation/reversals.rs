@@ -13,23 +13,23 @@ use asperity_contact::Move;
 use asperity_contact::{Body, ContactError, Reversal};
 use std::ops::RangeInclusive;
 
-/// Turning points of a map.
+/// Allowed number of turning points of a map.
 pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
-/// Most points of a map below its first turning point, over the number of turning points.
+/// Limit of the number of points of a map below its first turning point, over the number of turning points.
 const MOST_BELOW: usize = 4;
-/// Samples of a loading stage whose curve is not used.
+/// Number of samples of a loading stage whose curve is not used.
 pub const FEW_SAMPLES: u64 = 2;
 
-/// Receiver of reversals and the numbers of their turning points.
+/// Function that receives reversals, each with the index of its turning point.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Unloads a checked scene to separation from the ends of these stages, each of which begins at separation.
-    /// `see` receives each reversal with the number of its stage, from the shallowest on, with the forces at
-    /// `points`, ascending indentations in m. `stop` is polled between two reversals.
+    /// Unloads a checked scene to separation from the end of each of these stages, every one of which begins at separation.
+    /// `see` receives each reversal with the index of its stage, the shallowest first, with the forces at `points`,
+    /// ascending indentations in m. `stop` is polled between two reversals.
     ///
     /// # Errors
-    /// A scene with the stepwise solver, an end out of reach, insufficient memory or a stop.
+    /// The scene has the stepwise solver, an end is out of reach, memory is insufficient, or `stop` returned true.
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
@@ -53,18 +53,18 @@ impl Simulation {
     /// The deepest state of a checked scene within reach of the model.
     ///
     /// # Errors
-    /// Those of the profile of [`Simulation::run`].
+    /// As for the profile in [`Simulation::run`].
     pub fn reach(&mut self, scene: &CheckedScene) -> Result<Reach, RunError> {
         let plan = Workload::of_any(&Scene { loading: vec![Move::ToTouch], ..Scene::clone(scene) });
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 
-    /// First-order reversal curves of a checked scene from so many equally spaced turning points, at indentations
-    /// with the same spacing down to separation. The turning points lie between the indentations of two preloads, N, or
-    /// between first touch and the preload of the scene's own loading.
+    /// First-order reversal curves of a checked scene from `count` equally spaced turning points, at indentations with the
+    /// same spacing down to separation. The turning points lie between the indentations of two preloads, N, or else between
+    /// first touch and the preload of the scene's own loading.
     ///
     /// # Errors
-    /// Errors of [`Simulation::reverse`], and a loading that never presses.
+    /// As for [`Simulation::reverse`], and for a loading that never presses.
     pub fn reversal_map(
         &mut self,
         scene: &CheckedScene,
@@ -105,7 +105,7 @@ impl Simulation {
     }
 }
 
-/// Refuses a scene with the stepwise solver.
+/// Returns an error for a scene with the stepwise solver.
 fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
     if scene.numerics.solver == SolverChoice::Exact { Ok(()) } else { Err(RunError::NeedsExactSolver) }
 }

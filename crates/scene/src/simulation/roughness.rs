@@ -11,21 +11,20 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Parameters of the heights of a roughness at some points.
+/// Everything that determines the heights of a roughness.
 #[derive(Clone, PartialEq)]
 pub(super) struct RoughnessKey {
     source: Source,
-    /// Seed of the random phases, if there are any.
     seed: u64,
     points: usize,
     shift: f64,
 }
 
-/// Origin of a roughness.
+/// Where a roughness comes from.
 #[derive(Clone, PartialEq)]
 enum Source {
     SelfAffine(SelfAffine),
-    /// Files of each face, and the length of the line, m.
+    /// Paths of the files of each face, and the length of the line, m.
     Measured {
         faces: Vec<Vec<PathBuf>>,
         options: MeasuredOptions,
@@ -33,12 +32,12 @@ enum Source {
     },
 }
 
-/// Heights of the roughness before scaling.
+/// Heights of a roughness before scaling, with what is known of them.
 pub(super) struct Rough {
     pub key: RoughnessKey,
-    /// Empty once they have become the gaps of the profile.
+    /// Heights; empty once their memory has become the gaps of the profile.
     pub heights: Vec<f64>,
-    /// Amplitude of the self-affine profile of rms height 1 on a length of 1 m.
+    /// Amplitude of the self-affine profile, scaled to rms height 1 m on a length of 1 m.
     pub unit: Option<Amplitude>,
     /// Amplitude of a measured surface.
     pub measured: Option<Amplitude>,
@@ -46,14 +45,14 @@ pub(super) struct Rough {
     pub modes: Option<(u64, u64)>,
 }
 
-/// Maker of heights, with what serves several of them.
+/// Maker of heights, which keeps what serves several roughnesses.
 #[derive(Default)]
 pub(super) struct RoughnessMaker {
-    /// Folder of the files of the scenes.
+    /// Folder to which names of files in scenes are relative.
     pub folder: PathBuf,
-    /// A measured surface in place of the scenes' files.
+    /// A measured surface in memory that replaces the files of all scenes.
     pub measured: Option<Arc<MeasuredRoughness>>,
-    /// The equivalent line of the last files: it is small, and serves all seeds.
+    /// The equivalent line of the files read last: it is small, and serves all seeds.
     pub equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, Arc<MeasuredRoughness>)>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
@@ -61,7 +60,7 @@ pub(super) struct RoughnessMaker {
 }
 
 impl RoughnessMaker {
-    /// Returns the parameters of the roughness of a scene; `None` without roughness.
+    /// Returns everything that determines the roughness of a scene; `None` without roughness.
     pub fn key(&self, scene: &Scene) -> Option<RoughnessKey> {
         let points = scene.numerics.points as usize;
         let shift = scene.form.as_ref().map_or(0.0, |form| form.shift(points as u64));
@@ -76,7 +75,7 @@ impl RoughnessMaker {
         Some(RoughnessKey { source, seed: scene.seed().unwrap_or(0), points, shift })
     }
 
-    /// Makes heights and their known values; synthesised ones in this memory.
+    /// Makes the heights of a roughness; synthesised ones in the memory `memory`.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         let RoughnessKey { ref source, seed, points, shift } = key;
         let (faces, options, length) = match source {
@@ -107,7 +106,7 @@ impl RoughnessMaker {
         Ok(Rough { key, heights, unit: None, measured: Some(amplitude), modes })
     }
 
-    /// Returns the surface of the faces: the given one, the last equivalent line, or a new one.
+    /// Returns the measured surface of the faces: the given one, the equivalent line kept from the last call, or a new one.
     fn surface(
         &mut self,
         faces: &[Vec<PathBuf>],
@@ -125,8 +124,8 @@ impl RoughnessMaker {
     }
 }
 
-/// Springs, a power of two, on which the shortest wave of an equivalent line over a length (m) has twice the fewest springs
-/// of a resolved wave, from where on both edge models agree.
+/// Number of springs, a power of two, with which the shortest wave of an equivalent line over a length (m) has twice
+/// [`SPRINGS_PER_WAVE`]; from there on both edge models agree.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64).next_power_of_two().clamp(1024, MOST_POINTS)

@@ -16,11 +16,12 @@ use asperity_surface::Line;
 use std::sync::Arc;
 
 impl Simulation {
-    /// Adhesion force of the body of a scene without its roughness, N, after the preload of these figures, or after zero
-    /// force where none presses; `None` without adhesion. In closed form where there is one, else on the springs of the scene.
+    /// Adhesion force of the body of a scene without its roughness, N, after the preload in `figures`, or after zero force
+    /// if the preload is not compressive; `None` without adhesion. In closed form where there is one, otherwise on the
+    /// springs of the scene.
     ///
     /// # Errors
-    /// Insufficient memory or an unreadable form.
+    /// Memory is insufficient or the form cannot be read.
     pub fn smooth_adhesion_force(
         &mut self,
         scene: &CheckedScene,
@@ -53,7 +54,7 @@ impl Simulation {
         }
     }
 
-    /// Springs under a form without roughness: of the last scene with this form, or new ones.
+    /// Springs under a form without roughness: kept from the last scene if form, length and number are the same, or made.
     fn smooth_springs(&mut self, scene: &Scene, form: &Form) -> Result<Arc<Springs>, RunError> {
         let (length, points) = (scene.length, scene.numerics.points);
         let is_same = |of: &&SmoothSprings| of.form == *form && of.length == length && of.points == points;

@@ -1,4 +1,4 @@
-//! Execution of the stages of a scene whose input has changed since the last run.
+//! Execution of the computing stages whose input has changed since the last run.
 
 use super::outcome::{LineFacts, Outcome, RunError, Timings};
 use super::reach;
@@ -23,32 +23,31 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const HISTOGRAM_BINS: usize = 64;
-/// Factor of the memory of the next run above which that of former ones is released.
+/// Ratio of the kept memory to the memory that the next run needs above which the kept memory is released.
 const MOST_SPARE: u64 = 4;
-/// Bytes that are always kept.
+/// Number of bytes that is always kept.
 const SMALL: u64 = 32 << 20;
 
-/// The profile, the tree and their inputs: kept from run to run, so that a changed parameter repeats only the
-/// stages that depend on it. Repeated stages reuse their memory.
+/// Computes scenes. The profile, the contact tree and their inputs are kept from run to run, so that a changed parameter
+/// repeats only the computing stages that depend on it. Repeated stages reuse their memory.
 ///
 /// Between runs at most four times the memory of the last scene is kept ([`Workload::peak_bytes`], and 20 bytes for each
-/// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; that of glibc keeps blocks of less
-/// than 32 MiB, up to 64 MiB for each thread.
+/// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; the allocator of glibc keeps blocks
+/// of less than 32 MiB, up to 64 MiB for each thread.
 #[derive(Default)]
 pub struct Simulation {
-    /// True for a single scene: memory for another one is released at once.
+    /// True for a single scene: memory for a further profile is released at once.
     single: bool,
     maker: RoughnessMaker,
     roughness: Option<Rough>,
     line: Option<(LineKey, Line)>,
-    /// Histogram of the heights of the profile, once observed.
     histogram: Option<Histogram>,
     springs: Arc<Springs>,
-    /// Springs under the form alone, once F_smooth has needed them.
+    /// Springs under the form alone, once they were needed for F_smooth.
     pub(super) smooth: Option<SmoothSprings>,
-    /// Memory of the tree of a former profile.
+    /// Contact tree of a former profile, for the reuse of its memory.
     former_tree: ContactTree,
-    /// Memory of the largest run that is still kept, bytes.
+    /// Memory that is kept from former runs, bytes.
     kept: u64,
 }
 
@@ -61,7 +60,7 @@ struct LineKey {
     form: Option<Form>,
 }
 
-/// Springs under a form without roughness, and all that they depend on.
+/// Springs under a form without roughness, with all that they depend on.
 pub(super) struct SmoothSprings {
     pub form: Form,
     pub length: f64,
@@ -69,14 +68,14 @@ pub(super) struct SmoothSprings {
     pub springs: Arc<Springs>,
 }
 
-/// Contact of a scene before its loading, with the results of making its profile and tree.
+/// Contact of a scene before its loading, with the results of making the profile and the tree.
 pub(super) struct Prepared {
     pub contact: Contact,
     facts: LineFacts,
     governing: Governing,
     random_phases: u64,
     heights_binned: u64,
-    /// Times of profile and tree, s.
+    /// Times for the profile and the tree, s.
     timings: Timings,
 }
 
@@ -84,18 +83,18 @@ pub(super) struct Prepared {
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// A simulation with measured profiles in `folder`.
+    /// Creates a simulation whose scenes have their files in `folder`.
     pub fn new(folder: PathBuf) -> Self {
         Simulation { maker: RoughnessMaker { folder, ..RoughnessMaker::default() }, ..Simulation::default() }
     }
 
-    /// Frees the memory of the Fourier transform before the contact is solved, and makes the gaps of the profile in
-    /// the memory of its heights: less memory for a single scene, more time for each further profile.
+    /// Sets it up for a single scene: the memory of the Fourier transform is freed before the contact is solved, and the
+    /// gaps of the profile take the memory of its heights. Each further profile then takes more time.
     pub fn for_one_scene(self) -> Self {
         Simulation { single: true, ..self }
     }
 
-    /// Uses a measured surface in memory instead of the file of any scene.
+    /// Uses a measured surface in memory in place of the files of all scenes.
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
@@ -106,10 +105,11 @@ impl Simulation {
         self.line.as_ref().map(|(_, line)| line)
     }
 
-    /// Makes the profile of a checked scene, unless unchanged since the last one, and returns its known values.
+    /// Makes the profile of a checked scene, unless it is unchanged since the last one, and returns it with what is known
+    /// of it.
     ///
     /// # Errors
-    /// Insufficient memory or an unreadable measured profile.
+    /// Memory is insufficient or a measured profile cannot be read.
     pub fn make_line(&mut self, scene: &CheckedScene) -> Result<(&Line, LineFacts, Governing), RunError> {
         self.line_of(scene)
     }
@@ -165,7 +165,7 @@ impl Simulation {
         Ok(Arc::clone(&self.springs))
     }
 
-    /// Makes a profile from the heights of its roughness.
+    /// Makes a profile from the heights of its roughness and its form.
     fn lay_line(&mut self, scene: &Scene, key: &LineKey) -> Result<Line, RunError> {
         let LineKey { scale, length, points, .. } = *key;
         self.histogram = None;
@@ -191,7 +191,7 @@ impl Simulation {
         Ok(Line::from_roughness(memory, length, scene.form.as_ref(), scale)?)
     }
 
-    /// Makes the heights of a roughness; synthesised ones in this memory.
+    /// Makes the heights of a roughness; synthesised ones in the memory `memory`.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         // The transform allocates its own memory, and would end the process on failure.
         check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::from)?;
@@ -202,8 +202,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Makes the missing parts of the profile required by the plan: its histogram and its tree. Returns the number
-    /// of heights sorted into bins.
+    /// Makes the parts of the profile that the plan requires and that are missing: its histogram and its contact tree.
+    /// Returns the number of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
         let memory = take(&mut self.former_tree);
         if plan.runs(Stage::Tree) {
@@ -216,8 +216,8 @@ impl Simulation {
         Ok(binned)
     }
 
-    /// Checks the memory of a run before any allocation: kept memory counts, and is released if it is far too large
-    /// or in the way.
+    /// Checks before any allocation that a run has enough memory. Kept memory counts; it is released if it is far too large
+    /// or leaves too little room.
     fn make_room(&mut self, bytes: u64) -> Result<(), RunError> {
         if self.kept / MOST_SPARE > bytes && self.kept > SMALL {
             self.give_back();
@@ -236,7 +236,7 @@ impl Simulation {
         *self = Simulation { single: self.single, maker, ..Simulation::default() };
     }
 
-    /// Makes profile and tree of a checked scene for a contact by this plan.
+    /// Makes the profile and the contact of a checked scene by this plan.
     pub(super) fn prepare(
         &mut self,
         plan: &Workload,
@@ -267,18 +267,18 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Contact of a scene before its loading, and its governing parameters. The scene is a checked one, whose form may
-    /// have a radius that a fit tries.
+    /// Contact of a scene before its loading, and its governing parameters. The values of the scene are checked, except the
+    /// radius of its form, which a fit may vary.
     pub fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
 
-    /// Runs a checked scene by its plan. `stop` is polled now and then; `after` sees each stage of the scene's own
-    /// loading.
+    /// Runs a checked scene: only the computing stages that it needs. `stop` is polled now and then; `after` receives each
+    /// stage of the scene's own loading.
     ///
     /// # Errors
-    /// A failure of a stage or a stop; earlier results are kept for the next run.
+    /// A computing stage fails or `stop` returns true; earlier results are kept for the next run.
     pub fn run(
         &mut self,
         scene: &CheckedScene,
@@ -338,8 +338,8 @@ impl Simulation {
     }
 }
 
-/// Loads a contact with the solver of the scene and, if F_a(0) is requested, turned at first touch and at zero force.
-/// Returns the history, and F_a(0) by both protocols, N, where the contact pulls.
+/// Loads a contact with the solver of the scene; with `zero_load` also with turns at first touch and at zero force. Returns
+/// the history, and F_a(0) by both protocols, N, where the contact pulls.
 fn load(
     scene: &Scene,
     contact: &Contact,

@@ -1,4 +1,4 @@
-//! Stages of a scene, the fields that require them, and their costs. The run follows this plan.
+//! Computing stages of a scene, the fields that require them, and their costs. The run follows this plan.
 
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
@@ -7,29 +7,29 @@ use asperity_contact::CurvePoint;
 use asperity_contact::Edges;
 use serde::Serialize;
 
-/// Bytes per spring: a height of the roughness, or a gap of the profile.
+/// Bytes per spring of a height of the roughness or a gap of the profile.
 const HEIGHT: u64 = 8;
-/// Bytes per spring of a profile with modes up to Nyquist's: a quarter of the springs are local maxima of the gap, with a
-/// node and two turning points each, and each fourth spring has two sums.
+/// Bytes per spring of the contact tree for modes up to the Nyquist wave number: a quarter of the springs are local maxima
+/// of the gap, each with a node and two turning points, and every fourth spring has two sums.
 const NODE: u64 = 20;
-/// Bytes per spring of the passes: thresholds of a quarter of the springs, and runs of the present stage and of the one
-/// before. Runs are few except with almost no adhesion.
+/// Bytes per spring of the passes: thresholds of a quarter of the springs, and runs of the present and the previous stage.
+/// Runs are few except with almost no adhesion.
 const PASSED: u64 = 12;
-/// Bytes per spring of the stepwise solver: its threshold and its contact.
+/// Bytes per spring of the stepwise solver: its threshold and its state of contact.
 const RELAXED: u64 = 9;
-/// Bytes per sample of the present loading stage in addition to its curve, as measured; and with edges between springs,
-/// which are also summed for each sample.
+/// Bytes per sample of the present loading stage besides its curve, as measured; and with edges between springs, whose
+/// contributions are also summed for each sample.
 const SAMPLED: u64 = 64;
 const SAMPLED_WITH_EDGES: u64 = 120;
 /// Largest prime factor of a number of springs that the Fourier transform handles directly.
 const LARGEST_FACTOR: u64 = 31;
 
-/// Reasons to skip several stages.
+/// Reasons why several computing stages are skipped.
 const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
 const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
-/// A stage of the computation of a curve from a scene, in the order of execution.
+/// A computing stage from a scene to its force curve, in the order of execution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
@@ -39,21 +39,21 @@ pub enum Stage {
     Synthesis,
     /// Reading a measured profile.
     MeasuredProfile,
-    /// Building the tree of the gaps.
+    /// Building the contact tree of the gaps.
     Tree,
     /// Evaluating the rule of Hess.
     RuleOfHess,
-    /// Runs of stages that load.
+    /// Listing the runs of loading stages that load.
     LoadingPass,
-    /// Runs of stages that unload.
+    /// Listing the runs of loading stages that unload.
     UnloadingPass,
-    /// Steps and relaxation sweeps.
+    /// Steps and relaxation sweeps of the stepwise solver.
     Relaxation,
-    /// The loops that turn at first touch and at zero force, for F_a(0) and the regimes.
+    /// The loops with turns at first touch and at zero force, for F_a(0) and the regimes.
     ZeroLoadAdhesion,
-    /// The list of contact patches.
+    /// Listing the contact patches.
     Fragments,
-    /// The histogram of heights.
+    /// Counting heights into the histogram.
     HeightHistogram,
 }
 
@@ -65,55 +65,54 @@ impl Stage {
         "height histogram",
     ];
 
-    /// Name of the stage in words.
+    /// Name of the computing stage in words.
     pub fn name(self) -> &'static str {
         Stage::NAMES[self as usize]
     }
 }
 
-/// A stage, its selection by a scene, and its cost, which is zero for a skipped stage.
+/// A computing stage, whether a scene runs it, and its cost, which is zero for a skipped stage.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// The stage.
     pub stage: Stage,
     /// True if the stage runs.
     pub runs: bool,
-    /// The field that requires the stage, or the reason why it is skipped.
+    /// Name of the field that requires the stage, or the reason why it is skipped.
     pub because: &'static str,
-    /// Passes over the profile or its tree; `None` for one or more in each loading stage, by its direction.
+    /// Number of passes over the profile or its tree; `None` for at least one in each loading stage of its direction.
     pub passes: Option<u64>,
-    /// Most springs visited in all passes; `None` if their number is.
+    /// Largest number of springs visited in all passes; `None` if `passes` is.
     pub springs_touched: Option<u64>,
-    /// Bytes of the arrays added during the stage.
+    /// Bytes of the arrays that the stage adds.
     pub bytes: u64,
 }
 
-/// The stages of a scene, in the order of execution.
+/// The computing stages of a scene, in the order of execution, with its memory.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Workload {
-    /// Springs under the body.
+    /// Number of springs under the body.
     pub springs: u64,
-    /// Approximate peak memory of a run beside the program itself, bytes: all its arrays, and the resulting curves.
-    /// Additional memory, unknown here: the content of a measured file, 16 bytes for each of its points, and lists
-    /// of fragments.
+    /// Approximate peak memory of a run besides the program itself, bytes: all arrays and the resulting curves. Not included,
+    /// because unknown here: the content of a measured file, 16 bytes for each of its points, and lists of contact patches.
     pub peak_bytes: u64,
-    /// Approximate largest resident memory of `asperity run`, bytes: with the program itself, and without the
-    /// heights of roughness, whose memory a single scene reuses for its gaps.
+    /// Approximate largest resident memory of `asperity run`, bytes: with the program itself, and without the heights of
+    /// the roughness, whose memory the gaps of a single scene reuse.
     pub resident_bytes: u64,
-    /// All stages, including skipped ones.
+    /// All computing stages, including skipped ones.
     pub stages: Vec<PlannedStage>,
 }
 
 impl Workload {
-    /// Resident bytes of the program after a small scene: code, tables and stacks.
+    /// Resident memory of the program after a small scene, bytes: code, tables and stacks.
     pub const PROGRAM: u64 = 14 << 20;
 
-    /// Plans the stages of a scene.
+    /// Plans the computing stages of a scene.
     pub fn of(scene: &CheckedScene) -> Self {
         Workload::of_any(scene)
     }
 
-    /// Plans the stages of a checked scene, which may have any other loading.
+    /// Plans the computing stages of a checked scene whose loading may have been replaced.
     pub(super) fn of_any(scene: &Scene) -> Self {
         let (points, springs) = (scene.numerics.points, scene.springs_under_body().count() as u64);
         let stages = stages(scene, points, springs);
@@ -141,13 +140,12 @@ impl Workload {
         self.stages.iter().find(|planned| planned.stage == stage).map_or(0, |planned| planned.bytes)
     }
 
-    /// Returns the bytes of all stages that make the profile.
+    /// Returns the bytes of the stages that make the profile.
     pub(super) fn line_bytes(&self) -> u64 {
         HEIGHT * self.springs + self.bytes(Stage::Synthesis).max(self.bytes(Stage::MeasuredProfile))
     }
 }
 
-/// Plans all stages.
 fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
     let (adhesive, pulls) = (Effect::Adhesion.is_on(scene), Effect::Unloading.is_on(scene));
     let exact = scene.numerics.solver == Solver::Exact;

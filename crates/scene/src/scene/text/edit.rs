@@ -1,27 +1,27 @@
-//! Edits of one entry in a text, with every comment preserved.
+//! Edits of one entry in a text, which keep every comment.
 
 use std::ops::Range;
 
 use super::index::{Span, Text};
 
-/// Message for a value that another one follows, or that ends within the text around it.
+/// Message for a text that is more than one value, or less than a whole one.
 pub(in crate::scene) const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
 impl Text {
     /// The text with another value at a path.
     ///
     /// # Errors
-    /// No entry with this path, or text that is not one value.
+    /// There is no entry with this path, or `value` is not exactly one value.
     pub fn replace(&self, path: &str, value: &str) -> Result<Text, String> {
         let entry = self.span(path).ok_or("there is no such element")?;
         self.spliced(vec![(entry.value.clone(), value.to_string())], path, value)
     }
 
-    /// The text with the entry `name: value` in the group at a path, empty for the whole: after the last of the
-    /// entries that precede the name in this order.
+    /// The text with the entry `name: value` added to the group at a path (empty for the whole): after the last entry that
+    /// precedes `name` in `order`.
     ///
     /// # Errors
-    /// No group with this path, or text that is not one value.
+    /// There is no group with this path, or `value` is not exactly one value.
     pub fn insert(&self, group: &str, name: &str, value: &str, order: &[&str]) -> Result<Text, String> {
         let inside = self.span(group).and_then(|entry| entry.inside.clone());
         let inside = inside.ok_or_else(|| format!("{group} has no fields here"))?;
@@ -42,8 +42,9 @@ impl Text {
         self.spliced(splices, &path, value)
     }
 
-    /// The text with other elements in the list at a path: those that stay, by their places, with the comments before them
-    /// and on their line, and new ones as written. `None` for an empty list, or where a comment leaves no readable text.
+    /// The text with other elements in the list at a path. An element that is kept has its index, and keeps the comments
+    /// before it and on its line; a new one is inserted as written. `None` for an empty list, or where a comment would make
+    /// the text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
         let (old, mut start) = (self.inside(list), inside.start);
@@ -75,7 +76,7 @@ impl Text {
         Text::new(source).ok()
     }
 
-    /// Splices that put an entry after another one, in the same style: on a line of its own, after the comment on the
+    /// Insertions that put an entry after another one in the same style: on a line of its own, after the comment on the
     /// line before, or on the same line.
     fn splices_after(&self, anchor: &Span, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
         let comma = if anchor.comma.is_some() { "," } else { "" };
@@ -101,8 +102,8 @@ impl Text {
         breaks.find(is_outside)
     }
 
-    /// The text with splices in ascending order, if the value at the path is then exactly the given one: a comment in
-    /// the value must not swallow the text behind it.
+    /// The text with splices in ascending order; an error unless the value at the path is then exactly `value`, since a
+    /// comment in it must not swallow the text behind it.
     fn spliced(&self, splices: Vec<(Range<usize>, String)>, path: &str, value: &str) -> Result<Text, String> {
         let mut source = self.source.clone();
         for (range, new) in splices.into_iter().rev() {
@@ -113,7 +114,7 @@ impl Text {
     }
 }
 
-/// The blanks before the first byte of a line; `None` on the first line, or if other bytes precede it.
+/// The blanks before an offset in its line; `None` on the first line, or if anything else precedes it in the line.
 fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];

@@ -1,14 +1,14 @@
 //! Places of the values in RON text: one flat list, made in one pass over the tokens.
 //!
-//! Paths consist of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`, `roughness.modes.1`;
-//! the whole has the empty path. Names of structs and variants and `Some(…)` are transparent:
-//! `roughness: Some(SelfAffine(hurst: 0.7))` has its 0.7 at `roughness.hurst`.
+//! Paths consist of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`, `roughness.modes.1`; the
+//! whole text has the empty path. Names of structs and variants and `Some(…)` do not count: `roughness:
+//! Some(SelfAffine(hurst: 0.7))` has its 0.7 at `roughness.hurst`.
 
 use std::ops::Range;
 
 use super::scan::{Kind, Scan, Token, Unreadable, scan};
 
-/// Longest path below which values have places: no scene has a longer one.
+/// Length of a path below which values are not indexed: no scene has a longer one.
 const LONGEST_PATH: usize = 100;
 
 /// RON text whose brackets and quotes match, with the places of its values.
@@ -16,11 +16,11 @@ const LONGEST_PATH: usize = 100;
 pub struct Text {
     pub(super) source: String,
     spans: Vec<Span>,
-    /// Bytes of the comments.
+    /// Byte range of each comment.
     pub(super) comments: Vec<Range<usize>>,
 }
 
-/// Place of a value, in bytes of the text.
+/// Place of a value, as byte ranges of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Span {
     /// Path of the value.
@@ -29,15 +29,15 @@ pub struct Span {
     pub entry: Range<usize>,
     /// The value alone.
     pub value: Range<usize>,
-    /// The value without any `Some(…)` around it.
+    /// The value, without `Some(…)` around it.
     bare: Range<usize>,
-    /// Between the brackets of the value.
+    /// The text between the brackets of the value.
     pub(super) inside: Option<Range<usize>>,
-    /// Byte after the comma that follows.
+    /// Offset of the byte after the comma that follows.
     pub(super) comma: Option<usize>,
 }
 
-/// Line and column of a byte, both from 1, columns counted in characters.
+/// Line and column of a byte offset, both from 1, columns counted in characters.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let ends = |offset: &usize| text.is_char_boundary(*offset);
     let before = &text[..(0..=offset.min(text.len())).rev().find(ends).unwrap_or(0)];
@@ -45,7 +45,7 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// The byte at a line and column, or the end of the line or text before it.
+/// Byte offset of a line and column; of the end of the line or text if that comes before.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut lines = text.split_inclusive('\n');
     let start: usize = lines.by_ref().take(line.saturating_sub(1)).map(str::len).sum();
@@ -62,7 +62,7 @@ impl Text {
     /// Reads a text and indexes its values.
     ///
     /// # Errors
-    /// A bracket, quote or comment that does not close.
+    /// A bracket, quote or comment is not closed.
     pub fn new(source: impl Into<String>) -> Result<Text, Unreadable> {
         let source = source.into();
         let Scan { tokens, comments } = scan(&source)?;
@@ -84,7 +84,7 @@ impl Text {
         self.spans.iter().find(|span| span.path == path)
     }
 
-    /// First byte of the value at a path, or of the nearest group around it.
+    /// Offset of the first byte of the value at a path, or of the nearest group around it.
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
         let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
         let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
@@ -92,12 +92,12 @@ impl Text {
         found.map(|span| span.value.start).or_else(opening).unwrap_or(0)
     }
 
-    /// The value at a path as written, with any `Some(…)` around it.
+    /// The value at a path as written, including `Some(…)` around it.
     pub(in crate::scene) fn written(&self, path: &str) -> Option<&str> {
         self.source.get(self.span(path)?.value.clone())
     }
 
-    /// The value at a path without any `Some(…)` around it.
+    /// The value at a path, without `Some(…)` around it.
     pub(in crate::scene) fn value(&self, path: &str) -> Option<&str> {
         self.source.get(self.span(path)?.bare.clone())
     }
@@ -108,34 +108,32 @@ impl Text {
         Some(name.strip_prefix("r#").unwrap_or(name)).filter(|name| !name.is_empty())
     }
 
-    /// Values of the group or list at a path, in order.
+    /// Values directly inside the group or list at a path, in order.
     pub(super) fn inside(&self, path: &str) -> Vec<&Span> {
         let group = |path: &str| path.rfind('.').unwrap_or(0);
         let is_inside = |span: &&Span| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
         self.spans.iter().filter(is_inside).collect()
     }
 
-    /// Number of comments.
     pub(in crate::scene) fn comments(&self) -> usize {
         self.comments.len()
     }
 
-    /// Path of the innermost value whose entry contains a byte; empty if there is none.
+    /// Path of the innermost value whose entry contains a byte offset; empty if there is none.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
         let around = self.spans.iter().filter(|span| span.entry.contains(&offset));
         around.max_by_key(|span| span.entry.start).map_or("", |span| &span.path)
     }
 }
 
-/// Tokens of a text.
 struct Tokens<'t> {
     source: &'t str,
     tokens: Vec<Token>,
 }
 
 impl Tokens<'_> {
-    /// Adds the value that starts at the second token, in an entry that starts at the first, and the values inside it.
-    /// Returns the token after it.
+    /// Indexes the value that starts at the token `first`, in an entry that starts at the token `start`, and the values
+    /// inside it. Returns the token after the value.
     fn add(&self, path: String, (start, first): (usize, usize), spans: &mut Vec<Span>) -> Option<usize> {
         let (end, inner) = (self.value_end(first)?, self.inside_some(first));
         let bytes = |first: usize, end: usize| self.tokens[first].start..self.tokens[end - 1].end;
@@ -175,7 +173,7 @@ impl Tokens<'_> {
         Some(end)
     }
 
-    /// The token with which the whole value starts, after attributes such as `#![enable(…)]`.
+    /// Index of the token with which the whole value starts, after attributes such as `#![enable(…)]`.
     fn root(&self) -> Option<usize> {
         let mut index = 0;
         loop {
@@ -191,7 +189,7 @@ impl Tokens<'_> {
         }
     }
 
-    /// The token after the value that starts at a token.
+    /// Index of the token after the value that starts at this token.
     fn value_end(&self, first: usize) -> Option<usize> {
         match (self.tokens.get(first)?.kind, self.tokens.get(first + 1).map(|token| token.kind)) {
             (Kind::Open(_, close), _) | (Kind::Word, Some(Kind::Open('(', close))) => Some(close + 1),
@@ -200,7 +198,7 @@ impl Tokens<'_> {
         }
     }
 
-    /// The value inside any number of `Some(…)`.
+    /// Index of the token with which the value inside any number of `Some(…)` starts.
     fn inside_some(&self, mut first: usize) -> usize {
         while self.word(first) == Some("Some")
             && matches!(self.tokens.get(first + 1), Some(Token { kind: Kind::Open('(', _), .. }))
@@ -217,7 +215,7 @@ impl Tokens<'_> {
         self.tokens.get(index).is_some_and(|token| token.kind == kind)
     }
 
-    /// The word at a token, without the mark of a raw identifier.
+    /// The word at a token, without the mark `r#` of a raw identifier.
     fn word(&self, index: usize) -> Option<&str> {
         let token = self.tokens.get(index).filter(|token| token.kind == Kind::Word)?;
         let word = &self.source[token.start..token.end];

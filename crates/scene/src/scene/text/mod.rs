@@ -11,14 +11,14 @@ pub(crate) mod edit;
 pub(crate) mod index;
 pub(crate) mod scan;
 
-/// Reads RON text with optional values that need no `Some`, and a variant of one group without brackets around it.
+/// Reads RON text; optional values need no `Some`, and a variant with one group needs no brackets around it.
 pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
     let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
     ron::Options::default().with_default_extension(extensions).from_str(text)
 }
 
-/// A number in RON: the shortest text that reads back as the same number, always with a decimal point,
-/// with an exponent if the number is much smaller or larger than one.
+/// Writes a number in RON: the shortest text that reads back as the same number, with a decimal point, and with an exponent
+/// if the number is much smaller or larger than one.
 pub fn ron_float(value: f64) -> String {
     let size = value.abs();
     if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
@@ -31,7 +31,7 @@ pub fn ron_float(value: f64) -> String {
     }
 }
 
-/// Text as a RON string; only characters that RON cannot contain literally are escaped.
+/// Writes text as a RON string; only characters that RON cannot contain literally are escaped.
 pub fn ron_string(text: &str) -> String {
     let mut string = String::with_capacity(text.len() + 2);
     string.push('"');

@@ -1,11 +1,10 @@
-//! Tokens of RON text, just fine enough to find values.
+//! Tokens of RON text, in no more detail than finding values needs.
 //!
-//! The reader of the `ron` package finds invalid text; this scanner finds the places of values, so that messages name
-//! them and edits replace them without the comments around them. Nesting of any depth is read without recursion.
+//! The `ron` package reports invalid text; this scanner finds the places of values, so that messages can name them and
+//! edits can replace them without touching comments. Nesting of any depth is scanned without recursion.
 
 use std::ops::Range;
 
-/// Kinds of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// An opening bracket, with the index of the token that closes it.
@@ -19,7 +18,7 @@ pub(super) enum Kind {
     Quoted,
 }
 
-/// A token and its bytes in the text.
+/// A token with its byte range in the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Token {
     pub(super) kind: Kind,
@@ -27,27 +26,26 @@ pub(super) struct Token {
     pub(super) end: usize,
 }
 
-/// Reason why text has no tokens, and its byte.
+/// Reason why text cannot be divided into tokens, and where.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unreadable {
-    /// Byte of the bracket, quote or comment that does not close.
+    /// Offset of the bracket, quote or comment that is not closed.
     pub offset: usize,
     /// The reason.
     pub reason: &'static str,
 }
 
-/// Tokens of a text, and the bytes of the comments between them.
+/// Tokens of a text, and the byte ranges of the comments between them.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
     pub(super) tokens: Vec<Token>,
     pub(super) comments: Vec<Range<usize>>,
 }
 
-/// White space of RON.
 const BLANKS: [char; 11] =
     [' ', '\t', '\n', '\r', '\x0B', '\x0C', '\u{85}', '\u{200E}', '\u{200F}', '\u{2028}', '\u{2029}'];
 
-/// Reads a text whose brackets match.
+/// Divides a text with matching brackets into tokens.
 pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
     let Scan { mut tokens, mut comments } = Scan::default();
     let mut open: Vec<(usize, char)> = Vec::new();
@@ -101,7 +99,7 @@ fn closing(bracket: char) -> char {
     }
 }
 
-/// The first byte at or after `at` that is neither white space nor comment. Adds comments in between.
+/// Offset of the first byte at or after `at` that is neither white space nor comment. Records the comments in between.
 fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result<usize, Unreadable> {
     let mut at = at;
     loop {
@@ -117,8 +115,8 @@ fn skip_blank(text: &str, at: usize, comments: &mut Vec<Range<usize>>) -> Result
     }
 }
 
-/// End of a comment that starts at this byte: for `//` the byte of the line break, for `/* */` the byte
-/// after it; `None` without a comment. Block comments nest.
+/// End of the comment that starts at this byte: for `//` the line break, for `/* */` the byte after it; `None` if no
+/// comment starts there. Block comments may be nested.
 fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     let rest = &text[at..];
     if rest.starts_with("//") {
@@ -148,7 +146,7 @@ fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     Err(Unreadable { offset: at, reason: "this comment is not closed" })
 }
 
-/// End of a string or character that starts at this byte; `None` without one.
+/// End of the string or character that starts at this byte; `None` if none starts there.
 fn quoted_end(text: &str, at: usize) -> Option<Result<usize, &'static str>> {
     let rest = &text[at..];
     let unprefixed = rest.strip_prefix('b').unwrap_or(rest);
@@ -181,7 +179,7 @@ fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static
     Err("this string is not closed")
 }
 
-/// The end of an identifier or a number: the next byte with another meaning.
+/// End of the identifier or number that starts at this byte.
 fn word_end(text: &str, at: usize) -> usize {
     let rest = &text[at..];
     let mut characters = rest.char_indices().skip(1);
