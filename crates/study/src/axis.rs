@@ -1,5 +1,5 @@
-//! Axes of a parameter study: the varied quantity, a number of a scene by its path or one that follows from several, and
-//! its values.
+//! Axes of a parameter study: the varied quantity, which is a number of a scene or a quantity derived from several, and its
+//! values.
 
 use asperity_contact::Move;
 use asperity_data::AxisScale;
@@ -8,16 +8,16 @@ use asperity_data::{printable, round_to};
 use asperity_scene::{FIELDS, Field, Range, RoughnessParameter, Scene, did_you_mean, field};
 use serde::{Deserialize, Serialize};
 
-/// Most values on one axis.
+/// Limit of the number of values on one axis.
 pub const MOST_VALUES: u64 = 1_000_000;
 
-/// Significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
+/// Number of significant digits of values between the ends of an axis: 0.15 rather than 0.15000000000000002.
 const DIGITS: usize = 12;
 
-/// Smallest relative difference of two values of an axis; a smaller one is rounding.
+/// Smallest relative difference of two values of an axis; a smaller difference counts as rounding.
 const APART: f64 = 1e-6;
 
-/// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
+/// Ratio of the ends of a list of values from which on the list is shown on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -28,15 +28,15 @@ pub(super) enum AxisText {
     List { path: String, values: Vec<f64> },
 }
 
-/// Distances between the values of an axis.
+/// How the values of an axis are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Spacing {
-    /// Equal differences.
+    /// Equal differences between neighbours.
     Linear,
-    /// Equal ratios.
+    /// Equal ratios between neighbours.
     Logarithmic,
-    /// Any.
+    /// Any list of values.
     List,
 }
 
@@ -45,13 +45,13 @@ pub enum Spacing {
 pub struct Axis {
     /// Path of the varied field, or name of a derived quantity.
     pub path: String,
-    /// Technical name: `Hurst exponent`.
+    /// Name in words: `Hurst exponent`.
     pub name: String,
-    /// Symbol, with `_` before an index: `F_n`. May be empty.
+    /// Symbol, with `_` before an index: `F_n`; empty if there is none.
     pub symbol: &'static str,
-    /// SI unit; `1` for numbers without one.
+    /// SI unit; `1` for numbers without a unit.
     pub unit: &'static str,
-    /// Distances between the values.
+    /// How the values are spaced.
     pub spacing: Spacing,
     /// Values in SI units, in the order of the plan; ascending on an axis of a grid.
     pub values: Vec<f64>,
@@ -59,17 +59,17 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis over a quantity of a scene.
+    /// Creates an axis over a quantity of a scene.
     ///
     /// # Errors
-    /// The path of no number.
+    /// The path leads to no number.
     pub fn new(path: &str, spacing: Spacing, values: Vec<f64>, scene: &Scene) -> Result<Axis, String> {
         let target = Target::of(path)?;
         let (name, symbol, unit) = target.label(path, scene);
         Ok(Axis { path: path.to_owned(), name, symbol, unit, spacing, values, target })
     }
 
-    /// Reads and checks the axis of a plan.
+    /// Reads and checks an axis of a plan.
     ///
     /// # Errors
     /// What is wrong with the axis, and what is allowed.
@@ -120,8 +120,8 @@ impl Axis {
         twice.map_or(Ok(axis), |pair| Err(format!("the value {:?} appears twice", pair[0])))
     }
 
-    /// `count` values from one end to the other. Those between the ends are rounded to 12 significant digits, and where the
-    /// field holds whole numbers, to the nearest of these.
+    /// `count` values from one end to the other. Values between the ends are rounded to 12 significant digits, or to whole
+    /// numbers where the field holds whole numbers.
     fn between(&self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Vec<f64> {
         let rounded = |value: f64| match self.is_whole() {
             true => value.round(),
@@ -153,24 +153,24 @@ impl Axis {
         }
     }
 
-    /// Symbol, or the name of a quantity without one.
+    /// Symbol of the quantity, or its name if it has no symbol.
     pub fn symbol_or_name(&self) -> &str {
         if self.symbol.is_empty() { &self.name } else { self.symbol }
     }
 
-    /// Symbol, or the path of a quantity without one.
+    /// Symbol of the quantity, or its path if it has no symbol.
     pub fn symbol_or_path(&self) -> String {
         if self.symbol.is_empty() { self.path.clone() } else { self.symbol.to_owned() }
     }
 
-    /// The axis at one of its values, in words: `H = 0.3`.
+    /// One of the values, by its index, with the symbol or the name: `H = 0.3`.
     pub(super) fn at(&self, place: usize) -> String {
         let equals = if self.symbol.is_empty() { "" } else { "= " };
         format!("{} {equals}{}", self.symbol_or_name(), format_quantity(self.values[place], self.unit))
     }
 
-    /// The value a number of steps above `value`, or below, on an ascending axis; the first or last value beyond the ends,
-    /// and `None` where `value` is already there.
+    /// The value `steps` values above (below, if negative) `value` on an ascending axis; beyond the ends the first or last
+    /// value, and `None` if `value` is already there.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;
@@ -183,7 +183,7 @@ impl Axis {
         Some(values[index])
     }
 
-    /// Places of the values in ascending order.
+    /// Indices of the values in ascending order of the values.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
         places.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
@@ -200,10 +200,10 @@ impl Axis {
 /// Quantities that are not fields of a scene.
 pub const DERIVED: &[&str] = &["preload", "springs_per_wave"];
 
-/// Numbers that cannot be varied: the version is no parameter, and seeds are counted from the plan's.
+/// Paths of numbers that cannot be varied: the version is no parameter, and seeds follow from the seed of the plan.
 const FIXED: &[&str] = &["version", "roughness.seed"];
 
-/// Ends of the paths of numbers: a number itself, and the first and the last number of a pair.
+/// Endings of the paths of numbers: of a number itself, and of the first and last number of a pair.
 const ENDS: [&str; 3] = ["", ".0", ".1"];
 
 /// A quantity that an axis varies.
@@ -215,22 +215,22 @@ pub(super) enum Target {
     Stage(usize),
     /// Preload F_n in units of E* h L.
     Preload,
-    /// Springs per period of the shortest wave: the last mode is points over this number.
+    /// Springs per period of the shortest wave; the last mode is the number of springs over this number.
     SpringsPerWave,
 }
 
-/// Part of a computation that a changed number repeats; later variants repeat least.
+/// Part of the computation that a changed number repeats; later variants repeat less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shapes {
-    /// The heights of the roughness, by a transform.
+    /// The heights of the roughness, by a Fourier transform, and all that follows.
     Roughness,
-    /// The profile, from known heights.
+    /// The profile, from known heights, and all that follows.
     Profile,
-    /// The passes over the tree alone.
+    /// Only the passes over the contact tree.
     Passes,
 }
 
-/// The field of the number at a path.
+/// The field that holds the number at a path; `None` for a path that cannot be varied.
 fn number(path: &str) -> Option<&'static Field> {
     ENDS.into_iter().find_map(|end| {
         let field = field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
@@ -244,10 +244,10 @@ fn number(path: &str) -> Option<&'static Field> {
 }
 
 impl Target {
-    /// Quantity of a path.
+    /// The quantity at a path.
     ///
     /// # Errors
-    /// No number has this path; names the nearest one.
+    /// No number has this path; the nearest path is named.
     pub fn of(path: &str) -> Result<Target, String> {
         match path {
             "preload" => return Ok(Target::Preload),
@@ -267,12 +267,12 @@ impl Target {
         })
     }
 
-    /// Returns true for an integer quantity.
+    /// Returns true for a quantity that is a whole number.
     pub fn is_whole(self) -> bool {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// κ or e_el/γ, which replaces a work of adhesion.
+    /// The parameter κ or e_el/γ, if the quantity is one; it replaces a work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
             Target::Number(field) => RoughnessParameter::named(field.path),
@@ -280,7 +280,7 @@ impl Target {
         }
     }
 
-    /// Part of the computation that a change of the quantity repeats.
+    /// Part of the computation that is repeated when the quantity changes.
     pub fn shapes(self) -> Shapes {
         let field = match self {
             Target::SpringsPerWave => return Shapes::Roughness,
@@ -297,7 +297,7 @@ impl Target {
         }
     }
 
-    /// Name, symbol, which may be empty, and SI unit of the quantity at this path of a scene.
+    /// Name, symbol (may be empty) and SI unit of the quantity at this path of a scene.
     pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
         match self {
             Target::Preload => ("preload".into(), "F_n/(E* h L)", "1"),

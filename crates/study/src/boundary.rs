@@ -1,10 +1,10 @@
-//! Boundary of vanishing zero-load adhesion: the boundary between pressure-insensitive and pressure-sensitive
-//! adhesion, eq. (15), with its statistical error.
+//! Boundary of vanishing zero-load adhesion, between pressure-insensitive and pressure-sensitive adhesion, eq. (15), with
+//! its statistical error.
 //!
-//! F_a(0) falls with κ about exponentially and never quite to zero, since a single spring still adheres. So the
-//! boundary κ* is where the mean of F_a(0) over the profiles falls below a share of the ideal adhesion force
-//! F_a,max; κ* depends on that share, and several shares are evaluated at a time. A boundary in κ is also one in
-//! e_el/γ: on profiles of one spectrum either determines the other.
+//! F_a(0) falls about exponentially with κ and never quite to zero, since a single spring still adheres. So the boundary κ*
+//! is where the mean of F_a(0) over the profiles falls below a share of the ideal adhesion force F_a,max; κ* depends on
+//! that share, and several shares are evaluated together. A boundary in κ is also one in e_el/γ, since on profiles of one
+//! spectrum each determines the other.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -18,65 +18,67 @@ use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::path::Path;
 
-/// Usual shares of F_a,max.
+/// Shares of F_a,max that are evaluated by default.
 pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
-/// Random choices of profiles for the confidence interval.
+/// Number of random selections of profiles for the confidence interval.
 const RESAMPLES: usize = 1000;
-/// Seed of these choices: the same table in each run.
+/// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// The boundary at one place on the other axes, by one protocol, for one share.
+/// The boundary for one combination of values on the other axes, one protocol and one share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
-    /// Values on the axes other than κ or e_el/γ, in their order.
+    /// Values on the axes other than κ or e_el/γ, in the order of these axes.
     pub others: Vec<f64>,
-    /// The recorded share, which identifies the protocol.
+    /// The recorded quantity F_a(0)/F_a,max, which identifies the protocol.
     pub protocol: Quantity,
     /// The share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
-    /// The boundary and its 95 % confidence interval by resampling of profiles.
+    /// Position of the boundary.
     pub crossing: Crossing,
 }
 
-/// κ or e_el/γ at which a mean falls below a share.
+/// κ or e_el/γ at which the mean of F_a(0)/F_a,max falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Value of the boundary, or the end of the study beyond which it lies.
+    /// The position, or the end of the studied range beyond which it lies.
     pub value: f64,
-    /// `Less` for a boundary below the smallest value of the study, `Greater` for one above the largest.
+    /// `Equal` for a position within the studied range, `Less` for one below its smallest value, `Greater` for one above
+    /// its largest.
     pub side: Ordering,
-    /// 95 % confidence interval, where profiles could be resampled and all samples cross.
+    /// 95 % confidence interval from random selections of profiles; `None` if there are too few profiles or a selection
+    /// does not cross the share.
     pub interval: Option<(f64, f64)>,
 }
 
 impl Crossing {
-    /// The value of a boundary within the study, with its interval.
+    /// The position and its confidence interval, if the position lies within the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
         self.side.is_eq().then_some((self.value, self.interval))
     }
 }
 
-/// The boundaries of a study.
+/// All boundaries of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundaries {
-    /// Parameter of the boundaries.
+    /// Parameter in which the boundaries are stated.
     pub over: RoughnessParameter,
     /// The axes other than κ or e_el/γ.
     pub others: Vec<Axis>,
-    /// Random profiles of each cell.
+    /// Number of random profiles of each cell.
     pub lines: u64,
-    /// Boundaries in the order of the cells, then of protocols, then of levels.
+    /// Boundaries, sorted by the values on the other axes, then by protocol, then by share.
     pub found: Vec<Boundary>,
 }
 
-/// F_a(0)/F_a,max over κ or e_el/γ in ascending order: each value with the shares of the same profiles.
+/// F_a(0)/F_a,max over ascending κ or e_el/γ: for each value the shares on the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Finds the boundaries of a merged study along its axis of κ or e_el/γ, in terms of either.
+/// Finds the boundaries of a merged study along its axis of κ or e_el/γ, and states them in either of the two.
 ///
 /// # Errors
-/// A study without such an axis or without a recorded share of F_a(0), or as [`Results::open`]; for a study of a measured
-/// surface along the other axis.
+/// The study has no such axis or recorded no F_a(0)/F_a,max, or the errors of [`Results::open`]; also a study of a measured
+/// surface whose axis is the other parameter.
 pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let study = Results::open(path)?;
     let plan = study.plan();
@@ -121,8 +123,8 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
     Ok(Boundaries { over, others, lines: plan.lines, found })
 }
 
-/// Shares on the profiles that all cells along an axis have, from a cell at the first value of the axis; cells without
-/// any share are left out.
+/// Shares on the profiles that all cells along an axis have, beginning with the cell `first` at the first value of the
+/// axis. Cells without any share are left out.
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
@@ -153,13 +155,13 @@ fn conversion(
     Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
 }
 
-/// Name of the protocol of a recorded share of F_a(0).
+/// Name of the protocol of a recorded quantity F_a(0)/F_a,max.
 pub fn protocol_name(share: Quantity) -> &'static str {
     if share == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
 }
 
 impl Boundaries {
-    /// Symbol of the boundary.
+    /// Symbol of the boundaries: κ* or (e_el/γ)*.
     pub fn symbol(&self) -> &'static str {
         match self.over {
             RoughnessParameter::Kappa => "κ*",
@@ -188,8 +190,8 @@ fn crossing(curve: &Curve, level: f64) -> Crossing {
     Crossing { value, side, interval }
 }
 
-/// κ beyond which the mean over the chosen profiles stays below a share, linearly interpolated in the logarithm of
-/// the share, or the end of the curve beyond which this κ lies.
+/// κ above which the mean over the chosen profiles stays below a share, by linear interpolation of the logarithm of the
+/// mean; or the end of the curve beyond which this κ lies.
 fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
     let mean = |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
     let means: Vec<(f64, f64)> = curve.iter().map(|(kappa, shares)| (*kappa, mean(shares))).collect();

@@ -1,4 +1,4 @@
-//! Outcome of one case, the source of all recorded quantities.
+//! Outcome of one case (one loading on one profile), from which all recorded quantities follow.
 
 use asperity_contact::Move;
 use asperity_contact::{CurvePoint, History, LegRecord, Reversal};
@@ -9,31 +9,31 @@ use asperity_scene::{Figures, Governing, Regime, ideal_adhesion_force, preload_p
 pub(super) struct CaseOutcome<'o> {
     /// Governing parameters.
     pub governing: Governing,
-    /// Recorded properties of the profile.
+    /// Properties of the profile that may be recorded.
     pub profile: ProfileRecord,
-    /// The scene; its loading is ignored.
+    /// Scene of the case; its own loading is ignored.
     pub scene: &'o Scene,
     /// F_a(0) by the touch protocol, N.
     pub zero_load: Option<f64>,
     /// F_a(0) by the zero-force protocol, N.
     pub zero_force: Option<f64>,
-    /// F_smooth after the preload of the loading, N, if a regime is recorded.
+    /// F_smooth after the preload, N, if a regime is recorded.
     pub smooth: Option<f64>,
-    /// The loading.
+    /// Outcome of the loading.
     pub loading: LoadingOutcome,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct LoadingOutcome {
     pub figures: Figures,
-    /// Largest length in contact, m.
+    /// Largest contact length, m.
     pub contact_length: Option<f64>,
-    /// Point of the preload.
+    /// Point of the force curve at the preload.
     pub preload: Option<CurvePoint>,
 }
 
 impl LoadingOutcome {
-    /// Outcome of these loading stages.
+    /// Outcome of a loading with these stages.
     pub fn of_legs(legs: Vec<LegRecord>) -> Self {
         let lengths = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.contact_length);
         let contact_length = lengths.reduce(f64::max);
@@ -42,7 +42,7 @@ impl LoadingOutcome {
         LoadingOutcome { figures, contact_length, preload }
     }
 
-    /// Outcome of a loading from separation to the end of this stage and back.
+    /// Outcome of a loading from separation to `leg`, the turning point of `reversal`, and back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
@@ -52,22 +52,22 @@ impl LoadingOutcome {
     }
 }
 
-/// Recorded properties that depend on the profile and the elasticity alone.
+/// Properties that depend on the profile and the elasticity alone.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ProfileRecord {
     /// Rms height about the mean, m, without the form.
     pub rms_height: Option<f64>,
-    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in rms heights, both zero for the
-    /// ensemble's normal distribution; `None` for a flat profile.
+    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in units of the rms height; both are
+    /// zero for a normal distribution. `None` for a flat profile.
     pub shape: Option<(f64, f64)>,
-    /// Height of the summit above the mean over the rms height.
+    /// Height of the highest point above the mean, over the rms height.
     pub summit: Option<f64>,
-    /// Exponents α of k ∝ F^α and n of F ∝ dⁿ of the contact without adhesion.
+    /// Exponents α of k ∝ F^α (stiffness k) and n of F ∝ dⁿ, for the contact without adhesion.
     pub exponents: Option<(f64, f64)>,
 }
 
 impl ProfileRecord {
-    /// Statistics of the heights of a profile with these gaps, m, of which this is the deepest.
+    /// Statistics of the heights of a profile with these gaps, m; `deepest` is the largest gap.
     pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
         let average =
             |of: &dyn Fn(f64) -> f64| gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64;
@@ -90,18 +90,18 @@ impl ProfileRecord {
 }
 
 impl CaseOutcome<'_> {
-    /// F_a,max of eq. (14), N.
+    /// Ideal adhesion force F_a,max of eq. (14), N.
     pub fn ideal(&self) -> Option<f64> {
         let Governing { work_of_adhesion, effective_modulus, .. } = self.governing;
         work_of_adhesion.map(|work| ideal_adhesion_force(work, effective_modulus, self.scene.length))
     }
 
-    /// A force over F_a,max.
+    /// A force, N, over F_a,max.
     pub fn share(&self, force: Option<f64>) -> Option<f64> {
         Some(force? / self.ideal().filter(|&ideal| ideal > 0.0)?)
     }
 
-    /// Largest length in contact over L.
+    /// Largest contact length over L.
     pub fn contact_fraction(&self) -> Option<f64> {
         self.loading.contact_length.map(|longest| longest / self.scene.length)
     }
@@ -111,7 +111,7 @@ impl CaseOutcome<'_> {
         scene_tabor_number(self.scene, &self.governing)
     }
 
-    /// Regime of this loading with this F_a(0), N, as its place in [`Regime::ALL`].
+    /// Index in [`Regime::ALL`] of the regime of this loading; `zero_load` is F_a(0), N.
     pub fn regime(&self, zero_load: Option<f64>) -> Option<f64> {
         Some(Regime::of_loading(&self.loading.figures, zero_load, self.smooth)? as u8 as f64)
     }
@@ -140,7 +140,7 @@ mod tests {
         assert_eq!((of(&[2.0; 5]).shape, of(&[]).shape), (None, None));
     }
 
-    /// Rough, smooth and without adhesion, with one work of adhesion and with two, by both edge models.
+    /// Rough, smooth and nonadhesive bodies, with one and two works of adhesion, with both edge models.
     #[test]
     fn the_outcome_of_a_reversal_is_that_of_a_run() {
         for name in ["pressure-sensitive", "rough-sphere", "kendall-punch", "non-adhesive", "two-works"] {

@@ -1,33 +1,34 @@
-//! The order and the parts of the computation of a plan.
+//! Order and division of the computation of a plan.
 //!
-//! A *streak* is one loading: all cells that differ in the preload alone. A *unit* is the work of one thread from end
-//! to end: streaks on one random profile with the same roughness, so that the profile and its tree are made once.
-//! Within a unit the numbers that shape the profile vary slowest.
+//! A *streak* is one loading: all cells that differ in the preload alone. A *unit* is computed by one thread: streaks on
+//! one random profile with the same roughness, so that the profile and its tree are made once. Within a unit the numbers
+//! that shape the profile vary slowest.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;
 use std::ops::Range;
 
-/// Number of units up to which profiles are divided into several, so that many processes can share a plan of few
-/// profiles.
+/// Number of units up to which the streaks of one profile are divided into several units, so that many processes can share
+/// a plan of few profiles.
 const ENOUGH_UNITS: u64 = 256;
-/// Fewest streaks of a divided profile: with fewer, making the profile would cost more than the streaks.
+/// Smallest number of streaks in a unit of a divided profile: with fewer, making the profile would cost more than they do.
 const LEAST_STREAKS: u64 = 16;
 
 /// Numbering of the streaks and units of a plan.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
-    /// Axes without that of preloads: those that shape the roughness, then those that shape the profile, then all others.
+    /// Indices of the axes except preloads: first axes that shape the roughness, then axes that shape the profile, then the
+    /// others.
     order: Vec<usize>,
-    /// Streaks on one profile of the same roughness.
+    /// Number of streaks on one profile with the same roughness.
     steps: u64,
     preloads: u64,
-    /// Streaks of one unit, and units of one profile.
+    /// Number of streaks of one unit, and number of units of one profile.
     chunk: u64,
     chunks: u64,
 }
 
-/// One loading on one profile.
+/// One loading on one profile, with all its preloads.
 pub(super) struct Streak {
     /// Cells of the streak, one for each preload.
     pub cells: Range<u64>,
@@ -54,7 +55,7 @@ impl<'p> Cells<'p> {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// The streaks of a unit in the most efficient order; units of one spectrum are consecutive.
+    /// The streaks of a unit in the most efficient order; units with the same spectrum are consecutive.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let (rest, start) = (unit / self.chunks, unit % self.chunks * self.chunk);
         let (group, line) = (rest / self.plan.lines, rest % self.plan.lines);

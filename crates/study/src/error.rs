@@ -10,18 +10,18 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Error that ends work on a study; earlier records are kept.
+/// Error that ends the work on a study; records written before are kept.
 #[derive(Debug, Error)]
 pub enum StudyError {
-    /// The plan is wrong.
+    /// The plan has errors.
     #[error(transparent)]
     Plan(#[from] PlanErrors),
     /// A folder or file of the study cannot be used.
     #[error("{}: {reason}", path_name(path))]
     Folder {
-        /// The folder or file.
+        /// Path of the folder or file.
         path: PathBuf,
-        /// Reason.
+        /// Reason, in words.
         reason: String,
     },
     /// The measured file of the study cannot be read.
@@ -33,12 +33,12 @@ pub enum StudyError {
     /// A cell or a profile could not be computed.
     #[error("{place}{error}")]
     Run {
-        /// Cell with its coordinates and seed of the profile, before a colon; empty for a single profile.
+        /// Cell with its coordinates and seed of the profile, followed by a colon; empty for a single profile.
         place: String,
-        /// Error of the run.
+        /// Reason of the failure.
         error: RunError,
     },
-    /// A study that is asked for in a way that is not allowed.
+    /// The request for a study is not allowed.
     #[error("{found}; allowed: {allowed}")]
     NotAllowed {
         /// The request that is refused, in words.
@@ -46,7 +46,7 @@ pub enum StudyError {
         /// The requests that are allowed, in words.
         allowed: &'static str,
     },
-    /// Records are missing.
+    /// Records are missing, and a partial table was not requested.
     #[error(
         "{missing} of {total} records are missing, in {cells} cells: {first}; run the study to its end, or merge with --partial"
     )]
@@ -57,25 +57,25 @@ pub enum StudyError {
         total: u64,
         /// Number of cells with missing records.
         cells: u64,
-        /// The first of these cells with their coordinates.
+        /// The first of these cells with their coordinates, in words.
         first: String,
     },
-    /// Two records of one cell and profile differ.
+    /// Two records of the same cell and profile differ.
     #[error(
         "{place}: two records differ, in {} and {}; remove the one that is wrong",
         path_name(&files[0]),
         path_name(&files[1])
     )]
     Conflict {
-        /// Cell with its coordinates, and seed of the profile.
+        /// Cell with its coordinates and seed of the profile.
         place: String,
-        /// Both files.
+        /// The two files that hold the records.
         files: [PathBuf; 2],
     },
-    /// A table of this number of records does not fit into the memory of the machine.
+    /// A table with this number of records does not fit into the memory.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
-    /// The study on this number of threads needs more memory than the machine has.
+    /// The study needs more memory on this number of threads than the system has.
     #[error(
         "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
         memory_size(*bytes)
@@ -83,23 +83,23 @@ pub enum StudyError {
     Memory {
         /// Number of threads.
         jobs: u64,
-        /// Memory of the study, bytes.
+        /// Memory that the study needs, bytes.
         bytes: u64,
     },
-    /// The system starts no thread.
+    /// The system starts no thread, for this reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
 
-/// Error for a study on no profile.
+/// Error of a request for a study without profiles.
 pub(super) const NO_PROFILES: StudyError =
     StudyError::NotAllowed { found: "no profiles", allowed: "at least one" };
-/// Error for several profiles of a scene that has a single one.
+/// Error of a request for several profiles of a scene that has a single one.
 pub(super) const FIXED_PROFILE: StudyError =
     StudyError::NotAllowed { found: ONE_PROFILE.0, allowed: ONE_PROFILE.1 };
 
 impl StudyError {
-    /// Error of a profile of a study of one cell, or one at each preload.
+    /// Error of one profile of a study that has a single cell, or one cell for each preload.
     pub(super) fn of_profile(plan: &Plan, line: u64, error: RunError) -> StudyError {
         let place = if plan.lines > 1 { format!("seed {}: ", plan.seed_of(line)) } else { String::new() };
         StudyError::Run { place, error }

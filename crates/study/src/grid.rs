@@ -1,4 +1,4 @@
-//! A grid of cells over one axis or two: what maps, sections and tables of a study or of the live map show.
+//! A grid of cells over one or two axes, as maps, sections and tables of a study or of the live map show it.
 
 use super::axis::Axis;
 use super::quantity::Quantity;
@@ -12,32 +12,32 @@ const LOGARITHMIC_RATIO: f64 = 50.0;
 /// A cell of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// The quantities of the layers, in their order; `None` where no profile has a value.
+    /// Statistics of the quantity of each layer, in their order; `None` if no profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime, by the protocols of [`Quantity::REGIMES`].
+    /// Number of profiles in each regime, by each protocol of [`Quantity::REGIMES`].
     pub regimes: [RegimeCounts; 2],
 }
 
 impl Cell {
-    /// Numbers of profiles in each regime after zero net force, or from first touch for any other quantity.
+    /// Number of profiles in each regime: after zero net force if `quantity` is that regime, otherwise from first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
 }
 
-/// A quantity of a grid with its scale.
+/// A quantity of a grid, with its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
-    /// Quantity.
+    /// Which quantity it is.
     pub quantity: Quantity,
-    /// Scale of the quantity.
+    /// Scale on which the quantity is shown.
     pub scale: AxisScale,
-    /// Smallest and largest mean on the scale, of all grids that share it.
+    /// Smallest and largest mean that the scale can show, over all grids that share it.
     pub range: Option<(f64, f64)>,
 }
 
 impl Layer {
-    /// A quantity with the range of these means, on this scale or by the range.
+    /// A quantity with the range of its means, on the given scale or on one chosen from the means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> Layer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let shown = means.iter().filter(|mean| scale.coordinate(**mean).is_finite());
@@ -46,7 +46,7 @@ impl Layer {
     }
 }
 
-/// Logarithmic scale where all means are above zero and a third of them below a fiftieth of the largest.
+/// Logarithmic scale if all means are above zero and a third of them are below a fiftieth of the largest; otherwise linear.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means.iter().filter(|mean| **mean < largest / LOGARITHMIC_RATIO).count();
@@ -54,7 +54,7 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     if wide { AxisScale::Logarithmic } else { AxisScale::Linear }
 }
 
-/// A place in values of the axes of a grid: across and, if the grid has two axes, up.
+/// Values on the axes of a grid: across and, if the grid has two axes, up.
 pub type Place = (f64, Option<f64>);
 
 /// Cells over one axis or two.
@@ -64,18 +64,19 @@ pub struct Grid {
     pub across: Axis,
     /// Axis of the rows, ascending; `None` for a grid along one axis.
     pub up: Option<Axis>,
-    /// The other axes of the study at their values, in words: `H = 0.3`.
+    /// Values of the study's other axes, in words: `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities beside the regimes.
+    /// Quantities of the grid, apart from the regimes.
     pub layers: Vec<Layer>,
-    /// Cells row by row, the row of the lowest value first; an error is the reason why a cell was not computed.
+    /// Cells row by row from the lowest row; `None` is not computed yet, and an error is the reason why a cell could not be
+    /// computed.
     pub cells: Vec<Option<Result<Cell, String>>>,
-    /// The cell shown for each: the cell itself, or a computed one of a coarser grid.
+    /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
 impl Grid {
-    /// Creates the grid of the axes of a study.
+    /// Creates a grid that shows each cell itself.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -92,39 +93,39 @@ impl Grid {
         (self.across.values.len(), self.up.as_ref().map_or(1, |up| up.values.len()))
     }
 
-    /// The layer of a quantity.
+    /// The layer that shows a quantity.
     pub fn layer(&self, quantity: Quantity) -> Option<&Layer> {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// The quantities of the grid, the known regimes first and last.
+    /// The quantities of the grid, with the regime from first touch first and the regime after zero net force last, if known.
     pub fn quantities(&self) -> Vec<Quantity> {
         let [touch, zero_force] = Quantity::REGIMES
             .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));
         touch.into_iter().chain(self.layers.iter().map(|layer| layer.quantity)).chain(zero_force).collect()
     }
 
-    /// Returns true if too many profiles of a cell are in a second regime.
+    /// Returns true if in some cell too many profiles are in a second regime.
     pub fn is_split(&self, regime: Quantity) -> bool {
         self.each(false).flatten().any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// The cell shown at a column and a row, with the column and the row of the cell: the cell itself or, until it is
-    /// computed, one of a coarser grid.
+    /// The cell shown at a column and a row, with its own column and row: the cell there or, until that is computed, a cell
+    /// of a coarser grid.
     pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<Cell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
         Some((self.cells[index].as_ref()?, index % columns, index / columns))
     }
 
-    /// The cells, or those shown for them.
+    /// The cells; for `whole` the cells shown in place of each.
     fn each(&self, whole: bool) -> impl Iterator<Item = Option<&Cell>> {
         let index = move |index: usize| if whole { self.stand_ins[index] } else { index };
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
 
-    /// A quantity in all cells, row by row; `whole` adds substitutes for cells that have not been computed yet. The regime
-    /// goes from 0, non-adhesive, to 1, pressure-insensitive, halfway if profiles disagree.
+    /// A quantity in all cells, row by row; `whole` also shows other cells in place of cells not computed yet. A regime
+    /// counts from 0, non-adhesive, to 1, pressure-insensitive; the mean of the two most frequent ones if profiles disagree.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
@@ -141,14 +142,15 @@ impl Grid {
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
-    /// The regime of most profiles of each cell as in [`Cell::regimes_of`], row by row; empty where no regime is known.
+    /// The regime of most profiles of each cell, row by row, by the protocol of [`Cell::regimes_of`]; empty if no regime is
+    /// known.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let most = |cell: Option<&Cell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 
-    /// Returns true for a place on the grid, including half a cell beyond the outermost values.
+    /// Returns true for values on the grid, including half a cell beyond the outermost values.
     pub fn contains(&self, at: Place) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
@@ -156,7 +158,7 @@ impl Grid {
         within(column, columns) && within(row, rows)
     }
 
-    /// The column and the row of a place, fractional between cells.
+    /// Fractional column and row of values on the axes.
     fn coordinates(&self, (across, up): Place) -> (f64, f64) {
         let place = |axis: &Axis, value| axis.scale().place(&axis.values, value);
         (
@@ -165,7 +167,7 @@ impl Grid {
         )
     }
 
-    /// The cell shown for a place or, beyond the grid, the one at its edge, with its column and row.
+    /// The cell shown at values on the axes, or for values beyond the grid the cell at its edge, with its column and row.
     pub fn nearest(&self, at: Place) -> Option<(&Result<Cell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
@@ -174,8 +176,8 @@ impl Grid {
     }
 }
 
-/// Axes across and up, as places among the axes of a study: H goes across and κ or e_el/γ up; of other free axes the
-/// first goes across. `None` without a free axis.
+/// Indices of the axes across and up: H goes across and κ or e_el/γ up; of other free axes the first goes across. `None` if
+/// no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
     let find = |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(&axes[*axis].path));
     let other = |one: Option<usize>| free.iter().copied().find(|axis| Some(*axis) != one);

@@ -10,18 +10,18 @@ use super::results::Results;
 use asperity_scene::Simulation;
 use std::collections::BTreeMap;
 
-/// Number of springs above which a map gets fewer cells, and still fewer far above.
+/// Number of springs above which a map gets fewer cells, and number above which it gets still fewer.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
-/// Resolution of a map. Every level contains the cells of the one before.
+/// Resolution of a map. Every level contains the cells of the level before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
     /// 5 × 5 cells.
     Coarse,
     /// 9 × 9 cells.
     Medium,
-    /// 17 values of κ or e_el/γ, all of H.
+    /// 17 values of κ or e_el/γ, and all values of H.
     Fine,
     /// All cells.
     Whole,
@@ -31,13 +31,13 @@ impl Level {
     /// All levels, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Finest level of maps with this number of springs: waves that need very many have fewer cells.
+    /// Finest level of a map with this number of springs: springs in large numbers take long, so the map has fewer cells.
     fn finest(springs: u64) -> Level {
         let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
         Level::ALL[3 - too_fine]
     }
 
-    /// Places of the level on an axis, at about equal distances; all of an axis with few more.
+    /// Indices of the values of an axis on this level, at about equal distances; all values of an axis with little more.
     fn places(self, axis: &Axis) -> Vec<usize> {
         let (wanted, all) = ([5, 9, 17, 33][self as usize], axis.values.len());
         if 4 * all <= 5 * wanted {
@@ -56,10 +56,10 @@ pub struct LiveMap {
 }
 
 impl LiveMap {
-    /// A map of a plan of [`live_plan`](crate::live_plan::live_plan()), without cells.
+    /// Creates a map without computed cells, for a plan made by [`live_plan`](crate::live_plan::live_plan()).
     ///
     /// # Errors
-    /// A map that is too large for the memory.
+    /// The map is too large for the memory.
     pub fn new(plan: Plan) -> Result<Self, StudyError> {
         Ok(LiveMap { results: Results::empty(plan)?, failed: BTreeMap::new() })
     }
@@ -69,7 +69,7 @@ impl LiveMap {
         self.results.plan()
     }
 
-    /// The cells of a level: for each H those of all κ or e_el/γ.
+    /// The cells of a level, grouped by H: for each H the cells of all κ or e_el/γ.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));
@@ -78,12 +78,12 @@ impl LiveMap {
         hursts.iter().map(of_hurst).collect()
     }
 
-    /// Returns true for a computed cell, or one that cannot be computed.
+    /// Returns true for a cell that is computed or cannot be computed.
     fn is_known(&self, cell: u64) -> bool {
         self.failed.contains_key(&cell) || self.results.is_whole(cell)
     }
 
-    /// Sets the values of a cell on a profile, in the order of `MAP_RECORD`.
+    /// Sets the values of a cell on one profile, in the order of `MAP_RECORD`.
     pub fn set(&mut self, cell: u64, line: u64, values: &[f64]) {
         self.results.set(cell * self.plan().lines + line, values);
     }
@@ -102,14 +102,14 @@ impl LiveMap {
         self.levels().take_while(|level| self.has(level)).last()
     }
 
-    /// Returns true for a complete map.
+    /// Returns true if all cells are known.
     pub fn is_whole(&self) -> bool {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing cells, from coarse to fine: all κ of an H are on the same profiles. `report` sees the map after
-    /// each H. Stops as soon as `stop` returns true and keeps the records so far. A cell that cannot be computed keeps the
-    /// reason.
+    /// Computes the missing cells, from coarse to fine; all κ of one H are on the same profiles. `report` receives the map
+    /// after each H. Stops as soon as `stop` returns true, with the records so far kept. A cell that cannot be computed
+    /// keeps the reason.
     pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
@@ -135,8 +135,8 @@ impl LiveMap {
         }
     }
 
-    /// The map for display: H across, and κ or e_el/γ up as in the paper. Of too few profiles for a confidence, cells
-    /// have the range of the profiles alone.
+    /// The map for display: H across, and κ or e_el/γ up as in the paper. Cells have the range of their profiles, since
+    /// these are too few for a confidence interval.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid =
@@ -154,7 +154,7 @@ impl LiveMap {
         grid
     }
 
-    /// The cell shown for this cell: itself or, until it is computed, one of a coarser level.
+    /// Index of the cell shown in place of a cell: the cell itself or, until it is computed, a cell of a coarser level.
     fn stand_in(&self, cell: u64) -> u64 {
         let plan = self.plan();
         let on_level = |level: Level| {
@@ -186,7 +186,6 @@ mod tests {
     const HURSTS: usize = 19;
     const KAPPAS: usize = 33;
 
-    /// Map of a small scene over κ.
     fn map() -> LiveMap {
         map_over(RoughnessParameter::Kappa)
     }

@@ -8,9 +8,9 @@ use asperity_data::round_to;
 use asperity_scene::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver};
 
-/// Random profiles of each cell.
+/// Number of random profiles of each cell.
 pub const MAP_LINES: u64 = 4;
-/// Quantities of each cell.
+/// Quantities recorded in each cell.
 pub const MAP_RECORD: [Quantity; 5] = [
     Quantity::ZeroLoadAdhesionShare,
     Quantity::AdhesionCoefficient,
@@ -18,17 +18,18 @@ pub const MAP_RECORD: [Quantity; 5] = [
     Quantity::ZeroForceAdhesionShare,
     Quantity::RegimeAfterZeroForce,
 ];
-/// Fewest and most springs of a map; a scene with fewer keeps its own number, shorter waves need more.
+/// Smallest and largest usual number of springs of a map. A scene with fewer keeps its own number; short waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
-/// Representatives of all κ or e_el/γ and all H.
+/// Values that represent any κ or e_el/γ and any H.
 const ANY: (f64, f64) = (1.0, 0.5);
 
-/// Values of κ: quarters of octaves from 1/8 to 32; of e_el/γ, which grows with κ²: half octaves from 1/64 to 1024.
+/// Number of values of κ, quarters of octaves from 1/8 to 32, or of e_el/γ, which grows with κ², half octaves from 1/64 to
+/// 1024.
 const PARAMETERS: u32 = 33;
-/// Values of H, from 0.05 to 0.95.
+/// Number of values of H, from 0.05 to 0.95.
 const HURSTS: u32 = 19;
 
-/// Values of κ or e_el/γ to three digits, so that a scene set to a shown value is that of the cell.
+/// Values of κ or e_el/γ rounded to three digits, so that a scene set to a shown value is the scene of the cell.
 fn parameters(parameter: RoughnessParameter) -> Vec<f64> {
     let per_octave = match parameter {
         RoughnessParameter::Kappa => 4.0,
@@ -38,8 +39,8 @@ fn parameters(parameter: RoughnessParameter) -> Vec<f64> {
     (0..PARAMETERS).map(|index| round_to(exact(index), 3)).collect()
 }
 
-/// The study of all cells of the live map of a checked scene: κ or e_el/γ and, if its roughness has one, H. Scenes that
-/// differ only in these or in the resolution of their curve have the same.
+/// The plan of the live map of a checked scene: cells over κ or e_el/γ and, if the roughness has one, H. Scenes that differ
+/// only in these or in the number of samples have the same plan.
 ///
 /// # Errors
 /// The reason why the scene has no map.

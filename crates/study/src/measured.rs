@@ -1,7 +1,7 @@
-//! The measured files of a study: surfaces, and the table of a form. Their content determines the results as much as the plan does, so the plan holds its
-//! hash, and a run computes with exactly the bytes that were hashed.
+//! The measured files of a study: surfaces, and the table of a form. Their content determines the results as much as the
+//! plan does, so the plan holds its hash, and a run computes with exactly the bytes that were hashed.
 //!
-//! SHA-256 rather than the checksum of records: one in 4e9 accidental changes would pass a CRC of 32 bits, and
+//! The hash is SHA-256 rather than the checksum of records: one in 4e9 accidental changes would pass a CRC of 32 bits, and
 //! `sha256sum` identifies the right copy of a file.
 
 use super::error::StudyError;
@@ -14,7 +14,7 @@ use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The first measured file of a plan, if its scene has one.
+/// Path of the first measured file of a plan; `None` if its scene has no file.
 pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
     plan.scene.measured_files().first().map(PathBuf::from)
 }
@@ -22,16 +22,16 @@ pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
 /// The plan with the present hash of its measured file.
 ///
 /// # Errors
-/// A file that cannot be read, or whose hash differs from that in the plan.
+/// The file cannot be read, or its hash differs from the hash in the plan.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let (_, measured_sha256) = read(plan, || "the plan".into())?;
     Ok(Plan { measured_sha256, ..plan.clone() })
 }
 
-/// The measured profile of a study in a folder, if the study has one.
+/// The measured roughness of the study in a folder; `None` if the study has none.
 ///
 /// # Errors
-/// A file that cannot be read, is no profile, or whose hash differs from that in the plan.
+/// The file cannot be read, is no surface, or its hash differs from the hash in the plan.
 pub(super) fn profile(plan: &Plan, folder: &Path) -> Result<Option<Arc<MeasuredRoughness>>, StudyError> {
     let (surface, _) = read(plan, || path_name(&folder.join(PLAN_FILE)))?;
     Ok(surface.map(Arc::new))
@@ -47,8 +47,8 @@ pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> S
     )
 }
 
-/// The surface of a plan, if it has one, and the hash of its bytes, which is that of the plan. Several files are hashed one
-/// after the other, of a table beside a surface the hash of its own.
+/// The surface of a plan, if it has one, and the hash of its bytes, which must equal the hash in the plan. Several files are
+/// hashed one after the other; of a table besides a surface, its own hash is added.
 fn read(
     plan: &Plan,
     origin: impl Fn() -> String,

@@ -1,9 +1,9 @@
-//! Adhesion of a measured surface, with two spreads: that over random profiles of one spectrum, and that of the spectrum,
-//! which the measurement leaves uncertain.
+//! Adhesion of a measured surface with two spreads: over random profiles of one spectrum, and over the spectra that the
+//! measurement leaves possible.
 //!
-//! Each random profile is solved on the fitted spectrum and, with the same phases, on one that is moved a little in a
-//! direction drawn from the uncertainty of the fit. Forces on the fitted spectrum differ from profile to profile; the two
-//! forces of a profile differ by the spectrum alone.
+//! Each random profile is solved with the fitted spectrum and, with the same phases, with a spectrum changed a little in a
+//! direction drawn from the uncertainty of the fit. Forces with the fitted spectrum differ from profile to profile; the two
+//! forces of one profile differ because of the spectrum alone.
 
 use super::error::{NO_PROFILES, StudyError};
 use super::quantity::Quantity;
@@ -17,8 +17,8 @@ use asperity_surface::{EquivalentLine, MeasuredRoughness, read_faces};
 use serde::Serialize;
 use std::sync::Arc;
 
-/// Share of a drawn step by which a spectrum is moved. Errors of the fit are stated to first order; its longest
-/// waves are nearly unknown, and whole steps of their logarithms would be powers of ten.
+/// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first order; its longest
+/// waves are nearly unknown, and a whole step of their logarithms could be several powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile.
@@ -26,18 +26,18 @@ const SHARE: f64 = 1.0 / 32.0;
 pub struct ProfileAdhesion {
     /// Seed of the profile.
     pub seed: u64,
-    /// Adhesion force F_a on the fitted spectrum, N; `None` without a tensile force.
+    /// Adhesion force F_a with the fitted spectrum, N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a, to first order, by a step of the spectrum drawn from the uncertainty of the fit, N.
+    /// Change of F_a, N, to first order, for one step of the spectrum drawn from the uncertainty of the fit.
     pub fit_change: Option<f64>,
-    /// Regime on the fitted spectrum, from first touch.
+    /// Regime of adhesion with the fitted spectrum, from first touch.
     pub regime: Option<Regime>,
-    /// The same after zero net force.
+    /// Regime of adhesion with the fitted spectrum, after zero net force.
     pub regime_after_zero_force: Option<Regime>,
 }
 
 impl ProfileAdhesion {
-    /// Solves a scene of a measured surface on one random profile of its equivalent line.
+    /// Solves the scene of a measured surface on one random profile of its equivalent line.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -75,13 +75,12 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Solves the scene of a document on `count` profiles of its measured surface: its seed and the seeds that follow. The
-    /// files are read with the scene's own options, from the folder of the scene file. `jobs` threads share the profiles; no
-    /// bit of a result depends on their number.
+    /// Solves the scene of a document on `count` profiles of its measured surface: those of the scene's seed and of the
+    /// seeds that follow. The files are read with the scene's own options, relative to the folder of the scene file. `jobs`
+    /// threads share the profiles; no bit of a result depends on their number.
     ///
     /// # Errors
-    /// A scene without the equivalent line of a measured surface, a file that cannot be read, or the first profile that
-    /// fails.
+    /// The scene has no equivalent line of a measured surface, a file cannot be read, or a profile fails: the first one.
     pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
         if count == 0 {
             return Err(NO_PROFILES);
@@ -96,7 +95,7 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::solve(scene, &line, count, jobs)
     }
 
-    /// The same for a line that has been made with the options of the scene.
+    /// Solves a scene as [`MeasuredAdhesion::of`] does, with an equivalent line made with the options of the scene.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -113,20 +112,20 @@ impl MeasuredAdhesion {
         Ok(MeasuredAdhesion { profiles })
     }
 
-    /// The adhesion force over the profiles of the fitted spectrum, N.
+    /// Statistics of the adhesion force, N, over the profiles with the fitted spectrum.
     pub fn adhesion_force(&self) -> Option<Statistics> {
         let forces = self.profiles.iter().filter_map(|profile| profile.adhesion_force).collect();
         Statistics::of(forces, Quantity::AdhesionForce.bounds())
     }
 
-    /// Standard deviation of the adhesion force due to the uncertainty of the spectrum, N: root mean square of the
-    /// changes of the profiles. `None` for fewer than two.
+    /// Standard deviation of the adhesion force, N, due to the uncertainty of the spectrum: root mean square of the changes
+    /// on all profiles. `None` for fewer than two profiles.
     pub fn fit_deviation(&self) -> Option<f64> {
         rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
     }
 
-    /// The median adhesion force, N, smaller and larger by the error of the fit: by the root mean square of its relative
-    /// changes on a logarithmic scale, as no force is below 0. `None` for fewer than two profiles.
+    /// Interval around the median adhesion force, N, by the root mean square of its relative changes with the spectrum, on
+    /// a logarithmic scale, since no force is below 0. `None` for fewer than two profiles.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
@@ -136,14 +135,14 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Numbers of profiles in each regime, from first touch and after zero net force.
+    /// Number of profiles in each regime: from first touch, and after zero net force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))
     }
 }
 
-/// Root mean square of two numbers at least.
+/// Root mean square of at least two numbers; `None` for fewer.
 fn rms(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     let numbers: Vec<f64> = numbers.collect();
     (numbers.len() >= 2).then(|| root_mean_square(numbers)).flatten()
@@ -197,7 +196,7 @@ mod tests {
         assert_eq!(found.regimes().map(|of| of.present().map(|(_, count)| count).sum::<usize>()), [6; 2]);
     }
 
-    /// With `periodic: true` as without it, the files are read as the scene says.
+    /// The files are read with the options of the scene, whether `periodic: true` is among them or not.
     #[test]
     fn the_options_are_those_of_the_scene() {
         let folder = tempfile::tempdir().unwrap();

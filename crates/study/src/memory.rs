@@ -5,19 +5,20 @@ use super::error::StudyError;
 use super::plan::{MOST_CHECKED, Plan};
 use asperity_data::check_room;
 
-/// Code, stacks, files and the reserve of the allocator, bytes.
+/// Bytes of code, stacks, files and the reserve of the allocator.
 const PROGRAM: u64 = 16 << 20;
-/// Bytes per spring of a transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
+/// Bytes per spring of a Fourier transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
 const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
-/// Bytes per spring of the unloadings from several preloads, where nearly every spring is an event.
+/// Bytes per spring of unloadings from several preloads, where nearly every spring is an event.
 const REVERSED: u64 = 192;
 
 impl Plan {
-    /// Most memory, bytes, of the study with this number of threads, each with the largest scene of the plan.
+    /// Returns the largest memory, bytes, that the study takes with this number of threads, each with the largest scene of
+    /// the plan.
     ///
     /// # Errors
-    /// More than the system provides now.
+    /// The study needs more memory than the system provides now.
     pub fn memory(&self, jobs: u64) -> Result<u64, StudyError> {
         let of_cell = |cell| {
             let scene = self.scene_of(cell).ok()?;

@@ -1,4 +1,4 @@
-//! Values of axes in scenes: the place of a scene on an axis, and scenes moved to other places.
+//! Values of axes in scenes: the value that a scene has on an axis, and scenes with other values.
 
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
@@ -8,8 +8,8 @@ use asperity_scene::{
 };
 
 impl Axis {
-    /// Value of the quantity in a scene; `None` where the scene has none. `computed` are the governing parameters
-    /// of a scene whose file has to be read to obtain them.
+    /// Value of the quantity in a scene; `None` if the scene has none. `computed` are the governing parameters of a scene
+    /// whose file must be read to obtain them.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -26,11 +26,11 @@ impl Axis {
     }
 }
 
-/// The scene with other values of the quantities of axes: first the numbers of the scene, then what follows from others,
-/// then κ or e_el/γ, in place of a work of adhesion. The preload, which is no part of a scene, is left to the run.
+/// The scene with other values on axes: first numbers of the scene, then quantities that follow from several numbers, then
+/// κ or e_el/γ in place of a work of adhesion. A preload is no part of a scene; the run applies it.
 ///
 /// # Errors
-/// The path of a number that the scene does not have, and the reason.
+/// The path of a number that the scene does not have, with the reason.
 pub(super) fn scene_with<'a>(
     base: &Scene,
     values: impl Iterator<Item = (&'a Axis, f64)>,
@@ -68,13 +68,14 @@ pub(super) fn scene_with<'a>(
     Ok(scene)
 }
 
-/// The adhesion of a scene by a parameter, with the range of the scene.
+/// The adhesion of a scene by a parameter; the range of attraction stays.
 fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> Adhesion {
     let by_parameter = Adhesion::by_parameter(parameter, value);
     scene.adhesion.map_or(by_parameter, |adhesion| adhesion.with_parameter(parameter, value))
 }
 
-/// Path and value of the shortest wave with this number of springs, as a mode or, where these are given, as a wavelength.
+/// Path and value of the shortest wave that has this number of springs, as a mode or, if the scene states wavelengths, as a
+/// wavelength.
 fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
     let [points, length] = ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
     match tree.get("roughness.wavelengths.1") {
@@ -83,7 +84,7 @@ fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// The numbers of a scene other than counts, zeros and what belongs to the numerics, as axes without values.
+/// The physical numbers of a scene, except counts and zeros, each with an axis over it that has no values.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let tree = Tree::of(scene);
     let is_physical =
@@ -106,23 +107,23 @@ pub(super) fn governing(scene: &Scene) -> Option<Governing> {
     Some(Governing::of(scene, Some(unit), None))
 }
 
-/// Unit of preloads, E* h L, of a scene with a self-affine profile, N.
+/// Unit of preloads E* h L, N, of a scene with a self-affine profile.
 fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
 }
 
-/// Replaces the loading of a scene by a preload in units of E* h L, if that unit follows from the scene, and a pull-off.
+/// Replaces the loading of a scene by a preload, in units of E* h L, and separation, if the scene determines that unit.
 pub(super) fn press(scene: &mut Scene, preload: f64) {
     if let Some(unit) = force_unit(scene) {
         scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
     }
 }
 
-/// Document with other values of the quantities of axes. A scene by its work of adhesion stays one at another κ or
-/// e_el/γ, and a preload replaces the loading; both are set last, since they depend on the others.
+/// The document with other values on axes. A scene given by its work of adhesion remains so at another κ or e_el/γ, and a
+/// preload replaces the loading; both are set last, since they depend on the others.
 ///
 /// # Errors
-/// A value that is not allowed.
+/// A value is not allowed.
 pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
     let mut scene = scene_with(document.scene(), values.iter().copied())?;
     let moves_parameter = values.iter().any(|(axis, _)| axis.target.parameter().is_some());

@@ -1,4 +1,4 @@
-//! The plan of a study: a scene, the axes along which numbers of the scene vary, profiles, and recorded quantities.
+//! The plan of a study: a scene, the axes along which its numbers vary, random profiles, and recorded quantities.
 
 use super::axis::Axis;
 use super::place::scene_with;
@@ -10,26 +10,26 @@ use serde::{Deserialize, Serialize};
 pub(super) const PLAN_FILE: &str = "plan.ron";
 pub(super) const PRELOAD: &str = "preload";
 
-/// Most cells of a plan.
+/// Limit of the number of cells of a plan.
 pub const MOST_CELLS: u64 = 10_000_000;
-/// Most profiles of a plan.
+/// Limit of the number of profiles of a plan.
 pub const MOST_LINES: u64 = 1_000_000;
-/// Most records of a plan: cells times profiles.
+/// Limit of the number of records of a plan: cells times profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
-/// Most scenes of which each is checked; of more, those at the ends of all axes.
+/// Number of scenes up to which each is checked; of more scenes, only the ones at the ends of all axes are checked.
 pub(super) const MOST_CHECKED: u64 = 4096;
-/// Most cells with invalid scenes that are named; the rest is counted.
+/// Number of cells with invalid scenes that are named; further ones are counted.
 const MOST_NAMED: usize = 8;
 const MOST_FORCES: u64 = 1000;
 
-/// Axes that set the same quantity, of which a plan may have one.
+/// Groups of axes that set the same quantity; a plan may have one axis of each group.
 const SAME: [&[&str]; 2] = [
     &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
 
-/// Why a scene has a single profile, and which scenes have several.
+/// Message for a request of several profiles of a scene that has one: the fault, and which scenes have several.
 pub(super) const ONE_PROFILE: (&str, &str) = (
     "more than one profile, and the profile of this scene is fixed",
     "random roughness (SelfAffine, or an equivalent line)",
@@ -44,22 +44,22 @@ pub struct Plan {
     pub notice: String,
     /// The scene whose numbers vary; its files have absolute paths.
     pub scene: Scene,
-    /// Axes, the last one fastest. That of preloads, in units of E* h L, is the last; without preloads the loading is
+    /// Axes; the last one varies fastest. An axis of preloads, in units of E* h L, is the last; without it the loading is
     /// that of the scene.
     pub axes: Vec<Axis>,
-    /// Random profiles of each cell.
+    /// Number of random profiles of each cell.
     pub lines: u64,
-    /// Seed of the first profile; the next ones follow consecutively, the same in all cells.
+    /// Seed of the first profile; the seeds of the others follow, and are the same in all cells.
     pub seed: u64,
     /// Recorded quantities.
     pub record: Vec<Quantity>,
-    /// Forces between which the exponents are fitted.
+    /// Forces over which the exponents of the contact without adhesion are fitted.
     pub stiffness: StiffnessRange,
     /// SHA-256 of the content of the measured file, 64 hexadecimal digits; set in the folder of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Forces between which exponents of the contact without adhesion are fitted, in units of E* h L.
+/// Forces over which the exponents of the contact without adhesion are fitted, in units of E* h L.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -67,19 +67,19 @@ pub struct StiffnessRange {
     pub from: f64,
     /// Largest force.
     pub to: f64,
-    /// Number of forces at equal ratios, at least 2.
+    /// Number of forces, at least 2, with equal ratios between them.
     pub count: u64,
 }
 
 impl Default for StiffnessRange {
-    /// Between the forces carried by a few waves and those that flatten the long waves.
+    /// From forces that a few waves carry to forces that flatten the long waves.
     fn default() -> Self {
         StiffnessRange { from: 1.0e-4, to: 1.0e-2, count: 17 }
     }
 }
 
 impl Plan {
-    /// The plan of a checked scene without axes: one cell on `lines` profiles, starting at the seed of the scene.
+    /// The plan of a checked scene without axes: one cell on `lines` profiles, whose seeds begin with the scene's own.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
         Plan {
             title: String::new(),
@@ -94,12 +94,12 @@ impl Plan {
         }
     }
 
-    /// The axis of preloads.
+    /// The axis of preloads, if the plan has one.
     pub fn preloads(&self) -> Option<&Axis> {
         self.axes.last().filter(|axis| axis.path == PRELOAD)
     }
 
-    /// The axes of numbers of the scene: all but that of preloads.
+    /// The axes of numbers of the scene: all axes except the axis of preloads.
     pub fn scene_axes(&self) -> &[Axis] {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
@@ -118,7 +118,8 @@ impl Plan {
         self.places_on(0..self.axes.len(), cell)
     }
 
-    /// Places of a number among all combinations of values of these axes, the last one fastest; 0 on the other axes.
+    /// Indices of the values for combination `number` of these axes, of which the last one varies fastest; 0 on the other
+    /// axes.
     pub(super) fn places_on(&self, axes: impl DoubleEndedIterator<Item = usize>, number: u64) -> Vec<usize> {
         let (mut rest, mut places) = (number, vec![0; self.axes.len()]);
         for axis in axes.rev() {
@@ -143,27 +144,27 @@ impl Plan {
         (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
     }
 
-    /// Coordinates of a cell for readers.
+    /// Values of a cell on all axes, in words.
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// The scene of a cell; its loading is that of the plan's scene, whatever the preload.
+    /// The scene of a cell; its loading is the loading of the plan's scene, whatever the preload.
     ///
     /// # Errors
-    /// The path of an axis over a number that the scene does not have, or values out of their ranges.
+    /// An axis is over a number that the scene does not have, or values are out of their ranges.
     pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
         scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()
     }
 
-    /// Seed of a profile.
+    /// Seed of the profile with this index.
     pub fn seed_of(&self, line: u64) -> u64 {
         self.seed.wrapping_add(line)
     }
 
-    /// Place of a quantity among the recorded ones.
+    /// Index of a quantity among the recorded ones.
     pub fn column(&self, quantity: Quantity) -> Option<usize> {
         self.record.iter().position(|one| *one == quantity)
     }
@@ -173,8 +174,8 @@ impl Plan {
     }
 }
 
-/// Checks: those of the plan itself are quick; scenes of cells are checked when a plan is opened for a study, not when the
-/// folder of a study is opened again.
+/// Checks of a plan. The checks of the plan itself are quick; the scenes of its cells are checked when a plan is opened,
+/// not when the folder of a study is opened again.
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();
@@ -237,7 +238,7 @@ impl Plan {
         wrong
     }
 
-    /// Errors of title and notice, by the rules of a scene, and of the hash without a measured file.
+    /// Errors of title and notice, by the rules of a scene, and of a hash without a measured file.
     fn errors_of_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene { title, notice, ..self.scene.clone() };
@@ -253,7 +254,7 @@ impl Plan {
         wrong
     }
 
-    /// Checks the scenes of the cells, see [`Plan::extremes`].
+    /// Checks the scenes of the cells that [`Plan::extremes`] chooses.
     pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
         let (mut wrong, mut more) = (Vec::new(), 0_u64);
         for cell in self.extremes(MOST_CHECKED) {
@@ -270,9 +271,10 @@ impl Plan {
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// Cells whose scenes are allowed only if those of all cells are, and one of which takes most memory: the first one at
-    /// each combination of values but preloads, or of more than `most` combinations, those of the ends of all axes. Each condition
-    /// of a scene bounds every number from one side or from both, so that it holds between values at which it holds.
+    /// Cells that represent all: if their scenes are allowed, those of all cells are, and one of them takes the most
+    /// memory. They are the first cell of each combination of values except preloads; of more than `most` combinations,
+    /// those at the ends of all axes, since each condition of a scene bounds a number from one side or both, and so holds
+    /// between values at which it holds.
     pub(super) fn extremes(&self, most: u64) -> Vec<u64> {
         let preloads = self.preloads().map_or(1, Axis::count);
         if self.cells() / preloads <= most {

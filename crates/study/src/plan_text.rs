@@ -1,4 +1,4 @@
-//! The text of a plan: reading, including the named scene, and writing.
+//! The text of a plan: reading it, with the scene that it names, and writing it.
 
 use super::axis::{Axis, AxisText, Spacing};
 use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use thiserror::Error;
 
-/// The only supported version of the plan file.
+/// Version of the plan file; no other version is supported.
 pub const PLAN_VERSION: u32 = 1;
 
 /// The built-in plans.
@@ -27,17 +27,17 @@ pub const PLANS: &[Preset] = built_in!("plans/":
     "self-averaging"
 );
 
-/// All errors of a plan, one line each.
+/// All errors of a plan, each one line.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{}", .0.join("\n"))]
 pub struct PlanErrors(pub Vec<String>);
 
-/// Changes of a plan for one study, in addition to the text.
+/// Changes of a plan for one study, given apart from its text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Overrides of the scene: path and value.
+    /// Overrides of the scene, as paths and values.
     pub set: Vec<(String, String)>,
-    /// Number of profiles.
+    /// Number of random profiles.
     pub lines: Option<u64>,
 }
 
@@ -71,11 +71,11 @@ struct PlanText {
 }
 
 impl Plan {
-    /// Opens and checks a plan: a file if one of that name exists or the name looks like a path, else a built-in
-    /// plan. Scenes given by a path are relative to its file.
+    /// Opens and checks a plan: a file, if one of that name exists or the name looks like a path, else a built-in plan. A
+    /// scene that is given by a path is relative to the file of the plan.
     ///
     /// # Errors
-    /// All errors, up to those of the scene of every single cell.
+    /// All errors, including errors of the scenes of cells.
     pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
         if is_file_name(name_or_path) {
             let text = read_regular_text(Path::new(name_or_path), LONGEST_TEXT);
@@ -86,10 +86,10 @@ impl Plan {
         Plan::parse(plan.text, plan.name, changes)
     }
 
-    /// The built-in plan of this name.
+    /// The built-in plan with this name.
     ///
     /// # Errors
-    /// No such plan, with the names of all.
+    /// There is no such plan; all names are listed.
     pub fn built_in(name: &str) -> Result<&'static Preset, PlanErrors> {
         PLANS.iter().find(|plan| plan.name == name).ok_or_else(|| {
             let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
@@ -99,7 +99,7 @@ impl Plan {
         })
     }
 
-    /// Reads and checks a plan; `name` is that of its file, for errors.
+    /// Reads and checks a plan; `name`, of its file, is for errors.
     ///
     /// # Errors
     /// As [`Plan::open`].
@@ -109,8 +109,8 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Reads a plan and checks all but the scenes of its cells, which no one computes: the plan in the folder of a
-    /// study, whose cells were checked when the study began.
+    /// Reads a plan and checks all but the scenes of its cells: for the plan in the folder of a study, whose cells were
+    /// checked when the study began.
     pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |what: String| PlanErrors(vec![format!("{name}: {what}")]);
@@ -163,7 +163,7 @@ impl Plan {
         if wrong.is_empty() { Ok(plan) } else { Err(wrong) }
     }
 
-    /// The plan as canonical text including its scene; parsing the text returns the same plan.
+    /// Writes the plan as canonical text, including its scene; parsing the text returns the same plan.
     pub fn to_ron(&self) -> String {
         let mut lines = vec![format!("    version: {PLAN_VERSION},\n")];
         let mut line = |name: &str, value: String| lines.push(format!("    {name}: {value},\n"));
@@ -207,7 +207,7 @@ fn in_plan(wrong: Vec<String>, name: &str) -> PlanErrors {
     PlanErrors(wrong.into_iter().map(|wrong| format!("{name}: {wrong}")).collect())
 }
 
-/// The scene of a plan with all overrides; its paths are made absolute.
+/// The scene of a plan with all overrides and with absolute paths.
 fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, PlanErrors> {
     let in_scene =
         |errors: SceneErrors| in_plan(errors.to_string().lines().map(str::to_owned).collect(), name);

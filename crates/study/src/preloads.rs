@@ -1,5 +1,5 @@
-//! Adhesion against preload: a study in memory over preloads in N, in place of the unit of a plan, and the staircase of one
-//! profile.
+//! Adhesion force against preload: a study in memory over preloads in N rather than in the unit of a plan, and the
+//! staircase of one profile.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
 use super::plan::PRELOAD;
@@ -13,16 +13,16 @@ use asperity_scene::{CheckedScene, LEG_FORCE};
 use asperity_scene::{RunError, Simulation};
 use std::ops::RangeInclusive;
 
-/// Numbers of preloads.
+/// Allowed number of preloads.
 pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
-/// Part of the axis of preloads within which a step of a staircase is found: less than the width of a line in a figure.
+/// Share of the axis of preloads within which each step of a staircase is located: less than the width of a line in a figure.
 const FINEST: f64 = 1.0 / 2048.0;
-/// Relative difference of two adhesion forces below which they are the same but for rounding.
+/// Relative difference of two adhesion forces below which they count as equal.
 const SAME: f64 = 1e-9;
 
 impl Axis {
-    /// Preloads between two forces, N, at equal distances or equal ratios.
+    /// Creates an axis of preloads between two forces, N, at equal distances or equal ratios.
     ///
     /// # Errors
     /// What is wrong with the forces or their number, and what is allowed.
@@ -51,26 +51,26 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile over the preload. Only the closing of a patch that decides the pull-off raises this
-/// force, so the curve is a staircase; with a smaller work of adhesion on closing it rises between its steps as well.
+/// Adhesion force of one profile as a function of the preload. Only the closing of a patch that decides the pull-off raises
+/// it, so the curve is a staircase; with a smaller work of adhesion on closing it also rises between its steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
     /// Scale of the preloads.
     pub scale: AxisScale,
-    /// Force at first touch and adhesion force after turning there, N.
+    /// Force at first touch and adhesion force after turning there, both in N.
     pub touch: (f64, f64),
     /// Adhesion force after turning where the force is back at zero, N.
     pub zero_force: f64,
-    /// Preloads, ascending, with the adhesion force after each, N; 0 N where the body does not pull.
+    /// Ascending preloads, N, each with the adhesion force after it, N; 0 N if the body does not pull.
     pub forces: Vec<(f64, f64)>,
 }
 
 impl Staircase {
-    /// Finds the staircase of a checked scene over an axis of preloads, each step within 1/2048 of the axis. `report`
-    /// receives the staircase at the preloads of the axis, and after each halving of the intervals with a step.
+    /// Finds the staircase of a checked scene over an axis of preloads, with each step located within 1/2048 of the axis.
+    /// `report` receives the staircase at the preloads of the axis, and after each halving of the intervals with a step.
     ///
     /// # Errors
-    /// As [`Simulation::reverse`], and a preload below the force at first touch.
+    /// As for [`Simulation::reverse`], and a preload below the force at first touch.
     pub fn find(
         scene: &CheckedScene,
         preloads: &Axis,
@@ -105,12 +105,12 @@ impl Staircase {
         Ok(all)
     }
 
-    /// Returns true once each step is found.
+    /// Returns true if each step is located.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }
 
-    /// The middles of those intervals of preloads that are still wide and have a step.
+    /// The middles of the intervals of preloads that have a step and are still wide.
     fn halves(&self) -> Vec<f64> {
         let at = |point: &(f64, f64)| self.scale.coordinate(point.0);
         let [Some(low), Some(high)] = [self.forces.first(), self.forces.last()].map(|end| end.map(at)) else {
@@ -124,7 +124,7 @@ impl Staircase {
         self.forces.windows(2).filter_map(middle).collect()
     }
 
-    /// The staircase as a line: level up to the next known preload, then upright.
+    /// Points of the staircase as a line: horizontal up to the next preload, then vertical.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
         self.forces.first().copied().into_iter().chain(self.forces.windows(2).flat_map(corner)).collect()
@@ -132,7 +132,7 @@ impl Staircase {
 }
 
 impl Results {
-    /// Recorded quantities of adhesion against preload.
+    /// Quantities recorded in a study of adhesion against preload.
     pub const OF_PRELOADS: [Quantity; 4] = [
         Quantity::PreloadIndentation,
         Quantity::AdhesionForce,
@@ -140,8 +140,8 @@ impl Results {
         Quantity::DissipatedEnergy,
     ];
 
-    /// The adhesion force over the computed profiles at each preload, N, where there are two at least. A profile without a
-    /// tensile force counts as 0 N, so that the mean is the mean adhesion force.
+    /// Statistics of the adhesion force, N, over the computed profiles at each preload (N) that at least two have. A
+    /// profile without a tensile force counts as 0 N, so that the mean is the mean adhesion force.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let spread = |cell| {
             let (preload, forces) = self.forces_in(cell);
@@ -151,7 +151,7 @@ impl Results {
         (0..self.plan.cells()).filter_map(spread).collect()
     }
 
-    /// The preload nearest to this one, N, and the adhesion forces of the computed profiles there.
+    /// The nearest preload of the study, N, and the adhesion forces of the computed profiles there, N.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest = (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));
@@ -216,8 +216,8 @@ mod tests {
         let error = solved(&stepwise, &preloads, 1, 1).unwrap_err();
         assert!(error.starts_with("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
     }
-    /// Each step of the staircase lies where a fine grid of preloads has it, and forces below zero turn while the bodies are
-    /// drawn together.
+    /// Each step of the staircase lies where a fine grid of preloads shows it; preloads below zero turn while the bodies
+    /// are drawn together.
     #[test]
     fn a_staircase_has_its_steps_where_a_fine_grid_has_them() {
         let document = open("pressure-sensitive").unwrap();

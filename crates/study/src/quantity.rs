@@ -1,15 +1,15 @@
-//! Quantities that a study records for each cell and profile: one row each.
+//! Quantities that a study records for each cell and profile: one row of a table for each.
 
 use super::case_outcome::CaseOutcome;
 use asperity_scene::Regime;
 use serde::{Deserialize, Serialize};
 
 struct Row {
-    /// Name in plans and of columns.
+    /// Name in plans and columns.
     name: &'static str,
-    /// Symbol; may be empty.
+    /// Symbol; empty if there is none.
     symbol: &'static str,
-    /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
+    /// SI unit; `1` for a number without a unit, empty for a regime, which is not a number.
     unit: &'static str,
     meaning: &'static str,
     bounds: (f64, f64),
@@ -19,17 +19,17 @@ struct Row {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
-    /// The profile and its governing parameters.
+    /// The profile and its governing parameters are enough.
     Profile,
-    /// Statistics of the heights without the form.
+    /// The statistics of the heights without the form are needed.
     Heights,
-    /// F_a(0) by the touch protocol: turning point at first touch.
+    /// F_a(0) by the touch protocol is needed: turning point at first touch.
     Touch,
-    /// F_a(0) by the zero-force protocol: turning point where the force is back at zero.
+    /// F_a(0) by the zero-force protocol is needed: turning point where the force is back at zero.
     ZeroForce,
-    /// The loading to the preload, or the scene's own.
+    /// The loading to the preload is needed, or the scene's own loading.
     Loading,
-    /// The force curve without adhesion.
+    /// The exponents of the force curve without adhesion are needed.
     Stiffness,
 }
 
@@ -43,7 +43,7 @@ const ROW: Row = Row {
     of: |_| None,
 };
 
-/// Bounds of a quantity that may be negative, and of a share.
+/// Bounds of a quantity that may have either sign, and of a share.
 const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 const SHARE: (f64, f64) = (0.0, 1.0);
 
@@ -184,19 +184,19 @@ quantities! {
 }
 
 impl Quantity {
-    /// F_a(0)/F_a,max by the two protocols.
+    /// F_a(0)/F_a,max by both protocols.
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
-    /// The regimes by the two protocols.
+    /// The regimes by both protocols.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// The protocol of the regime that is mapped with a quantity, in words.
+    /// The protocol, in words, of the regime that a map of this quantity shows.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "after zero net force" } else { "from first touch" }
     }
 
-    /// The same in a title or a legend.
+    /// The protocol of [`Quantity::protocol`] in short, for a title or a legend.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "touch" }
     }
@@ -210,7 +210,7 @@ impl Quantity {
         &ROWS[self as usize]
     }
 
-    /// Name in plans and of columns.
+    /// Name in plans and columns.
     pub const fn name(self) -> &'static str {
         self.row().name
     }
@@ -239,14 +239,14 @@ impl Quantity {
         self.row().needs
     }
 
-    /// Finite value of a case, SI unit; NaN if the case has none. A regime is its place in
+    /// Value of the quantity in a case, in its SI unit; NaN if the case has none. The value of a regime is its index in
     /// [`asperity_scene::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
     }
 }
 
-/// The regime of a recorded value; `None` for NaN.
+/// The regime that a recorded value means; `None` for NaN.
 pub(super) fn regime_of(value: f64) -> Option<Regime> {
     Regime::ALL.get(Some(value as usize).filter(|_| !value.is_nan())?).copied()
 }

@@ -1,4 +1,4 @@
-//! Recorder of a streak: solves its loadings on one profile and reads the recorded quantities.
+//! Recorder of a streak: computes its loadings on one profile and reads the recorded quantities.
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Streak;
@@ -13,32 +13,32 @@ use asperity_scene::{CheckedScene, Roughness, Solver};
 use asperity_scene::{FEW_SAMPLES, Outcome, RunError, Simulation};
 use asperity_surface::SurfaceError;
 
-/// Values of the recorded quantities, in the order of the plan, for each preload; NaN for a quantity that the case
-/// does not have.
+/// Values of the recorded quantities for each preload, in the order of the plan; NaN for a quantity that the case does not
+/// have.
 pub(super) type Records = Vec<Vec<f64>>;
 
-/// Values of a record, or the reason, on one line, why they cannot be computed.
+/// Values of a record, or the reason, in one line, why they cannot be computed.
 pub(super) type Recorded = Result<Vec<f64>, String>;
 
-/// Recorder of the cases of a plan. Keeps the profile, its tree and the properties of the profile from case to case.
+/// Recorder of the cases of a plan; it keeps the profile, its contact tree and its properties from case to case.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,
-    /// Properties of the last profile, and their scene without adhesion and loading.
+    /// Properties of the last profile, with the scene, without adhesion and loading, that they belong to.
     profile: Option<(CheckedScene, ProfileRecord)>,
     stop: &'p dyn Fn() -> bool,
 }
 
 impl<'p> Recorder<'p> {
-    /// A recorder that stops within a case as soon as `stop` returns true.
+    /// Creates a recorder that stops within a case as soon as `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
         Recorder { plan, simulation, profile: None, stop }
     }
 
-    /// Solves a streak. A cell that cannot be computed has the reason in place of its values.
+    /// Computes a streak. A cell that cannot be computed gets the reason in place of its values.
     ///
     /// # Errors
-    /// Too little memory, or a stop: neither is a property of a cell.
+    /// Too little memory, or `stop` returned true: neither is due to a cell.
     pub fn record_each(&mut self, streak: &Streak) -> Result<Vec<Recorded>, RunError> {
         match self.record(streak) {
             Ok(records) => Ok(records.into_iter().map(Ok).collect()),
@@ -55,10 +55,10 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Solves a streak.
+    /// Computes a streak.
     ///
     /// # Errors
-    /// A failure of the profile or the contact, or a stop.
+    /// The profile or the contact fails, or `stop` returned true.
     pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
         let plan = self.plan;
         let scene =
@@ -106,7 +106,7 @@ impl<'p> Recorder<'p> {
         each.into_iter().map(values).collect()
     }
 
-    /// Outcomes of loadings, each of which begins at separation, and F_a(0) by the touch protocol.
+    /// Outcomes of loadings that each begin at separation, and F_a(0) by the touch protocol, N.
     fn solve(
         &mut self,
         scene: &CheckedScene,
@@ -178,8 +178,8 @@ impl<'p> Recorder<'p> {
         Ok(record)
     }
 
-    /// Exponents of the contact without adhesion, fitted in logarithms over the plan's range of forces. Without stretched
-    /// springs the stiffness is E* times the length in contact.
+    /// Exponents of the contact without adhesion, fitted to logarithms over the plan's range of forces. Since no spring is
+    /// stretched, the stiffness is E* times the contact length.
     fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
         let Some(unit) = governing.force_unit(scene.length) else { return Ok(None) };
@@ -196,7 +196,7 @@ impl<'p> Recorder<'p> {
     }
 }
 
-/// Returns true for an error of the machine or of the user rather than of a cell.
+/// Returns true for an error due to the machine or the user rather than to a cell.
 fn is_of_machine(error: &RunError) -> bool {
     let is_short = matches!(
         error,

@@ -1,4 +1,4 @@
-//! All records of a study: from its shard files, from its merged table, or computed in memory.
+//! All records of a study: read from its shard files or its merged table, or computed in memory.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -24,40 +24,40 @@ const MOST_NAMED: usize = 8;
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
-    /// Values of each record, by cell, then by profile; NaN where there are none.
+    /// Values of all records, ordered by cell, then by profile; NaN for missing ones.
     values: Vec<f64>,
     done: Vec<bool>,
-    /// Reasons of the records that cannot be computed, by the same places.
+    /// Reasons of the records that cannot be computed, by the index of the record.
     failed: BTreeMap<u64, String>,
 }
 
-/// Contents of the shard files of a study.
+/// What a merge found in the shard files of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Merged {
-    /// Existing records, each counted once.
+    /// Number of records, each counted once.
     pub records: u64,
-    /// Records without values, since they cannot be computed.
+    /// Number of records without values, since they cannot be computed.
     pub failed: u64,
-    /// The first of these: cell, seed and reason.
+    /// The first records without values: cell, seed and reason.
     pub first_failed: Vec<(u64, u64, String)>,
-    /// All records of the study.
+    /// Number of records that the whole study has.
     pub total: u64,
-    /// Records that occurred more than once, bit for bit the same.
+    /// Number of records that occur more than once, bit for bit the same.
     pub duplicates: u64,
-    /// Torn or damaged lines of shard files, left out.
+    /// Number of torn or damaged lines of shard files, which are left out.
     pub damaged: u64,
     /// Number of cells with missing profiles.
     pub missing_cells: u64,
-    /// The first of these cells.
+    /// The first of the cells with missing profiles.
     pub first_missing: Vec<u64>,
-    /// Number of files with records.
+    /// Number of shard files with records.
     pub files: usize,
     /// Versions of the program that wrote the records.
     pub programs: Vec<String>,
 }
 
 impl PartialEq for Results {
-    /// Equal plans and values bit by bit, so that missing values are equal.
+    /// Studies are equal if their plans are and their values are equal bit by bit; missing values are equal.
     fn eq(&self, other: &Self) -> bool {
         self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
     }
@@ -69,7 +69,7 @@ impl std::fmt::Debug for Results {
     }
 }
 
-/// Returns true for equal bits, but for the kind of NaN.
+/// Returns true for values with equal bits; all NaN are equal.
 fn same(one: &[f64], other: &[f64]) -> bool {
     let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     one.len() == other.len() && one.iter().zip(other).all(equal)
@@ -83,10 +83,10 @@ fn same_record(one: &Recorded, other: &Recorded) -> bool {
 }
 
 impl Results {
-    /// A study without records.
+    /// Creates a study without records.
     ///
     /// # Errors
-    /// A table that is too large for the memory.
+    /// The table is too large for the memory.
     pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
         let (records, mut values) = (plan.records_in_all(), Vec::new());
         let count = records as usize * plan.record.len();
@@ -95,12 +95,12 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// A study in memory of a checked scene on random profiles, at each of these preloads, N, if there are any; without
-    /// records.
+    /// Begins a study in memory, without records, of a checked scene on random profiles, at each of these preloads (N), if
+    /// any.
     ///
     /// # Errors
-    /// A scene with a single profile if there are to be several, preloads without the exact solver, or a study that is
-    /// too large for the memory.
+    /// Several profiles of a scene that has one, preloads without the exact solver, or a study that is too large for the
+    /// memory.
     pub fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -120,11 +120,11 @@ impl Results {
         Results::empty(Plan { axes, ..Plan::of_scene(scene, lines, record) })
     }
 
-    /// Computes a study as that of [`Results::begin`]. Files of the scene are relative to `folder`. `jobs` threads share
-    /// the profiles; no bit of a result depends on their number.
+    /// Computes a whole study such as [`Results::begin`] begins. Files of the scene are relative to `folder`. `jobs`
+    /// threads share the profiles; no bit of a result depends on their number.
     ///
     /// # Errors
-    /// As [`Results::begin`], or the first profile that fails.
+    /// As for [`Results::begin`], or the error of the first profile that fails.
     pub fn of_scene(
         scene: &Scene,
         folder: &Path,
@@ -148,11 +148,11 @@ impl Results {
         Ok(results)
     }
 
-    /// Computes the missing profiles of a study as that of [`Results::begin`], one after the other. `report` receives the
+    /// Computes the missing profiles of a study that [`Results::begin`] began, one after the other. `report` receives the
     /// results after each.
     ///
     /// # Errors
-    /// When a profile or its contact fails, or `stop` interrupts.
+    /// A profile or its contact fails, or `stop` returned true.
     pub fn extend(
         &mut self,
         simulation: &mut Simulation,
@@ -181,7 +181,7 @@ impl Results {
     /// Reads all shard files of a study.
     ///
     /// # Errors
-    /// Files that cannot be read, or two records of one cell and profile that differ.
+    /// A file cannot be read, or two records of the same cell and profile differ.
     pub(super) fn of_shards(folder: &Folder) -> Result<(Results, Merged), StudyError> {
         let mut results = Results::empty(folder.plan().clone())?;
         let files = folder.files()?;
@@ -224,7 +224,7 @@ impl Results {
         Ok((results, merged))
     }
 
-    /// Error for two records at a place that differ, the second one in this file.
+    /// Error for two different records with the same index, the second of which is in the file `other`.
     fn conflict(&self, folder: &Folder, files: &[ShardFile], place: u64, other: &ShardFile) -> StudyError {
         let is_there = |record: Result<Option<Record>, StudyError>| matches!(record, Ok(Some((found, _))) if found == place);
         let has = |file: &&ShardFile| folder.records(file).is_ok_and(|mut records| records.any(is_there));
@@ -238,14 +238,14 @@ impl Results {
         self.done.iter().filter(|done| **done).count() as u64
     }
 
-    /// Sets the record at a place, by cell, then by profile.
+    /// Sets the values of a record by its index: by cell, then by profile.
     pub(super) fn set(&mut self, place: u64, values: &[f64]) {
         let columns = self.plan.record.len();
         self.values[place as usize * columns..][..columns].copy_from_slice(values);
         self.done[place as usize] = true;
     }
 
-    /// Sets the record at a place, of which a reason is kept in place of the values.
+    /// Sets a record by its index, to its values or to the reason why it has none.
     pub(super) fn set_record(&mut self, place: u64, record: Recorded) {
         match record {
             Ok(values) => self.set(place, &values),
@@ -256,7 +256,7 @@ impl Results {
         }
     }
 
-    /// The record at a place, if there is one.
+    /// The record with this index, if there is one.
     fn recorded(&self, place: u64) -> Option<Recorded> {
         match self.failed.get(&place) {
             Some(reason) => Some(Err(reason.clone())),
@@ -264,18 +264,18 @@ impl Results {
         }
     }
 
-    /// The records that cannot be computed: cell, number of the profile and reason.
+    /// The records that cannot be computed: cell, index of the profile and reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
         self.failed.iter().map(move |(place, reason)| (place / lines, place % lines, reason.as_str()))
     }
 
-    /// Reason why a record has no values.
+    /// Reason why a record has no values; `None` if it has values or is missing.
     pub(super) fn reason(&self, cell: u64, line: u64) -> Option<&str> {
         self.failed.get(&(cell * self.plan.lines + line)).map(String::as_str)
     }
 
-    /// Reason why nothing of a cell is known, if it cannot be computed on any profile.
+    /// Reason why a cell has no values, if it cannot be computed on any profile.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let reasons = || self.failed.range(places.clone()).map(|(_, reason)| reason.as_str());
@@ -287,8 +287,8 @@ impl Results {
         &self.plan
     }
 
-    /// Values of a cell on a profile, in the order of the recorded quantities, NaN for a quantity without a value. The
-    /// regimes are places in [`asperity_scene::Regime::ALL`]. `None` for a missing record.
+    /// Values of a cell on a profile, in the order of the recorded quantities; NaN for a quantity without a value. A regime
+    /// is an index in [`asperity_scene::Regime::ALL`]. `None` for a missing record.
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -299,7 +299,7 @@ impl Results {
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
-    /// A recorded quantity of a cell on a profile, if it has a value.
+    /// A recorded quantity of a cell on a profile, in its SI unit; `None` without a value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
         self.record(cell, line).map(|values| values[column]).filter(|value| !value.is_nan())
@@ -310,7 +310,7 @@ impl Results {
         regime_of(self.value(cell, line, regime)?)
     }
 
-    /// Existing records of a cell: the number of the profile and the values.
+    /// Existing records of a cell: index of the profile, and values.
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
@@ -319,41 +319,42 @@ impl Results {
         self.done[(cell * self.plan.lines + line) as usize]
     }
 
-    /// Returns true for a cell with all records.
+    /// Returns true for a cell that has all its records.
     pub fn is_whole(&self, cell: u64) -> bool {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// A recorded quantity on all profiles of a cell that have a value of it.
+    /// Values of a recorded quantity on all profiles of a cell that have one.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else { return Vec::new() };
         self.records_of(cell).map(|(_, values)| values[column]).filter(|value| !value.is_nan()).collect()
     }
 
-    /// A recorded quantity over the profiles of a cell; `None` without values.
+    /// Statistics of a recorded quantity over the profiles of a cell; `None` without values.
     pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Numbers of profiles of a cell in each regime of [`Quantity::REGIMES`].
+    /// Number of profiles of a cell in each regime, by each protocol of [`Quantity::REGIMES`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))
     }
 
-    /// The recorded quantities but the regimes, on scales for the whole study.
+    /// The recorded quantities except regimes, on scales for the whole study.
     pub(super) fn layers(&self) -> Vec<Layer> {
         let recorded = self.plan.record.iter().filter(|quantity| !quantity.is_regime());
         recorded.map(|quantity| self.layer(*quantity, None)).collect()
     }
 
-    /// A recorded quantity on one scale for the whole study: that one, or by the range of all its means.
+    /// A recorded quantity with a scale for the whole study: the given one, or one chosen from all means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
         let means = (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         Layer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
-    /// The cells over one axis or two, at these places on the others, with quantities on these scales.
+    /// The cells over one or two axes, at the values with these indices on the other axes, with the quantities of these
+    /// layers.
     pub(super) fn grid(
         &self,
         (across, up): (usize, Option<usize>),
@@ -379,7 +380,7 @@ impl Results {
         Grid::new(axes[across].ascending(), up.map(|up| axes[up].ascending()), fixed, layers, cells)
     }
 
-    /// A cell with these quantities; `None` without any record.
+    /// A cell with the statistics of these quantities; `None` without records.
     pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<Cell> {
         let statistics = quantities.iter().map(|quantity| self.statistics(cell, *quantity)).collect();
         let regimes = self.regimes(cell);

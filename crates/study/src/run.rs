@@ -1,4 +1,4 @@
-//! Computation of the missing records of a plan on all cores, with the same bits for any number of them.
+//! Computation of the missing records of a plan on all cores; no bit of a result depends on the number of threads.
 
 use super::cells::Cells;
 use super::error::StudyError;
@@ -20,61 +20,60 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-/// Longest wait of written records for the disk; records lost by a power cut are computed again. One sync costs
-/// tenths of a millisecond or, on network file systems, many of them: on a local disk 100 000 records of 256
-/// springs take 11 s with this wait, 12 s if each sync takes the records of the time of the one before, and 190 s
-/// with a sync for each record. Cells of thousands of springs show no difference.
+/// Longest time that written records wait for the disk; a power cut loses them, and they are computed again. One sync takes
+/// tenths of a millisecond, and many on network file systems: on a local disk 100 000 records of 256 springs take 11 s with
+/// this wait, 12 s if each sync takes the records written since the one before, and 190 s with a sync for each record. For
+/// cells of thousands of springs there is no difference.
 const SYNC: Duration = Duration::from_millis(50);
-/// Records on their way to the file.
+/// Number of records that may wait between computation and file.
 const WAITING: usize = 4096;
-/// Interval between reports of progress.
 const TICK: Duration = Duration::from_millis(200);
 
 /// Options of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Threads.
+    /// Number of threads.
     pub jobs: usize,
-    /// The part of the plan.
+    /// The part of the plan to compute.
     pub shard: Shard,
 }
 
-/// Progress of a run.
+/// Progress of a run, in records of its part of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Existing records of this part of the plan.
+    /// Number of existing records.
     pub done: u64,
-    /// Records that existed before this run.
+    /// Number of records that existed before this run.
     pub before: u64,
-    /// All records of this part of the plan.
+    /// Number of all records.
     pub total: u64,
-    /// Time from the beginning of the file of this run to the last records in it.
+    /// Time from the creation of this run's file to the last records in it.
     pub elapsed: Duration,
 }
 
 impl Progress {
-    /// Returns true if every record of this part of the plan exists.
+    /// Returns true if every record exists.
     pub fn is_complete(&self) -> bool {
         self.done == self.total
     }
 
-    /// Records per second, as [`crate::status::Attempt::rate`]; `None` before the first record.
+    /// Records per second, computed as [`crate::status::Attempt::rate`]; `None` before the first record.
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
-    /// Time left, at the rate so far; `None` before the first record.
+    /// Time left at the rate so far; `None` before the first record.
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
 }
 
-/// Computes the missing records of a part of the plan. `stop` is polled after each run; `report` is called now and
-/// then and at the end.
+/// Computes the missing records of a part of the plan. `stop` is polled after each streak; `report` is called now and then
+/// and at the end.
 ///
 /// # Errors
-/// Too little memory for a record, or a record that cannot be written. Earlier records are kept.
+/// Too little memory for a record, or a record cannot be written. Earlier records are kept.
 pub fn run(
     folder: &Folder,
     options: Options,

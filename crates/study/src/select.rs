@@ -1,4 +1,4 @@
-//! Selection of a figure from a merged study: quantities, axes across and up, values of the other axes.
+//! Selection of a figure from a merged study: quantities, axes across and up, and values of the other axes.
 
 use super::axis::Axis;
 use super::grid::{Grid, Layer, across_and_up, scale_of};
@@ -9,11 +9,11 @@ use asperity_data::AxisScale;
 use asperity_data::parse_quantity;
 use asperity_data::round_to;
 
-/// Most values of a second axis that makes curves of a section rather than rows of a map.
+/// Largest number of values of a second axis that is shown as curves of a section rather than as rows of a map.
 const MOST_CURVES: usize = 5;
 const MOST_NAMED: usize = 12;
 
-/// Selection by the user; an option of `asperity sweep plot` for each field.
+/// What the user selects; each field is an option of `asperity sweep plot`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
@@ -49,22 +49,22 @@ fn axis_and_value(text: &str) -> Result<(String, String), String> {
 /// A selected part of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selected {
-    /// The cells.
+    /// Cells of the selected part.
     pub grid: Grid,
-    /// The shown quantities.
+    /// Quantities to show.
     pub quantities: Vec<Quantity>,
-    /// True if the rows of the grid are curves of a section.
+    /// True if each row of the grid is drawn as a curve over the axis across; false for a map.
     pub curves: bool,
 }
 
-/// The axes that are named to go across and up, and for each axis of a study the place at which it is fixed.
+/// Indices of the axes named for across and up, and for each axis of the study the index of the value at which it is fixed.
 type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
 
 impl Selection {
     /// Selects a part of a study.
     ///
     /// # Errors
-    /// Unknown quantity, axis or value, with those that the study has; more than two free axes.
+    /// A quantity, axis or value that the study does not have, with a list of what it has; or more than two free axes.
     pub fn of(&self, study: &Results) -> Result<Selected, String> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
@@ -108,7 +108,7 @@ impl Selection {
         if usual.is_empty() { Ok(vec![first()?]) } else { Ok(usual) }
     }
 
-    /// The named axes, which exist and are named once; an axis with one value is fixed.
+    /// Resolves the named axes, which must exist and be named once; an axis with one value is fixed.
     fn axes(&self, axes: &[Axis]) -> Result<Chosen, String> {
         let mut named: Vec<(usize, &str)> = Vec::new();
         let mut name = |path: &str, option| {
@@ -140,8 +140,8 @@ impl Selection {
         Ok(([across, up], fixed))
     }
 
-    /// The axis across, and the second one if there is one: as named; else H across and κ or e_el/γ up, or curves along the
-    /// longer of two axes.
+    /// Indices of the axis across and, if there is one, of the second axis: as named; otherwise H goes across and κ or
+    /// e_el/γ up, or curves go along the longer of two axes.
     fn free(
         &self,
         axes: &[Axis],
@@ -181,14 +181,14 @@ impl Selection {
     }
 }
 
-/// Returns true if an axis has so few values, and the other so many, that these are curves over the other.
+/// Returns true if axis `one` has few values and axis `other` many, so that the few are curves over the other axis.
 fn is_few(axes: &[Axis], one: usize, other: usize) -> bool {
     let few = |index: usize| axes[index].values.len() <= MOST_CURVES;
     few(one) && !few(other)
 }
 
-/// A quantity of curves: a single one is linear, and logarithmic too for small values; of several the highest would hide
-/// the others.
+/// A quantity shown as curves. A single curve is linear, with a second, logarithmic chart for small values; of several
+/// curves on a linear scale the highest would hide the others.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
     let statistics = grid.statistics(quantity, false);
     let mut curves = statistics.chunks(grid.size().0.max(1));

@@ -1,4 +1,5 @@
-//! Sensitivity of the results of a scene: their changes by a tenth of each number of the scene, and by the random phases.
+//! Sensitivity of the results of a scene: how they change with each number of the scene, by a tenth, and with the random
+//! phases.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -10,45 +11,45 @@ use asperity_scene::Simulation;
 
 /// Share by which a number is made smaller and larger.
 pub const STEP: f64 = 0.1;
-/// Random profiles beside that of the scene.
+/// Number of random profiles besides the profile of the scene.
 pub const OTHER_SEEDS: u64 = 7;
 
-/// Values of the results, in the order of [`Sensitivity::RESULTS`].
+/// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`].
 pub type Values = [Option<f64>; 3];
 
-/// Results with a number smaller and larger than in the scene.
+/// Results for a smaller and a larger value of one number of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Influence {
     /// Path, name and unit of the number.
     pub axis: Axis,
     /// The number in the scene.
     pub value: f64,
-    /// The smaller and the larger number, with the results; `None` for a number that the scene does not allow.
+    /// The smaller and the larger number, each with the results; `None` for a number that the scene does not allow.
     pub sides: [(f64, Option<Values>); 2],
 }
 
-/// Results of a scene and of its neighbours.
+/// Results of a scene, and of scenes with one number changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Results of the scene.
+    /// Results of the scene itself.
     pub present: Values,
-    /// One influence for each number of the scene that is not a count, as far as computed.
+    /// Influence of each number of the scene that is not a count, as far as computed.
     pub influences: Vec<Influence>,
-    /// Smallest and largest results over the profile of the scene and those of the [`OTHER_SEEDS`] next seeds; `None`
-    /// for a scene without random phases.
+    /// Smallest and largest results over the profile of the scene and the profiles of the [`OTHER_SEEDS`] following seeds;
+    /// `None` for a scene without random phases.
     pub seeds: Option<[Values; 2]>,
 }
 
 impl Sensitivity {
-    /// The results.
+    /// The results that are compared.
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::ZeroLoadAdhesionForce, Quantity::DissipatedEnergy];
 
-    /// Computes a checked scene and its neighbours. All other numbers of the scene stay: with κ given, the work of
+    /// Computes a checked scene, and scenes with one number changed. All other numbers stay: if κ is given, the work of
     /// adhesion follows from κ. `report` receives the influences so far after each.
     ///
     /// # Errors
-    /// When a profile or its contact fails, or `stop` interrupts.
+    /// A profile or its contact fails, or `stop` returned true.
     pub fn of(
         scene: &Scene,
         simulation: &mut Simulation,
@@ -82,20 +83,20 @@ impl Sensitivity {
         Ok(all)
     }
 
-    /// Relative changes from the results of the scene to other ones; `None` where either is missing or that of the scene is
-    /// zero.
+    /// Relative changes from the results of the scene to these values; `None` if either is missing or the result of the
+    /// scene is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// The reason why no change of the adhesion force is known, if there is none to begin with.
+    /// The reason, in words, why no change of the adhesion force is known; `None` if there is an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known)
             .then_some("The scene has no pull-off: there is no adhesion force that a number could change.")
     }
 
-    /// The influences, that with the largest change of a result first.
+    /// The influences, with the largest change of a result first; `result` is the index of the result.
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {
@@ -108,7 +109,7 @@ impl Sensitivity {
     }
 }
 
-/// A number changed by [`STEP`] towards one side; a whole number by at least 1.
+/// A number changed by the share [`STEP`] up or down; a whole number by at least 1.
 fn changed(axis: &Axis, value: f64, sign: f64) -> f64 {
     let step = STEP * value.abs();
     if axis.is_whole() { value + sign * step.round().max(1.0) } else { value + sign * step }
@@ -131,7 +132,7 @@ mod tests {
         found
     }
 
-    /// F_a = (3/2)πγR of a sphere: in proportion to γ and R, and to nothing else.
+    /// F_a = (3/2)πγR of a sphere changes in proportion to γ and R, and with nothing else.
     #[test]
     fn a_sphere_follows_its_radius_and_the_work_of_adhesion() {
         let found = sensitivity("jkr-sphere");

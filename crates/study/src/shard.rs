@@ -1,4 +1,4 @@
-//! Parts of a plan, for processes that share it.
+//! Parts (shards) of a plan, for processes that share it.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 const MOST: u32 = 1_000_000;
 
-/// The `number`-th of `count` parts, counted from 1.
+/// Part number `number`, from 1, of `count` parts of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Shard {
     /// Number of the part, from 1.
@@ -19,7 +19,7 @@ impl Shard {
     /// The whole plan.
     pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
-    /// A part of a plan.
+    /// Creates a part of a plan.
     ///
     /// # Errors
     /// The allowed numbers, in words.
@@ -29,7 +29,7 @@ impl Shard {
         is_sound.then_some(Shard { number, count }).ok_or_else(allowed)
     }
 
-    /// Numbers of the units of work of this part, out of all `units`.
+    /// Indices of the units of work that belong to this part, out of all `units`.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }

@@ -1,31 +1,31 @@
-//! Numbers of random profiles: their mean, spread and quartiles, and how many are in each regime.
+//! Statistics over random profiles: mean, spread and quartiles of a quantity, and numbers of profiles in each regime.
 
 use asperity_data::{format_range, format_rounded};
 use asperity_data::{mean, quantile, standard_deviation, student_quantile};
 use asperity_scene::Regime;
 use serde::Serialize;
 
-/// Share of samples whose confidence interval holds the true mean.
+/// Probability with which a confidence interval holds the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// Smallest share of random profiles in one regime for which the profiles agree.
+/// Share of random profiles in one regime from which on the profiles agree.
 const AGREEING_SHARE: f64 = 0.75;
 
-/// Largest share of one profile in a mean without a warning.
+/// Share of one profile in a mean above which a warning is given.
 const MOST_OF_ONE: f64 = 0.5;
 
-/// A quantity over random profiles.
+/// Statistics of a quantity over random profiles, in its SI unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
     /// Number of values; profiles without a value are left out.
     pub count: usize,
-    /// Mean.
+    /// Mean of the values.
     pub mean: f64,
     /// Lower quartile, median and upper quartile, interpolated between neighbours.
     pub quartiles: [f64; 3],
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// Spread of the values and confidence of the mean; `None` for one value, or too few to state a confidence.
+    /// Spread of the values and confidence of the mean; `None` for one value, or for too few to state a confidence.
     #[serde(flatten)]
     pub spread: Option<Spread>,
 }
@@ -33,21 +33,21 @@ pub struct Statistics {
 /// Spread of several values and confidence of their mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Standard deviation, with n − 1.
+    /// Sample standard deviation (divisor n − 1).
     pub standard_deviation: f64,
     /// Standard error of the mean.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t on a scale on which the quantity has
-    /// no bounds.
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t, on a scale on which the quantity
+    /// has no bounds.
     pub confidence_interval: (f64, f64),
 }
 
-/// Value of a column of a table of statistics, if it is known.
+/// Function that gives the value in a column of a table of statistics, if it is known.
 pub type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
-    /// Statistics of values of a quantity between these bounds, (−∞, ∞) without any. A value that is not a finite number is
-    /// left out as a missing one; `None` without values.
+    /// Computes the statistics of values of a quantity with these bounds, (−∞, ∞) without any. Values that are not finite
+    /// are left out as missing; `None` without values.
     pub fn of(mut values: Vec<f64>, bounds: (f64, f64)) -> Option<Self> {
         values.retain(|value| value.is_finite());
         let mut sorted = values.clone();
@@ -71,7 +71,7 @@ impl Statistics {
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
     }
 
-    /// Columns of tables of statistics: endings of their names, and values.
+    /// Columns of tables of statistics: ending of the name, and value.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -95,20 +95,20 @@ impl Statistics {
         format!("median {median} (quartiles {quartiles}, range {range})")
     }
 
-    /// A warning where one of at least three profiles makes more than half of the mean of `what`.
+    /// A warning if one of at least three profiles makes up more than half of the mean of `what`.
     pub fn warning(&self, what: &str) -> Option<String> {
         let share = self.share_of_largest().filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
         let percent = format_rounded(100.0 * share, 2, "1");
         Some(format!("One profile makes {percent} % of the mean of {what}: the median is the better guide."))
     }
 
-    /// Share of the largest value in the sum of values of which none is below zero.
+    /// Share of the largest value in the sum of the values; `None` if a value is negative.
     pub fn share_of_largest(&self) -> Option<f64> {
         let share = self.range.1 / (self.mean * self.count as f64);
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Both ends of the confidence interval of the mean, or the mean twice.
+    /// Both ends of the confidence interval of the mean; the mean twice if there is none.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
@@ -119,9 +119,9 @@ impl Statistics {
     }
 }
 
-/// The mean with `half` the width of its interval added at both ends: plainly for a quantity without bounds, to the
-/// logarithm of the distance from one bound, and to the logarithm of the ratio of the distances from two. The interval
-/// never reaches a bound, and is the plain one where it is narrow.
+/// Interval around the mean with the half width `half`. For a quantity without bounds it is added to the mean; for one
+/// bound to the logarithm of the distance from the bound; for two to the logarithm of the ratio of both distances. The
+/// interval never reaches a bound, and hardly differs where it is narrow.
 fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     let (above, below) = (mean - least, most - mean);
     // Rounding may have carried the mean itself across a bound.
@@ -142,13 +142,13 @@ fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
 /// Number of profiles in each regime.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RegimeCounts {
-    /// Pressure-insensitive adhesion.
+    /// Number of profiles with pressure-insensitive adhesion.
     pub pressure_insensitive: usize,
-    /// Pressure-sensitive adhesion.
+    /// Number of profiles with pressure-sensitive adhesion.
     pub pressure_sensitive: usize,
-    /// No adhesion.
+    /// Number of profiles that are non-adhesive.
     pub non_adhesive: usize,
-    /// Regime unknown: no tensile force.
+    /// Number of profiles whose regime is unknown, since there is no tensile force.
     pub none: usize,
 }
 
@@ -161,7 +161,7 @@ impl RegimeCounts {
         RegimeCounts { pressure_insensitive, pressure_sensitive, non_adhesive, none }
     }
 
-    /// Numbers of profiles in the order of [`Regime::ALL`].
+    /// Number of profiles in each regime, in the order of [`Regime::ALL`].
     fn known(self) -> [usize; 3] {
         [self.pressure_insensitive, self.pressure_sensitive, self.non_adhesive]
     }
@@ -176,14 +176,14 @@ impl RegimeCounts {
         self.ordered()[0]
     }
 
-    /// Regime of the second largest number of profiles, if too few are in the first.
+    /// Regime with the second largest number of profiles, if too few profiles agree on the first.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
         second.filter(|_| !agree).map(|(regime, _)| regime)
     }
 
-    /// Regimes that occur with their numbers of profiles, the largest first.
+    /// Regimes that occur, with their numbers of profiles, the largest first.
     fn ordered(self) -> [Option<(Regime, usize)>; 3] {
         let mut counts = [0, 1, 2].map(|place| (Regime::ALL[place], self.known()[place]));
         // Stable: of equal numbers the one with more adhesion remains first.
@@ -191,14 +191,14 @@ impl RegimeCounts {
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
 
-    /// Regimes that occur, by name, with their numbers of profiles.
+    /// Names of the regimes that occur, with their numbers of profiles.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);
         let names = Regime::ALL.map(Regime::name).into_iter().chain(["not known"]);
         names.zip(counts).filter(|(_, count)| *count > 0)
     }
 
-    /// Shares of the profiles of known regime, in the order of [`Regime::ALL`]; `None` where no regime is known.
+    /// Share of each regime among the profiles of known regime, in the order of [`Regime::ALL`]; `None` if none is known.
     pub fn shares(self) -> Option<[f64; 3]> {
         let all: usize = self.known().iter().sum();
         (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))

@@ -12,34 +12,34 @@ use std::path::Path;
 /// Progress of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Existing records.
+    /// Number of existing records.
     pub done: u64,
-    /// All records of the study.
+    /// Number of records that the whole study has.
     pub total: u64,
-    /// Records that are missing.
+    /// Number of missing records.
     pub missing: u64,
-    /// Records without values, since they cannot be computed.
+    /// Number of records without values, since they cannot be computed.
     pub failed: u64,
-    /// Lines of shard files that are torn or damaged.
+    /// Number of lines of shard files that are torn or damaged.
     pub damaged: u64,
-    /// The parts assigned to processes.
+    /// The parts of the plan that processes work on.
     pub shards: Vec<ShardStatus>,
 }
 
 /// Progress of one part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ShardStatus {
-    /// Part, as `3/8`.
+    /// The part, as `3/8`.
     pub shard: String,
-    /// All records of the part.
+    /// Number of all records of the part.
     pub total: u64,
-    /// Existing records of the part, by any process.
+    /// Number of existing records of the part, from any process.
     pub done: u64,
-    /// The processes assigned to the part.
+    /// The processes that worked on the part.
     pub attempts: Vec<Attempt>,
 }
 
-/// One process and its file.
+/// One process, with its file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
     /// Name of the file.
@@ -48,21 +48,21 @@ pub struct Attempt {
     pub host: String,
     /// Process id on that machine.
     pub process: u32,
-    /// Time of the beginning, s since 1970.
+    /// Time at which the process began, s since 1970.
     pub started: u64,
-    /// Time of the last write, s since 1970.
+    /// Time of its last write, s since 1970.
     pub written: f64,
-    /// Records written by the process.
+    /// Number of records written by the process.
     pub records: u64,
-    /// Records per second, from the beginning to the last write.
+    /// Records per second, from the beginning to the last write; `None` if no time passed.
     pub rate: Option<f64>,
 }
 
 impl Status {
-    /// Status of the present content of the folder.
+    /// Status of a study from the present content of its folder.
     ///
     /// # Errors
-    /// A folder that cannot be read.
+    /// The folder cannot be read.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let total = folder.plan().records_in_all();
         let (mut done, mut damaged, mut failed) = (vec![false; total as usize], 0, 0);
@@ -101,12 +101,12 @@ impl Status {
     }
 }
 
-/// Records per second over this time, s, from the beginning to the last write; `None` for zero time.
+/// Records per second over a time, s; `None` for zero time.
 pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// Number of all records of a part of a study, and of the existing ones. Counting all parts of a division takes as long
+/// Number of all records of a part of a study, and number of the existing ones. Counting all parts together takes as long
 /// as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);

@@ -1,8 +1,8 @@
 //! The folder of a study: its plan, and one file for each process that has worked on it.
 //!
-//! A shard file is only ever appended to, by the process that made it; each record is a line with a checksum. After
-//! any end of a process its written records stay, and a torn line is left out. After a crash of the machine the
-//! records not yet on the disk, those of a moment, are lost and computed again.
+//! A shard file is only ever appended to, by the process that made it; each record is a line with a checksum. However a
+//! process ends, its written records remain, and a torn line is ignored. A crash of the machine loses the records that have
+//! not reached the disk; they are computed again.
 
 use super::error::StudyError;
 use super::measured::{changed, file_of, with_hash};
@@ -25,16 +25,16 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Version of the shard files.
 pub const STORE_VERSION: u32 = 1;
-/// Longest line of a shard file or of a table; records are much shorter.
+/// Limit of the length of a line of a shard file or a table, bytes; records are much shorter.
 const LONGEST_LINE: u64 = 1 << 16;
 
 const SHARDS: &str = "shards";
 const ENDING: &str = "shard";
 
-/// Begins the reason of a record without values, after cell and seed.
+/// Text between cell and seed and the reason, in a record without values.
 const FAILED: &str = ",:";
 
-/// Characters of the checksum and the comma behind it.
+/// Number of characters of the checksum and the comma behind it.
 const CHECKSUM: usize = 9;
 
 /// The folder of a study.
@@ -44,10 +44,10 @@ pub struct Folder {
     plan: Plan,
 }
 
-/// Header of a shard file: its first line.
+/// Header of a shard file, which is its first line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    /// `STORE_VERSION`.
+    /// Version of the format of shard files.
     pub format: u32,
     /// Checksum of the plan.
     pub plan: String,
@@ -57,9 +57,9 @@ pub struct Header {
     pub host: String,
     /// Process id on that machine.
     pub process: u32,
-    /// Time of the beginning, s since 1970.
+    /// Time at which the process began, s since 1970.
     pub begun: f64,
-    /// Version of the program.
+    /// Version of the program that wrote the file.
     pub program: String,
 }
 
@@ -74,16 +74,15 @@ pub struct ShardFile {
     pub written: f64,
 }
 
-/// A record: its place among all records of a study, by cell, then by seed, and one value for each quantity of the
-/// plan, NaN for missing ones, or the reason why there are none.
+/// A record: its index among all records of the study (by cell, then by seed), and one value for each quantity of the plan
+/// (NaN if missing), or the reason why there are none.
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
-    /// Makes the folder of a plan, or opens one that holds the same plan.
+    /// Creates the folder of a plan, or opens one that holds the same plan.
     ///
     /// # Errors
-    /// A folder with another plan, a measured file that has changed or cannot be read, or a
-    /// folder that cannot be written.
+    /// The folder holds another plan or cannot be written, or a measured file has changed or cannot be read.
     pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
         let plan = with_hash(plan)?;
         let shards = path.join(SHARDS);
@@ -120,10 +119,10 @@ impl Folder {
         path.join(PLAN_FILE).is_file()
     }
 
-    /// Opens the folder of a study, whose plan was checked when the study began.
+    /// Opens the folder of a study; its plan was checked when the study began.
     ///
     /// # Errors
-    /// No study, or an unreadable plan.
+    /// The folder holds no study, or its plan cannot be read.
     pub fn open(path: &Path) -> Result<Folder, StudyError> {
         let file = path.join(PLAN_FILE);
         if !file.is_file() {
@@ -179,10 +178,10 @@ impl Folder {
         Ok((path, file))
     }
 
-    /// All shard files with a header, by name; a process that ended before it had written one has no records.
+    /// All shard files that have a header, sorted by name; a process that ended before it wrote one has no records.
     ///
     /// # Errors
-    /// Files that cannot be read, or that belong to another plan or another version.
+    /// A file cannot be read, or belongs to another plan or version.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let listed =
@@ -197,8 +196,8 @@ impl Folder {
         paths.into_iter().filter_map(|path| file_of_plan(path, &checksum).transpose()).collect()
     }
 
-    /// The records of a file in the order of writing; `None` for a line that is torn, was changed since, or is no record
-    /// of this plan.
+    /// The records of a file in the order of writing; `None` for a line that is torn, was changed later, or is no record of
+    /// this plan.
     pub(super) fn records<'f>(
         &'f self,
         file: &'f ShardFile,
@@ -219,8 +218,8 @@ impl Folder {
         }))
     }
 
-    /// The existing records, true at their places, which survive a power cut: records that a killed process left unsynced
-    /// would be counted and lost.
+    /// Which records exist, by index, after all files are synced to the disk: otherwise a power cut could lose records that
+    /// a killed process left unsynced, although they were counted.
     pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
         let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {
@@ -237,7 +236,7 @@ impl Folder {
     }
 }
 
-/// A shard file of the plan with this checksum; `None` without a header.
+/// A shard file of the plan with this checksum; `None` if it has no header yet.
 fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, StudyError> {
     let file = open_regular(&path).map_err(|error| StudyError::folder(&path, error))?;
     let written =
@@ -251,7 +250,7 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
     Ok(Some(ShardFile { header, written, path }))
 }
 
-/// Reads a whole header, which no crash can have made: an error in it was written so.
+/// Reads a whole header. A crash cannot cause an error in it, so an error is a fault of the writer.
 fn header_of(payload: &str, checksum: &str) -> Result<Header, String> {
     let header: Header = serde_json::from_str(payload).map_err(|error| {
         format!(
@@ -267,13 +266,13 @@ fn header_of(payload: &str, checksum: &str) -> Result<Header, String> {
     Ok(Header { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
 }
 
-/// Appends a line with its checksum in front; the payload holds no line break.
+/// Appends a line with its checksum in front; `payload` has no line break.
 pub(super) fn seal(payload: &str, into: &mut String) {
     // Writing to a string cannot fail.
     let _ = writeln!(into, "{:08x},{payload}", crc32fast::hash(payload.as_bytes()));
 }
 
-/// The payload of a line without its break; `None` if the line was changed.
+/// The payload of a line without its line break; `None` if it does not agree with the checksum.
 pub(super) fn unseal(line: &str) -> Option<&str> {
     let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
     let checksum = checksum.strip_suffix(',')?;
@@ -312,7 +311,7 @@ pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)
     (values.len() == count).then_some((cell, seed, Ok(values)))
 }
 
-/// Lines of a text without their breaks; `None` for a line that is too long, torn or not text.
+/// Lines of a text without their line breaks; `None` for a line that is too long, torn or not text.
 pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<Option<String>>> {
     std::iter::from_fn(move || {
         let mut line = Vec::new();
@@ -329,7 +328,7 @@ fn text_of(file: &Path) -> Result<String, StudyError> {
     read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
 }
 
-/// Error for a folder that holds the text `there` of another plan than `plan`.
+/// Error for a folder that holds another plan, with the text `there`, than `plan`.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
     // If only the content of the measured file differs, the error is specific.

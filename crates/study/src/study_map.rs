@@ -1,4 +1,5 @@
-//! The maps of a finished study: over H and κ, or over other axes; one map for each value of the remaining axes.
+//! The maps of a finished study: over H and κ or over other axes, one map for each combination of values on the remaining
+//! axes.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -11,16 +12,16 @@ use asperity_scene::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
-/// Map of a finished study.
+/// Maps of a finished study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
     study: Results,
-    /// Places among the axes: that across, that up, and the others.
+    /// Indices of the axes: across, up, and the others.
     across: usize,
     up: Option<usize>,
     others: Vec<usize>,
-    /// Quantities on scales for all maps.
+    /// Quantities with scales that all maps share.
     layers: Vec<Layer>,
 }
 
@@ -28,7 +29,7 @@ impl StudyMap {
     /// Opens the folder of a merged study.
     ///
     /// # Errors
-    /// The folder of no study, or of a study of one cell.
+    /// The folder holds no study, or a study of one cell.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyError> {
         StudyMap::of(Results::open(folder)?, folder)
     }
@@ -36,7 +37,7 @@ impl StudyMap {
     /// The maps of a study that was read from a folder.
     ///
     /// # Errors
-    /// A study of one cell.
+    /// The study has one cell.
     pub fn of(study: Results, folder: &Path) -> Result<StudyMap, StudyError> {
         let axes = &study.plan().axes;
         let free: Vec<usize> = (0..axes.len()).filter(|axis| axes[*axis].values.len() > 1).collect();
@@ -71,12 +72,12 @@ impl StudyMap {
         self.others.iter().map(|&other| self.plan().axes[other].count()).product()
     }
 
-    /// Places of a map on all axes, 0 on its own.
+    /// For each axis of the study the index of the value at which a map is; 0 on the axes of the map itself.
     fn places(&self, slice: u64) -> Vec<usize> {
         self.plan().places_on(self.others.iter().copied(), slice)
     }
 
-    /// The axes outside the maps, each with the place of a map on it.
+    /// The axes of the study that are not axes of the map, each with the index of the map's value on it.
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
         self.others.iter().map(move |&other| (&self.plan().axes[other], places[other]))
@@ -91,8 +92,8 @@ impl StudyMap {
         [Some(self.across), self.up].into_iter().flatten().map(|axis| &self.plan().axes[axis])
     }
 
-    /// The scene of a map on the first profile of the study, with these values on the axes of the maps; axes
-    /// without a value here keep that of the plan's scene.
+    /// The scene of a map on the first profile of the study, with these values on the axes of the map. An axis without a
+    /// value here keeps that of the plan's scene.
     fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
@@ -116,16 +117,16 @@ impl StudyMap {
         Ok(scene)
     }
 
-    /// The scene of the study for the explorer, named by its folder.
+    /// The scene of the study for the explorer, named by the folder of the study.
     ///
     /// # Errors
-    /// An invalid scene.
+    /// The scene is invalid.
     pub fn document(&self) -> Result<Document, SceneErrors> {
         // As typed, so that this name in a command opens the study again.
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true for the scene of a map, but for the axes that the map is over and the resolution of its curve.
+    /// Returns true if `scene` is the scene of a map, apart from values on the map's axes and the number of samples.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> =
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
@@ -141,23 +142,23 @@ impl StudyMap {
         }
     }
 
-    /// Document with the scene of a map, but for the axes of the map.
+    /// The document with the scene of a map, except for values on the map's axes.
     ///
     /// # Errors
-    /// Values that are invalid in the scene.
+    /// Values are invalid in the scene.
     pub fn follow(&self, slice: u64, document: &Document) -> Result<Document, SceneErrors> {
         let values: Vec<_> = self.at(slice).map(|(axis, place)| (axis, axis.values[place])).collect();
         moved(document, &values)
     }
 }
 
-/// κ and H of a scene, if stated by the scene itself. Those of a measured profile follow only from its file.
+/// κ and H of a scene, if it states them itself; for a measured profile they only follow from its file.
 fn place(scene: &Scene) -> Option<(f64, f64)> {
     let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else { return None };
     Some((governing(scene)?.kappa?, hurst))
 }
 
-/// Returns true if κ and H are equal but for rounding; unknown values are not compared.
+/// Returns true if κ and H are equal to within rounding; unknown values are not compared.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
     one.zip(other).is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
@@ -173,7 +174,7 @@ mod tests {
     use asperity_data::AxisScale;
     use asperity_scene::Regime;
 
-    /// κ not in the order of its values and before H, two preloads, another axis, five profiles.
+    /// A plan with κ not in ascending order and before H, two preloads, another axis and five profiles.
     const PLAN: &str = r#"(
         version: 1,
         title: "A study",
@@ -195,8 +196,8 @@ mod tests {
         record: [adhesion_coefficient, regime, preload_force],
     )"#;
 
-    /// Maps of a plan: the coefficient of a cell is its number, the preload its number in µN, and the profiles are in the
-    /// regimes of `REGIMES`. Cell 5 is missing.
+    /// Maps of a plan in which the coefficient of a cell is its number, the preload is its number in µN, and the profiles
+    /// are in the regimes of `REGIMES`. Cell 5 is missing.
     fn study_map(plan: &str) -> StudyMap {
         let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
         let folder = tempfile::tempdir().unwrap();

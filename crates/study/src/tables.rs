@@ -1,4 +1,4 @@
-//! Tables of a merged study: the records, their statistics over the profiles, and the meanings of the columns.
+//! Tables of a merged study: the records, their statistics over the profiles, and a description of the columns.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -20,21 +20,22 @@ use std::path::Path;
 
 /// Version of the merged files.
 pub const RESULTS_VERSION: u32 = 1;
-/// One row for each cell and profile.
+/// Name of the table with one row for each cell and profile.
 pub const RESULTS: &str = "results.csv";
-/// One row for each cell.
+/// Name of the table with one row for each cell.
 pub const SUMMARY: &str = "summary.csv";
-/// Column of the reasons of records without values.
+/// Name of the column with the reasons of records without values.
 const REASON: &str = "reason";
-/// Longest sidecar that is read.
+/// Limit of the length of a description of the columns that is read, bytes.
 const LONGEST_SIDECAR: usize = 1 << 26;
-/// Name of the file with the meanings of the columns.
+/// Name of the file that describes the columns.
 pub const SIDECAR: &str = "results.json";
 
-/// Merges the shard files of a study and writes its tables, each whole. With `partial`, tables of the existing records.
+/// Merges the shard files of a study and writes its tables, each completely or not at all. With `partial`, the tables hold
+/// the existing records only.
 ///
 /// # Errors
-/// Missing records if `partial` is not set, or two records of one cell and profile that differ.
+/// Records are missing and `partial` is not set, or two records of the same cell and profile differ.
 pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     let plan = results.plan();
@@ -57,7 +58,7 @@ pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
     Ok(merged)
 }
 
-/// The meanings of the columns, with the plan and the contents found by a merge.
+/// The description of the columns, with the plan and what a merge found.
 fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> impl Serialize + 'a {
     let axis = |axis: &'a Axis| {
         object! {
@@ -97,7 +98,7 @@ fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> impl Serial
     }
 }
 
-/// Adds the cell, its values on the axes and the preload.
+/// Adds the columns for the cell, its values on the axes and the preload.
 fn with_cell<'a, T: 'a>(plan: &'a Plan, rows: TableOf<'a, T>, cell: fn(&T) -> u64) -> TableOf<'a, T> {
     let mut table = rows.whole("cell", cell);
     for (number, axis) in plan.scene_axes().iter().enumerate() {
@@ -140,7 +141,7 @@ impl Results {
         self.with_reasons(table, |row| row.3)
     }
 
-    /// The table, with the reasons of records without values if there are any.
+    /// Completes the table, with a column of the reasons of records without values, if there are any.
     fn with_reasons<'a, T: 'a>(
         &'a self,
         table: TableOf<'a, T>,
@@ -153,8 +154,8 @@ impl Results {
         }
     }
 
-    /// The cells with records: number of profiles and, for each quantity, mean, standard deviation and confidence
-    /// interval.
+    /// The table of the cells with records: number of profiles and, for each quantity, mean, standard deviation and
+    /// confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
         let nothing = |cell| Cell { statistics: vec![None; record.len()], regimes: self.regimes(cell) };
@@ -186,7 +187,7 @@ impl Results {
     /// Reads the results of a merged study.
     ///
     /// # Errors
-    /// The folder of no study, or a table that is missing, was changed or belongs to another plan.
+    /// The folder holds no study, or a table is missing, was changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(RESULTS);
@@ -230,7 +231,7 @@ impl Results {
         }
     }
 
-    /// Adds a row of the results; `None` if the row is not one of this study.
+    /// Adds a row of the table of records; `None` if it is not a row of this study.
     fn add_row(&mut self, row: &str, has_reason: bool) -> Option<()> {
         let plan = &self.plan;
         // Only the last column, a reason, may contain a comma.

@@ -1,14 +1,14 @@
-//! Straight lines, polynomials and columns through values, by least squares.
+//! Least-squares lines, polynomials and combinations of columns.
 
 use asperity_data::mean;
 
-/// Straight line through evenly spaced values, by least squares.
+/// Least-squares line through evenly spaced values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Baseline {
     count: f64,
     pub mean: f64,
     pub slope: f64,
-    /// Standard deviation of a value around the line.
+    /// Standard deviation of the values about the line.
     pub noise: f64,
 }
 
@@ -24,7 +24,7 @@ impl Baseline {
         Baseline { count, mean, slope, noise }
     }
 
-    /// Deviations of the values from the line; the first one is the first of the line.
+    /// Deviations of values from the line; the first value lies at the beginning of the line.
     pub fn rests(self, values: &[f64]) -> impl Iterator<Item = f64> {
         let middle = 0.5 * (self.count - 1.0);
         values
@@ -34,8 +34,8 @@ impl Baseline {
     }
 }
 
-/// Sums of the squared residuals of polynomials with this number of terms through the first value, the first two, and so on,
-/// by rotations of each row into the triangle of the rows before.
+/// Sums of squared residuals of the least-squares polynomial with `terms` terms through the first value, the first two, and
+/// so on; computed by rotations of each row into the triangle of the rows before.
 pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
@@ -60,7 +60,7 @@ pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) 
     values.enumerate().map(add).collect()
 }
 
-/// Columns of length 1 at right angles to each other that span these columns, 0 for a column that depends on the columns before it.
+/// Orthonormal columns that span these columns; zero for a column that depends on the columns before it.
 pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {
@@ -78,19 +78,19 @@ pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     basis
 }
 
-/// Takes the part along a column of length 1 off, and returns its length.
+/// Subtracts from the values their component along a column of length 1, and returns the component.
 pub(super) fn take_off(values: &mut [f64], column: &[f64]) -> f64 {
     let along = dot(values, column);
     values.iter_mut().zip(column).for_each(|(value, one)| *value -= along * one);
     along
 }
 
-/// Sum of products over the shorter length.
+/// Sum of the products of two columns, up to the length of the shorter one.
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
-/// Smallest and largest value.
+/// Smallest and largest of the values.
 pub(super) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }

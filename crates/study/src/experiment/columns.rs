@@ -1,12 +1,13 @@
-//! The columns of a curve: which of them hold displacement, force and segment, and their units.
+//! The columns of a measured curve: which ones hold displacement, force and segment, and their units.
 
 use super::options::CurveOptions;
 use asperity_data::parse_quantity;
 use asperity_surface::Column;
 use asperity_surface::{Place, TopographyError, refused, shown};
 
-/// Term, SI unit and an example of a unit of each quantity, and the letters of the names of its column, the preferred ones
-/// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the instrument.
+/// Term, SI unit and example unit of displacement and force, and the names of their columns as letters, preferred names
+/// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the
+/// instrument.
 const QUANTITIES: [(&str, &str, &str, &[&str]); 2] = [
     (
         "displacement",
@@ -33,36 +34,36 @@ const QUANTITIES: [(&str, &str, &str, &[&str]); 2] = [
     ),
     ("force", "N", "nN", &["force", "load", "vdeflection", "verticaldeflection", "f"]),
 ];
-/// Names of a displacement of the body alone.
+/// Names of a column with the displacement of the body alone.
 const OF_BODY: [&str; 2] = ["indentation", "tipposition"];
-/// Words for the direction in the names of columns side by side.
+/// Words for approach and for retraction in the names of columns side by side.
 const DIRECTIONS: [&[&str]; 2] = [
     &["approach", "extend", "extension", "ext", "ex", "trace", "loading", "advance", "forward"],
     &["retraction", "retract", "ret", "rt", "retrace", "withdraw", "unloading", "backward"],
 ];
-/// Remedy for unknown columns.
+/// Option that helps if the columns are not recognised.
 const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
     beside its approach";
 
-/// Columns of displacement and force with the values of 1 in them in SI units.
+/// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub places: [usize; 2],
     pub units: [f64; 2],
 }
 
-/// The chosen columns.
+/// The columns of a file that are used.
 #[derive(Debug)]
 pub(super) struct Choice {
-    /// One pair, or one for an approach and one for a retraction beside it.
+    /// One pair, or one for an approach and one for the retraction beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
-    /// Sentences on the columns chosen by name, and on units of the file that the options overrule.
+    /// Sentences on columns that were chosen by name, and on units of the file that the options override.
     pub statements: Vec<String>,
 }
 
 impl Choice {
-    /// Chooses from columns with these names and units; columns of a file in SI units need no unit.
+    /// Chooses among columns with these names and units; the columns of a file in SI units need no unit.
     pub fn new(columns: &[Column], is_si: bool, options: &CurveOptions) -> Result<Self, TopographyError> {
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS);
         let count = columns.len();
@@ -125,7 +126,7 @@ impl Choice {
     }
 }
 
-/// Value of 1 in a column of a quantity in SI units: by the options, else as the file states.
+/// SI value of 1 in a column of a quantity: as the options state, else as the file states.
 fn of_one(
     quantity: usize,
     stated: Option<&str>,
@@ -159,8 +160,8 @@ fn of_one(
     Ok(value)
 }
 
-/// The known columns of displacement and force, twice if approach and retraction are side by side, or the term of the
-/// quantity that no column is known as.
+/// Indices of the columns of displacement and force that names identify, twice if approach and retraction are side by side;
+/// the error is the term of the quantity that no name identifies.
 fn known(columns: &[Column]) -> Result<Vec<[usize; 2]>, &'static str> {
     let words: Vec<_> = columns.iter().map(|column| direction(&column.name)).collect();
     let of = |quantity: usize, direction: Option<usize>| {
@@ -189,12 +190,12 @@ fn are_unknown(columns: &[Column]) -> bool {
     !columns.iter().any(|column| is_known(&column.name))
 }
 
-/// The letters of a name in lower case: `Z-Sense` and `z_sense` are one name.
+/// The letters of a name in lower case, so that `Z-Sense` and `z_sense` are the same.
 fn letters(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// Direction in the name of a column, 0 for an approach and 1 for a retraction, and the letters of its other words.
+/// Direction that the name of a column states (0 approach, 1 retraction), and the letters of its other words.
 fn direction(name: &str) -> (Option<usize>, String) {
     let words: Vec<String> = name.split(|c: char| !c.is_alphanumeric()).map(letters).collect();
     let of = |word: &String| DIRECTIONS.iter().position(|words| words.contains(&&**word));
@@ -207,7 +208,7 @@ pub(super) fn is_unit(text: &str) -> bool {
     QUANTITIES.iter().any(|row| unit(text, row.1).is_some())
 }
 
-/// A unit of length or force, such as nm, in SI units.
+/// A unit of length or force, such as nm, as a number of SI units.
 fn unit(text: &str, si: &str) -> Option<f64> {
     parse_quantity(&format!("1 {text}"), si).ok().filter(|_| text.ends_with(si))
 }

@@ -1,4 +1,4 @@
-//! A measured force curve: its segments, with pressing positive, the zero of the force, its drift and its noise.
+//! A measured force curve: its segments, with pressing positive; the zero of its force, its drift and its noise.
 
 use super::baseline::{ends, right_angled};
 use super::free::FEWEST;
@@ -13,55 +13,55 @@ use asperity_data::grouped;
 use asperity_data::mean;
 use std::path::Path;
 
-/// Most points that are fitted: more are averaged.
+/// Largest number of points that a fit uses; of more points, neighbours are averaged.
 const MOST_POINTS: usize = 4096;
-/// Fewest points of a curve.
 const FEWEST_POINTS: usize = 4 * FEWEST;
-/// Noise over the range of the force in a curve without noise.
+/// Noise over the range of the force that is assumed for a curve without noise.
 const NO_NOISE: f64 = 1e-6;
-/// Force in standard deviations of the noise that is a tension: at the end of the approach its sign is in doubt.
+/// Force at the end of the approach, in standard deviations of the noise, below which it counts as tensile: its sign is
+/// then in doubt.
 const PULLS: f64 = -5.0;
 
-/// A measured curve in SI units: displacement of the instrument that grows on pressing, m, and force, N, without the force
-/// before contact; compression is positive.
+/// A measured curve in SI units: displacement of the instrument, m, which grows on pressing, and force, N, without the
+/// force before contact; compression is positive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
     /// Displacements of the instrument, m.
     pub displacement: Vec<f64>,
     /// Forces, N.
     pub force: Vec<f64>,
-    /// Number of the segment of each point; segments of even number press.
+    /// Index of the segment of each point; segments with even indices press.
     pub segment: Vec<usize>,
-    /// Number of the first points, before contact.
+    /// Number of the first points, which are before contact.
     pub(super) free: usize,
-    /// Displacement at which the contact seems to begin, m.
+    /// Displacement, m, at which the contact seems to begin.
     pub touch: f64,
-    /// Standard deviation of the force, N.
+    /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Points of the file that are used.
+    /// Number of points of the file that are used.
     pub points: usize,
-    /// Points left out since a value is missing.
+    /// Number of points left out since a value is missing.
     pub missing: usize,
-    /// Displacements at which the segments end, m.
+    /// Displacements, m, at which the segments end.
     pub(super) turns: Vec<f64>,
-    /// True at the points of a pause.
+    /// True for each point that belongs to a pause.
     pub(super) is_still: Vec<bool>,
-    /// Changes of the force over time, over the displacement, and from before to after contact that remain in the curve, N: 0
-    /// where there is none.
+    /// Changes of the force, N, that remain in the curve without contact: over time, over the displacement, and from before
+    /// to after contact; 0 where there is none.
     pub(super) remaining: [f64; 3],
     /// Time and displacement of each point, as shares of the whole curve.
     pub(super) shares: [Vec<f64>; 2],
-    /// True if the zero of the force, a drift and a tilt are estimated from the points without contact and taken off.
+    /// Whether the zero of the force, a drift and a tilt were estimated from the points without contact and subtracted.
     is_estimated: [bool; 3],
-    /// Statements on the changes of the curve.
+    /// Sentences on what was done to the curve.
     pub statements: Vec<String>,
 }
 
 impl MeasuredCurve {
-    /// Reads a curve: text, CSV or an array of NumPy, also compressed by gzip, of at most 1 GiB.
+    /// Reads a curve of at most 1 GiB: text, CSV or a NumPy array, also compressed by gzip.
     ///
     /// # Errors
-    /// A file that cannot be read, and a curve without a part before contact, a contact or a turning point.
+    /// The file cannot be read, or the curve lacks a part before contact, a contact or a turning point.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::prepare(Columns::read(path, options)?, options)
     }
@@ -177,15 +177,15 @@ impl MeasuredCurve {
         self.displacement.iter().copied().zip(self.force.iter().copied())
     }
 
-    /// Largest tension of the retractions, N, if it exceeds the noise.
+    /// Largest tension of the retractions, N, positive; `None` if it does not exceed the noise.
     pub fn pull_off_force(&self) -> Option<f64> {
         let pulled = self.force.iter().zip(&self.segment).filter(|(_, segment)| *segment % 2 == 1);
         let force = -ends(pulled.map(|(force, _)| *force)).0;
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
-    /// Straight lines of the zero of the force, of a removed drift and of a removed tilt, of length 1 and at right angles,
-    /// if they are estimated from the curve: they are refined with each model.
+    /// Orthonormal columns for the zero of the force, a removed drift and a removed tilt, as far as they were estimated
+    /// from the curve: each model refines them. `has_zero` is true if the zero is a free parameter.
     pub(super) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
         let [time, displacement] = self.shares.clone();
         let columns = [vec![1.0; time.len()], time, displacement];
@@ -195,7 +195,7 @@ impl MeasuredCurve {
     }
 }
 
-/// Refuses a force that is negative where the body presses most.
+/// Returns an error for a force that is negative where the body presses most.
 fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
     let first = points.of(points.segment[0]);
     let count = (first.len() / 20).max(1);

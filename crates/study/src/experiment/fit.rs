@@ -1,4 +1,5 @@
-//! The parameters of a scene that describe a measured curve, their errors, and parameters that the curve does not separate.
+//! Fit of the parameters of a scene to a measured curve, with their errors, and the parameters that the curve cannot
+//! separate.
 
 use super::ExperimentError;
 use super::baseline::dot;
@@ -18,30 +19,31 @@ use asperity_scene::Simulation;
 use asperity_scene::scene_tabor_number;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Correlation of parameters that are not separated, and half width of the 95 % interval of a logarithm that is flat.
+/// Correlation above which parameters are not separated, and half width of a 95 % interval of a logarithm above which it is
+/// undetermined.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
-/// Standard deviations of the 95 % interval of a normal distribution.
+/// Half width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// A parameter with its errors.
+/// A fitted parameter with its errors.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct FittedParameter {
-    /// The parameter.
+    /// Which parameter it is.
     #[serde(skip)]
     pub parameter: Parameter,
-    /// Value of the least residuals, in SI units as all values.
+    /// Value of the smallest residuals; all values are in the SI unit of the parameter.
     pub value: f64,
     /// Ends of the 95 % interval.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
-    /// Standard error by the noise.
+    /// Standard error due to the noise.
     pub noise_error: f64,
-    /// Standard deviation over random profiles.
+    /// Standard deviation of the value over fits on other random profiles.
     pub profile_error: Option<f64>,
-    /// Value before the fit.
+    /// Value at which the search began.
     pub start: f64,
-    /// Range in which the value was looked for.
+    /// Range in which the value was searched.
     pub range: (f64, f64),
 }
 
@@ -53,7 +55,7 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// A value of the parameter with the digits that its interval determines.
+    /// A value of the parameter in words, with the digits that its interval determines.
     pub fn text(&self, value: f64) -> String {
         format_within(value, 0.5 * (self.interval.1 - self.interval.0), self.parameter.row().unit)
     }
@@ -65,32 +67,33 @@ pub struct Fit {
     /// The free parameters with their errors.
     #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
-    /// Root mean square residual, N.
+    /// Root mean square residual of all points, N.
     pub residual: f64,
-    /// Residual over the noise.
+    /// Root mean square residual over the noise.
     pub residual_over_noise: f64,
-    /// Share of the points where the residual exceeds 5 times the noise.
+    /// Share of the points whose residual exceeds 5 times the noise.
     pub beyond_five_sigma: f64,
-    /// Root mean square residual in contact over the noise, where single points on the wrong side of a jump count as 5 times
-    /// that root mean square.
+    /// Root mean square residual of the points in contact over the noise; single points on the wrong side of a jump count
+    /// as 5 times that root mean square.
     pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion, J/m², if a curve without adhesion describes the measured one as well.
+    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve as well.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the values found.
+    /// Tabor number of the scene with the fitted values.
     pub tabor: Option<f64>,
-    /// Why the model does not describe the curve, if it does not.
+    /// Why the model does not describe the curve; `None` if it does.
     pub reason: Option<Reason>,
     /// Correlation of each pair of parameters.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs that the curve does not separate; one parameter twice that the curve does not determine.
+    /// Pairs of parameters that the curve cannot separate; a pair of the same parameter for one that the curve does not
+    /// determine.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Number of computed curves.
+    /// Number of curves computed by the fit.
     pub evaluations: usize,
-    /// Force of the model at each point with the zero and the drift of the curve, which are refined with the model, N.
+    /// Force of the model at each point, N, including the zero and the drift of the curve, which the fit refines.
     #[serde(skip)]
     pub model: Vec<f64>,
-    /// The scene with the values found, loaded as the curve was.
+    /// The scene with the fitted values, loaded as the measured curve was.
     #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
 }
@@ -104,17 +107,18 @@ fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, 
 }
 
 impl Fit {
-    /// Returns false for a model that does not describe the curve.
+    /// Returns true if the model describes the curve.
     pub fn describes(&self) -> bool {
         self.misfit <= MISFIT
     }
 }
 
-/// Fits parameters of a scene to a curve. `stop` is polled before each computed curve, and `report` receives their number.
+/// Fits parameters of a scene to a curve. `stop` is polled before each computed curve, and `report` receives the number of
+/// curves so far.
 ///
 /// # Errors
-/// Options and values of the curve beyond what is allowed, parameters that the scene does not have, a failure of the
-/// computation, or a stop.
+/// Options or values of the curve are not allowed, the scene lacks a free parameter, a computation fails, or `stop`
+/// returned true.
 pub fn fit(
     curve: &MeasuredCurve,
     document: &Document,
@@ -204,7 +208,7 @@ pub fn fit(
     })
 }
 
-/// Values of fits of the same curve on the other random profiles of the scene.
+/// Values of fits to the same curve on other random profiles of the scene.
 fn other_profiles(
     document: &Document,
     options: &FitOptions,
@@ -232,8 +236,8 @@ mod tests {
     use super::*;
     use asperity_contact::Move;
 
-    /// Asserts that the values differ from the truth by a few standard errors at most, and that the residuals are those of the
-    /// noise.
+    /// Asserts that the values differ from the truth by at most a few standard errors, and that the residuals are as large
+    /// as the noise.
     fn assert_found(made: &Made, fit: &Fit) {
         assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
         for one in &fit.parameters {
@@ -257,7 +261,7 @@ mod tests {
         assert_eq!(modulus.text(modulus.value), "2.346 MPa");
     }
 
-    /// The force of a rough sphere jumps at many displacements.
+    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds it within its errors.
     #[test]
     fn a_rough_sphere_is_found_within_its_errors() {
         let made = random(13, 1024);
@@ -287,7 +291,7 @@ mod tests {
         assert!(!fitted(&curve, &wrong, "work,offset").describes());
     }
 
-    /// A fit that begins at its own result, or at the truth, has the intervals of one that begins far away.
+    /// A fit that begins at its own result, or at the truth, has the same intervals as one that begins far away.
     #[test]
     fn a_good_start_makes_no_interval_narrow() {
         let mut made = random(4, 512);
@@ -309,7 +313,8 @@ mod tests {
         }
     }
 
-    /// For any start the work of adhesion is at most a few times that which the noise hides, γ = noise/(1.5 π R) = 1.1 mJ/m².
+    /// For any start the upper bound of the work of adhesion is at most a few times the work that the noise hides, γ =
+    /// noise/(1.5 π R) = 1.1 mJ/m².
     #[test]
     fn a_curve_without_adhesion_has_an_upper_bound_of_it() {
         for (seed, work) in [(1, 0.05), (2, 1e-6)] {
@@ -324,8 +329,9 @@ mod tests {
         }
     }
 
-    /// A tension in contact is adhesion where a curve without adhesion costs more by half the square of 1.96, which is 1.9. Such
-    /// a curve costs 2.4 more at a tension of the standard deviation of the noise, and 1.5 more at half that tension.
+    /// A tension in contact counts as adhesion if a model without adhesion costs more by half the square of 1.96, which is
+    /// 1.9. Such a model costs 2.4 more for a tension of one standard deviation of the noise, and 1.5 more for half that
+    /// tension.
     #[test]
     fn a_tension_beyond_the_noise_is_adhesion() {
         let bound = |times: f64| {
@@ -338,8 +344,8 @@ mod tests {
         assert!(bound(0.5).is_some() && bound(1.0).is_none());
     }
 
-    /// A contact that stiffens, with hysteresis: parts of one curve have intervals that overlap, and the residual is stated as it
-    /// is.
+    /// For a contact that stiffens, with hysteresis, parts of one curve give overlapping intervals, and the residual is
+    /// stated truly.
     #[test]
     fn parts_of_a_curve_that_is_not_described_have_intervals_that_overlap() {
         let points = rubber(1e-9, 3, |indentation, direction| {
@@ -362,7 +368,7 @@ mod tests {
         assert!(modulus.interval.1 / modulus.interval.0 > 1.02, "{modulus:?}");
     }
 
-    /// A parameter is not determined if its interval is wider than a factor e either way.
+    /// A parameter is undetermined if its interval is wider than a factor e either way.
     #[test]
     fn a_parameter_is_determined_within_a_factor_e() {
         let plain = read(rubber(1e-9, 1, |_, _| 1.0).into_iter(), Drift::Keep);
@@ -377,7 +383,7 @@ mod tests {
         assert_eq!(found(0.2), [(Parameter::Modulus, Parameter::Modulus)]);
     }
 
-    /// The scatter over profiles counts twice: for the profile of the specimen and for the profile of the scene.
+    /// The scatter over random profiles counts twice: for the profile of the specimen and for the profile of the scene.
     #[test]
     fn the_interval_holds_the_scatter_over_profiles() {
         let made = random(11, 1024);

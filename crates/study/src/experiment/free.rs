@@ -1,38 +1,40 @@
-//! The parts of a curve without contact: where they end, and the drift and the tilt of their force.
+//! The parts of a curve without contact: where they end, and the drift and tilt of their force.
 
 use super::baseline::{Baseline, dot, ends, growing, right_angled, take_off};
 use super::statistics::correlated;
 
-/// Fewest points without contact, and fewest points in contact.
+/// Smallest number of points without contact, and of points in contact.
 pub(super) const FEWEST: usize = 10;
 const FEWEST_IN_CONTACT: usize = 4;
-/// Number of points times the decrease of the logarithm of the sum of squared residuals above which a contact is not noise.
+/// Gain of a contact over a straight line (number of points times the decrease of the logarithm of the sum of squared
+/// residuals) from which on the contact is not attributed to noise.
 const GAIN: f64 = 40.0;
-/// Deviation of the last points from the line before, in standard errors, that is a contact.
+/// Deviation of the last points from the line before them, in standard errors, from which on they are in contact.
 const DEVIATES: f64 = 4.0;
-/// Parts of the points without contact of which the last part is compared with the parts before.
+/// The last n-th of the points without contact, for these n, is compared with the points before.
 const PARTS: [usize; 3] = [5, 10, 20];
-/// Slope before the contact over that in contact, and change of the force before contact over its range, of a line that is in
-/// contact from the first point on.
+/// A line is in contact from its first point on if its slope exceeds this share of the slope in contact, and the force
+/// before contact changes by more than the second share of its range.
 const STEEP: f64 = 0.5;
 const NOTABLE: f64 = 0.05;
 
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum NoBaseline {
-    /// So few points.
+    /// The segment has only this few points.
     Few,
-    /// A straight line, with this range and this noise, N.
+    /// The segment is a straight line: range and noise of the force, N.
     Straight(f64, f64),
-    /// A force that changes from the first point on.
+    /// The force changes from the first point on.
     InContact,
 }
 
-/// Number of the first values of a segment, which are before contact. The noise is `least` at least.
+/// Returns the number of the first values of a segment, which are before contact. The noise is assumed to be at least
+/// `least`.
 ///
-/// The contact begins where a straight line before and a parabola behind describe the segment best. This finds the strong
-/// part of the contact; its weak beginning is found from there back: the last points without contact do not deviate from the
-/// line through the points before them.
+/// The contact begins where a straight line before and a parabola behind describe the segment best. This finds the steep
+/// part of the contact; its weak beginning is found by going back from there until the last points no longer deviate from
+/// the line through the points before them.
 pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
     let count = values.len();
     if count < 2 * FEWEST {
@@ -69,7 +71,8 @@ pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline
     Ok(free)
 }
 
-/// The number of first values without the last ones that deviate from the line through the values before them.
+/// Reduces the number `free` of the first values until the last of them do not deviate from the line through the values
+/// before.
 fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     let deviates = |free: usize, last: usize| {
         let line = Baseline::through(&values[..free - last]);
@@ -90,9 +93,9 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     free
 }
 
-/// Drift, tilt and step of the force at points without contact, N, each with a standard error. The drift is the change from the
-/// first to the last point of the curve, and the tilt the change over the range of the displacement. The step is the difference
-/// between the force after contact and the force before contact that neither explains.
+/// Drift, tilt and step of the force without contact, N, each with a standard error. The drift is the change from the first
+/// to the last point of the curve, and the tilt the change over the range of the displacement. The step is the difference
+/// between the force after and before contact that neither drift nor tilt explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Slopes {
     pub zero: f64,
@@ -102,8 +105,8 @@ pub(super) struct Slopes {
 }
 
 impl Slopes {
-    /// Slopes through points of time and displacement, as shares of the whole curve, 1 after contact and 0 before it, and
-    /// force; only slopes asked for differ from 0. `None` if the points do not separate them.
+    /// Fits the slopes that `is_asked` for to points of (time, displacement, 1 after contact or 0 before, force), with time
+    /// and displacement as shares of the whole curve; the others are 0. `None` if the points cannot separate them.
     pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let mut columns = vec![vec![1.0; points.len()]];
@@ -114,7 +117,8 @@ impl Slopes {
         Some(Slopes { zero, drift: slope(0)?, tilt: slope(1)?, step: slope(2)? })
     }
 
-    /// Root mean square deviation of points from drift, tilt and step, N, and deviation by the noise from point to point.
+    /// Root mean square deviation of points from drift, tilt and step, N, and the deviation expected from the noise between
+    /// neighbours.
     pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
@@ -128,8 +132,8 @@ impl Slopes {
     }
 }
 
-/// Coefficients of columns that describe values by least squares, with their standard errors; `None` if a column depends on
-/// the columns before it.
+/// Least-squares coefficients of columns for these values, with standard errors; `None` if a column depends on the columns
+/// before it.
 pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
     let basis = right_angled(columns);
     let mut rests = values.to_vec();
@@ -179,7 +183,7 @@ mod tests {
         (0..count).map(move |index| share(index).powf(1.5))
     }
 
-    /// Noise up to 5 % of the largest force hides no contact; the later the contact is found, the less of it is beyond the
+    /// Noise of up to 5 % of the largest force hides no contact; the later the contact is found, the less of it exceeds the
     /// noise.
     #[test]
     fn contacts_are_found_under_noise() {
@@ -201,7 +205,7 @@ mod tests {
         }
     }
 
-    /// A force without noise, as of a computed curve: no point before contact is left out.
+    /// In a force without noise, as of a computed curve, the contact begins exactly where the force does.
     #[test]
     fn a_contact_without_noise_begins_where_the_force_does() {
         let parabola: Vec<f64> = (0..100).map(|index| (f64::from(index) - 59.0).max(0.0).powi(2)).collect();
@@ -209,7 +213,7 @@ mod tests {
         assert!((59..=62).contains(&free), "{free}");
     }
 
-    /// A weak contact, of a few times the noise, long before the strong one is not part of the baseline.
+    /// A weak contact, a few times the noise, long before the strong one does not count as part without contact.
     #[test]
     fn weak_contact_is_not_part_of_the_noise() {
         for seed in 1..=6 {

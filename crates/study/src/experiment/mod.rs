@@ -1,4 +1,4 @@
-//! The experiment beside the model: measured force curves, and the parameters of a scene that describe them.
+//! Comparison of experiment and model: measured force curves, and fits of a scene to them.
 
 pub(crate) mod baseline;
 pub(crate) mod columns;
@@ -24,21 +24,21 @@ use asperity_scene::RunError;
 use asperity_surface::TopographyError;
 use thiserror::Error;
 
-/// Reason why a curve is not read or not fitted. The caller puts the name of the file or scene in front.
+/// Reason why a curve cannot be read or fitted. The caller prepends the name of the file or scene.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ExperimentError {
-    /// A file that cannot be read as a curve.
+    /// The file cannot be read as a curve.
     #[error(transparent)]
     File(#[from] TopographyError),
-    /// A curve or a scene that cannot be fitted.
+    /// The curve or the scene cannot be fitted.
     #[error("{found}; allowed: {allowed}")]
     Refused {
-        /// The fault, in words.
+        /// What was found, in words.
         found: String,
-        /// The allowed content or values, and the option that helps.
+        /// What is allowed, and the option that helps.
         allowed: String,
     },
-    /// A failure of the computation, or a stop.
+    /// A computation failed or was stopped.
     #[error(transparent)]
     Run(#[from] RunError),
 }
@@ -71,7 +71,7 @@ mod made {
     use rand_chacha::ChaCha8Rng;
     use std::f64::consts::PI;
 
-    /// Scene and disturbances from which a curve is made.
+    /// Scene and disturbances from which a test curve is made.
     pub(super) struct Made {
         pub scene: Scene,
         pub offset: f64,
@@ -83,8 +83,8 @@ mod made {
         scene.loading_stiffness.unwrap()
     }
 
-    /// Displacements and forces at 500 almost evenly spaced displacements of approach and of retraction: points of a fine curve
-    /// at which d + F/k first goes so far.
+    /// Displacements, m, and forces, N, at 500 almost evenly spaced displacements of approach and retraction: the points of
+    /// a fine curve at which d + F/k first reaches them.
     pub(super) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
         let mut fine = scene.clone();
         fine.numerics.samples = 1 << 18;
@@ -123,12 +123,11 @@ mod made {
         (0..1000).map(|_| one()).collect()
     }
 
-    /// Noise of the force at each point, N.
     pub(super) fn noise(made: &Made, seed: u64) -> Vec<f64> {
         gauss(made.noise, seed)
     }
 
-    /// The curve with noise, drift, an offset and a zero, in nm and µN.
+    /// The curve with noise, drift, an offset and a zero, read from nm and µN.
     pub(super) fn measured(made: &Made, seed: u64) -> MeasuredCurve {
         let points = force_curve(&made.scene).into_iter().zip(noise(made, seed)).enumerate();
         let disturbed = points.map(|(index, ((displacement, force), noise))| {
@@ -137,7 +136,7 @@ mod made {
         read(disturbed, Drift::Remove)
     }
 
-    /// The curve of these displacements, m, and forces, N.
+    /// The curve read from these displacements, m, and forces, N.
     pub(super) fn read(points: impl Iterator<Item = (f64, f64)>, drift: Drift) -> MeasuredCurve {
         let line = |text: String, (displacement, force): (f64, f64)| {
             text + &format!("{},{}\n", displacement * 1e9, force * 1e6)
@@ -146,7 +145,6 @@ mod made {
         from_text(&text, &CurveOptions { drift, ..CurveOptions::default() }).unwrap()
     }
 
-    /// The curve in a file of this content.
     pub(super) fn from_bytes(content: &[u8], options: &CurveOptions) -> Result<MeasuredCurve, String> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("curve");
@@ -158,8 +156,8 @@ mod made {
         from_bytes(text.as_bytes(), options)
     }
 
-    /// Displacements, nm, and forces, nN: a spring of 2 N/m from 0 nm on, with an alternating noise of 0.1 nN and a zero at
-    /// 1 nN, pressed from −100 to 50 nm and back in `count` points.
+    /// Displacements, nm, and forces, nN, of a spring of 2 N/m that touches at 0 nm, with an alternating noise of 0.1 nN
+    /// and a zero of 1 nN, pressed from −100 to 50 nm and back in `count` points.
     pub(super) fn of_spring(count: usize) -> Vec<(f64, f64)> {
         let point = |index: usize| {
             let way = 300.0 * index as f64 / (count - 1) as f64;
@@ -170,19 +168,19 @@ mod made {
         (0..count).map(point).collect()
     }
 
-    /// Lines of points of the spring, each in this form, behind a header.
+    /// A file of points of the spring, each written by `form`, after a header.
     pub(super) fn text_of_spring(header: &str, count: usize, form: impl Fn(f64, f64) -> String) -> String {
         of_spring(count).into_iter().fold(header.to_owned(), |text, (d, f)| text + &form(d, f) + "\n")
     }
 
-    /// Text of points with their displacements in nm and forces in nN.
+    /// Text of points with displacements in nm and forces in nN.
     pub(super) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
         let line = |text: String, (d, f): (f64, f64)| text + &format!("{d},{f}\n");
         points.into_iter().fold("displacement [nm],force [nN]\n".to_owned(), line)
     }
 
-    /// A sphere without adhesion on rubber (Hertz): R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm; 100 points there and back, with a
-    /// force of this multiple of the force of Hertz at an indentation, m, and a direction of 1 or -1.
+    /// A sphere without adhesion on rubber (Hertz), R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm, with 100 points there and
+    /// back; the force is `times` the force of Hertz, as a function of indentation, m, and direction, 1 or −1.
     pub(super) fn rubber(deviation: f64, seed: u64, times: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
         let force = |indentation: f64| 4.0 / 3.0 * 2e6 * (7.5e-6 * indentation.max(0.0).powi(3)).sqrt();
         let point = |(index, noise): (usize, f64)| {
@@ -210,7 +208,7 @@ mod made {
             .unwrap()
     }
 
-    /// A smooth or a rough sphere on a compliant instrument, with noise of 1 % of its pull-off force.
+    /// A random smooth or rough sphere on a compliant instrument, with noise of 1 % of its pull-off force.
     pub(super) fn random(seed: u64, points: u64) -> Made {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let mut between = |low: f64, high: f64| low * (high / low).powf(generator.random::<f64>());
@@ -246,7 +244,7 @@ mod made {
         fit(curve, document, &FitOptions { free, lines: 1, jobs: 1 }, &|| false, &mut |_| ()).unwrap()
     }
 
-    /// The fit of free parameters that begin far from the truth.
+    /// The fit of free parameters whose search begins far from the truth.
     pub(super) fn fitted(curve: &MeasuredCurve, made: &Made, free: &str) -> Fit {
         let mut scene = made.scene.clone();
         scene.adhesion = Some(Adhesion::by_work(3.0 * truth(made, Parameter::Work)));
@@ -259,7 +257,6 @@ mod made {
         fit_from(curve, &Document::from_scene(&scene, "made").unwrap(), free)
     }
 
-    /// Free parameters of the fit of a seed.
     pub(super) fn free(seed: u64) -> &'static str {
         let free = [
             "work,modulus,offset",
@@ -282,7 +279,7 @@ mod coverage {
     use asperity_scene::Document;
     use std::fmt;
 
-    /// Counts of intervals, and of intervals that hold the truth.
+    /// Numbers of intervals, and of intervals that hold the truth.
     #[derive(Clone, Copy, Default)]
     struct Held {
         held: usize,
@@ -301,8 +298,8 @@ mod coverage {
         }
     }
 
-    /// Smooth spheres have even seeds, rough ones odd seeds: of 12 curves, or 200 with `TEST_EFFORT=200`. The first half of the
-    /// fits is repeated from its own results and from the truth.
+    /// Even seeds give smooth spheres and odd seeds rough ones: 12 curves, or 200 with `TEST_EFFORT=200`. The first half of
+    /// the fits is repeated from its own results and from the truth.
     #[test]
     #[ignore = "fits of many curves take ten seconds or more"]
     fn intervals_hold_the_truth_of_most_spheres() {

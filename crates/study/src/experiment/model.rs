@@ -1,4 +1,4 @@
-//! The force that a scene has at the measured displacements, for any values of its parameters.
+//! The force of a scene at the measured displacements, for any values of its parameters.
 
 use super::ExperimentError;
 use super::curve::MeasuredCurve;
@@ -9,36 +9,37 @@ use asperity_scene::Simulation;
 use asperity_scene::{DisplacementCurve, DisplacementPoint};
 use asperity_surface::Form;
 
-/// Points of the force curve of each segment beside the points at jumps, and points of a coarse force curve.
+/// Number of points of the force curve of each segment besides points at jumps, and number of points of a coarse force curve.
 const SAMPLES: usize = 128;
 const FEW: usize = 64;
-/// Extensions of a loading that does not reach the displacement of its end, and halvings of the way to that end.
+/// Limit of the extensions of a loading that does not reach its last displacement, and number of halvings of the last
+/// extension.
 const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
-/// Smallest jump of the force over the noise that is looked for.
+/// Smallest jump of the force, in units of the noise, that the points resolve.
 const NOTABLE: f64 = 2.0;
-/// Points on each side of a fold, each half as far as the one before; none at a jump, the ends of which are points already.
+/// Number of points on each side of a fold, each half as far from it as the one before; none at a jump, whose ends are
+/// points already.
 const FAN: i32 = 8;
 
-/// A scene on the displacements of a measured curve.
+/// Computes a scene at the displacements of a measured curve.
 pub(super) struct Model<'a> {
     curve: &'a MeasuredCurve,
     scene: Scene,
     simulation: &'a mut Simulation,
-    /// Contact with the radius of its form, m; its springs and their tree serve all other values.
+    /// Contact of a scene and the radius of its form, m; springs and tree are reused for all other values.
     contact: Option<(Contact, f64)>,
-    /// Noise to which the forces are exact, in units of the noise of the curve: 1 or more.
+    /// Noise to which the forces are accurate, in units of the noise of the curve, at least 1.
     pub noise: f64,
     pub evaluations: usize,
 }
 
-/// The instrument, and the points at which the curve of a leg is computed.
+/// The instrument, and the points at which a curve is computed.
 #[derive(Clone, Copy)]
 struct Sampling {
-    /// Stiffness of the instrument, N/m.
     stiffness: f64,
     points: usize,
-    /// Smallest jump of the force with points at both of its ends, N.
+    /// Smallest jump of the force that gets points at both of its ends, N.
     least_jump: f64,
 }
 
@@ -47,7 +48,7 @@ impl<'a> Model<'a> {
         Model { curve, scene: scene.clone(), simulation, contact: None, noise: 1.0, evaluations: 0 }
     }
 
-    /// Springs under the form of this radius with these works of adhesion and modulus.
+    /// Contact for these values of the parameters.
     fn contact(&mut self, values: &Values) -> Result<Contact, ExperimentError> {
         let radius = values[Parameter::Radius as usize];
         if self.contact.as_ref().is_none_or(|(_, made)| *made != radius) {
@@ -70,7 +71,7 @@ impl<'a> Model<'a> {
         Ok(contact.with_rule(foundation, (values[Parameter::Work as usize] > 0.0).then_some(rule)))
     }
 
-    /// Forces at the points of the curve, N.
+    /// Computes the forces at the points of the curve, N.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
         let contact = self.contact(values)?;
@@ -116,7 +117,7 @@ impl<'a> Model<'a> {
 }
 
 impl Sampling {
-    /// Curve of a loading from an indentation, m, or from first touch, up to a displacement, m.
+    /// Curve of a loading up to a displacement `to`, m, from an indentation, m, or for `None` from first touch.
     fn press(self, leg: &Leg, from: Option<f64>, to: f64) -> Result<DisplacementCurve, ContactError> {
         let (free, from) = (from.is_none().then(CurvePoint::default), from.unwrap_or_default());
         // An indentation close behind the one at which the instrument is at its end: it takes a part of the way, or is pulled on.
@@ -143,8 +144,8 @@ impl Sampling {
         self.over(leg, [end, from], 2, Some(CurvePoint { indentation: end, ..CurvePoint::default() }))
     }
 
-    /// Curve of a leg between two indentations over the displacement, through points that are close to the lower end by this
-    /// power, and a point without contact before or after them. All jumps that are looked for are where they are.
+    /// Curve of a leg between two indentations over the displacement, with points that are dense near the lower end for a
+    /// high `power`, points at the ends of all jumps that are resolved, and the point `free` without contact.
     fn over(
         self,
         leg: &Leg,
@@ -199,7 +200,7 @@ mod tests {
     use super::super::statistics::scale;
     use super::*;
 
-    /// Residuals without noise, in units of 1 % of the pull-off force, of exact and of coarse forces.
+    /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of coarse forces.
     fn rests(made: &Made) -> [Vec<f64>; 2] {
         let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
         curve.noise = made.noise;
@@ -244,8 +245,8 @@ mod tests {
         assert_eq!(fresh.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6]).unwrap(), narrow);
     }
 
-    /// At a fold, where the displacement turns back since the instrument is too soft to hold the body, the points are dense: on
-    /// either side the first point is half way to the next even point, and each further point halves the distance to the fold.
+    /// At a fold, where the displacement turns back because the instrument is too soft to hold the body, points are dense: on
+    /// either side the first one is half way to the next even point, and each further one halves the distance to the fold.
     #[test]
     fn points_are_dense_on_both_sides_of_a_fold() {
         let from = 1e-6;

@@ -5,7 +5,7 @@ use asperity_scene::quoted;
 use std::fmt;
 use std::str::FromStr;
 
-/// Quantities that are reversed, so that pressing is positive.
+/// Quantities whose sign is reversed, so that pressing is positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
@@ -20,19 +20,19 @@ pub enum Negate {
     Both,
 }
 
-/// Treatment of the drift of the force: a straight line over time, which is the number of the point.
+/// What is done with a drift of the force: a straight line over time, which is the number of the point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drift {
     /// Keeps the drift in the curve.
     #[default]
     Keep,
-    /// Removes the straight line of the points without contact.
+    /// Removes the straight line through the points without contact.
     Remove,
     /// Removes this drift from the first to the last point, N.
     Known(f64),
 }
 
-/// Treatment of the tilt of the force: a straight line over the displacement, as by a laser beam that the moving
+/// What is done with a tilt of the force: a straight line over the displacement, as a laser beam causes that the moving
 /// cantilever reflects askew (virtual deflection).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
@@ -40,7 +40,7 @@ pub enum Tilt {
     /// Keeps the tilt in the curve.
     #[default]
     Keep,
-    /// Removes the straight line of the points without contact.
+    /// Removes the straight line through the points without contact.
     Remove,
 }
 
@@ -67,7 +67,7 @@ fn positive_force(text: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err("allowed: a standard deviation above 0, such as 2nN".to_owned()) }
 }
 
-/// Options of reading and preparing a curve; what is not given is found in the curve.
+/// Options of reading and preparing a curve; what they do not state is determined from the curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
@@ -126,7 +126,7 @@ pub struct CurveOptions {
 }
 
 impl fmt::Display for CurveOptions {
-    /// Writes the options as arguments of the command line, a blank before each.
+    /// Writes the options as arguments of the command line, with a blank before each.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let segments: Vec<String> = self.segments.iter().map(ToString::to_string).collect();
         for (name, values) in [("columns", &self.columns), ("units", &self.units), ("segments", &segments)] {

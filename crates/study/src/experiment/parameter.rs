@@ -1,4 +1,4 @@
-//! Parameters of a fit: names, units, ranges, and the coordinates in which a fit looks for them.
+//! Parameters of a fit: names, units, ranges, and the coordinates in which they are searched.
 
 use asperity_data::parse_quantity;
 use asperity_scene::did_you_mean;
@@ -16,7 +16,7 @@ pub enum Parameter {
     Modulus,
     /// Measured displacement at first touch.
     Offset,
-    /// Force before contact.
+    /// Measured force without contact.
     Zero,
     /// Stiffness of the instrument.
     Stiffness,
@@ -33,12 +33,12 @@ impl Serialize for Parameter {
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
 pub(super) type Values = [f64; 7];
 
-/// Texts of a parameter.
+/// Names, symbol and unit of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     /// Name on the command line and in JSON.
     pub name: &'static str,
-    /// Technical term.
+    /// Name in words.
     pub term: &'static str,
     /// Symbol.
     pub symbol: &'static str,
@@ -53,7 +53,7 @@ impl Parameter {
         [Work, ClosingWork, Modulus, Offset, Zero, Stiffness, Radius]
     };
 
-    /// Texts of the parameter.
+    /// Names, symbol and unit of the parameter.
     pub fn row(self) -> Row {
         let row = |name, term, symbol, unit| Row { name, term, symbol, unit };
         match self {
@@ -72,7 +72,7 @@ impl Parameter {
         self.row().name
     }
 
-    /// Returns true for a parameter of either sign.
+    /// Returns true for a parameter that may have either sign.
     pub(super) fn is_signed(self) -> bool {
         matches!(self, Parameter::Offset | Parameter::Zero)
     }
@@ -82,13 +82,13 @@ impl Parameter {
         matches!(self, Parameter::Work | Parameter::ClosingWork)
     }
 
-    /// Returns true for a range in which the parameter can be looked for.
+    /// Returns true if the parameter can be searched in a range.
     fn allows(self, (low, high): (f64, f64)) -> bool {
         let is_above = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
         is_above && low < high && low.is_finite() && high.is_finite()
     }
 
-    /// Ranges in which the parameter can be looked for.
+    /// Ranges in which the parameter can be searched, in words.
     fn ranges(self) -> String {
         let above = match (self.is_signed(), self.is_work()) {
             (true, _) => "",
@@ -98,7 +98,8 @@ impl Parameter {
         format!("two values{above}, the first below the second")
     }
 
-    /// Measurement that separates two parameters, or one from all others, where a curve does not.
+    /// Measurement that would separate two parameters that a curve cannot separate; for the same parameter twice, one that
+    /// would determine it.
     pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
         let rows = [
@@ -121,12 +122,12 @@ impl Parameter {
     }
 }
 
-/// A parameter to be found, with its range if the range is given.
+/// A free parameter of a fit, with a range if one is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
-    /// The free parameter.
+    /// Which parameter is free.
     pub parameter: Parameter,
-    /// Ends of the range in SI units; `None`: around the start.
+    /// Ends of the range in SI units; `None` for a range around the start.
     pub range: Option<(f64, f64)>,
 }
 
@@ -157,22 +158,22 @@ impl FromStr for Free {
 /// Options of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitOptions {
-    /// Parameters to be found.
+    /// Parameters to be fitted.
     pub free: Vec<Free>,
-    /// Random profiles on which the fit is repeated; 1: the profile of the scene alone.
+    /// Number of random profiles on which the fit is repeated; 1 for the profile of the scene alone.
     pub lines: u64,
-    /// Threads that share the profiles.
+    /// Number of threads that share the profiles.
     pub jobs: usize,
 }
 
-/// Coordinate of a free parameter: its value over a unit, its share of the work of adhesion, or its logarithm. That of the work
-/// of adhesion is linear up to its unit, so that it reaches 0.
+/// Coordinate in which a free parameter is searched: value over a unit, share of the work of adhesion (for the work on
+/// closing), or logarithm. The coordinate of the work of adhesion is linear up to its unit, so that it reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
-    /// Unit of a parameter of either sign, and of the work of adhesion.
+    /// Unit of a parameter that may have either sign, and of the work of adhesion.
     pub unit: f64,
 }
 
@@ -189,7 +190,7 @@ impl Coordinate {
         }
     }
 
-    /// Value at a coordinate, for these values of the other parameters.
+    /// Value of the parameter at a coordinate; `values` has the other parameters.
     pub fn value(&self, at: f64, values: &Values) -> f64 {
         match self.parameter {
             Parameter::Work => at.sinh() * self.unit,
@@ -202,13 +203,13 @@ impl Coordinate {
         }
     }
 
-    /// Ends of the work of adhesion on closing, which the work of adhesion limits.
+    /// Range of the work of adhesion on closing, which the work of adhesion limits.
     fn on_closing(&self, values: &Values) -> (f64, f64) {
         let work = values[Parameter::Work as usize];
         (self.range.0.min(work), self.range.1.min(work))
     }
 
-    /// Coordinates of the ends of the range.
+    /// Coordinates of both ends of the range.
     pub fn ends(&self) -> (f64, f64) {
         match self.parameter {
             Parameter::ClosingWork => (0.0, 1.0),

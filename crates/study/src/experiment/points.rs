@@ -1,4 +1,4 @@
-//! The points of a curve in the order of time, with pressing positive.
+//! The points of a curve in the order of time, reversed so that pressing is positive.
 
 use super::baseline::{Baseline, ends};
 use super::free::{FEWEST, free_count};
@@ -8,13 +8,13 @@ use super::{ExperimentError, refused};
 use asperity_data::mean;
 use std::ops::Range;
 
-/// Points in the order of time, means of several if there are many.
+/// Points in the order of time; if there are many, each is the mean of several points of the file.
 pub(super) struct Points {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub segment: Vec<usize>,
     pub is_still: Vec<bool>,
-    /// Points of the file in each.
+    /// Number of points of the file in each point.
     pub counts: Vec<usize>,
 }
 
@@ -36,12 +36,12 @@ impl Points {
         }
     }
 
-    /// Place of a segment of the points.
+    /// Index range of the points of a segment.
     pub fn of(&self, number: usize) -> Range<usize> {
         self.segment.partition_point(|one| *one < number)..self.segment.partition_point(|one| *one <= number)
     }
 
-    /// Place of a segment without the pause at its turn.
+    /// Index range of the points of a segment without the pause at its turning point.
     pub fn moving(&self, number: usize) -> Range<usize> {
         let of = self.of(number);
         let Range { mut start, mut end } = of.clone();
@@ -54,7 +54,7 @@ impl Points {
         start..end
     }
 
-    /// Reverses the quantities so that pressing is positive, as asked for or as the first segment has it.
+    /// Reverses displacement and force so that pressing is positive: as `asked`, or else as the first segment shows.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.of(self.segment[0]);
         let is_wrong = |displacement: &[f64]| {
@@ -81,7 +81,7 @@ impl Points {
         Ok(negate)
     }
 
-    /// Returns true for a single segment that ends without contact.
+    /// Returns true if the only segment ends without contact.
     pub fn is_retraction(&self, least: f64) -> bool {
         let change = |values: &[f64]| {
             let free = free_count(values, least).ok()?;
@@ -91,14 +91,14 @@ impl Points {
         change(&reversed).is_some_and(|after| change(&self.force).is_none_or(|before| after < before))
     }
 
-    /// Number of the last points, which are after contact.
+    /// Number of the last points, which are after contact; `None` if they cannot be found.
     pub fn free_at_the_end(&self, least: f64) -> Option<usize> {
         let last = self.moving(*self.segment.last()?);
         let reversed: Vec<f64> = self.force[last].iter().rev().copied().collect();
         free_count(&reversed, least).ok()
     }
 
-    /// Displacements at which the segments up to a number end, m; a retraction follows the last approach.
+    /// Displacements, m, at which the segments up to number `last` end; before a single retraction the largest one.
     pub fn turns(&self, last: usize) -> Vec<f64> {
         let all = ends(self.displacement.iter().copied());
         let end = |number: usize| {
@@ -110,7 +110,7 @@ impl Points {
     }
 }
 
-/// Places of the points of the chosen segments, which leave pauses out; of all without a choice.
+/// Indices of the points of the chosen segments without their pauses; all points if no segments are chosen.
 pub(super) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
     let all = 0..points.force.len();
     let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;

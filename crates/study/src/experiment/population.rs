@@ -1,18 +1,18 @@
-//! The members of a search: values of the parameters with their residuals and costs.
+//! The members of a search: values of the parameters, with residuals and costs.
 
-/// Share of the members that differ from all others in a population that has spread.
+/// Share of different members from which on the extent of a population is meaningful.
 const DISTINCT: f64 = 0.5;
-/// Residual, in units of the noise, beyond which a point counts less: it is on the wrong side of a jump.
+/// Residual, in units of the noise, beyond which a point counts less, since it is on the wrong side of a jump.
 pub(super) const WRONG_SIDE: f64 = 5.0;
 
-/// Coordinates with the residuals there, in units of the noise of the curve.
+/// Coordinates, and the residuals at these coordinates in units of the noise of the curve.
 #[derive(Clone)]
 pub(super) struct Member {
     pub at: Vec<f64>,
     pub rests: Vec<f64>,
 }
 
-/// Members with their costs at a noise, in units of the noise of the curve, and the best member of all with its cost.
+/// Members with their costs for a noise, in units of the noise of the curve, and the best member so far with its cost.
 pub(super) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
@@ -22,27 +22,27 @@ pub(super) struct Population {
 }
 
 impl Population {
-    /// Keeps a member with this cost, if it is the best.
+    /// Makes a member with this cost the best, if it is.
     pub fn keep(&mut self, member: &Member, cost: f64) {
         if cost < self.cost {
             (self.best, self.cost) = (member.clone(), cost);
         }
     }
 
-    /// Number of members that are no copies of others.
+    /// Number of different members.
     pub fn distinct(&self) -> usize {
         let is_copy = |index: usize| self.members[..index].iter().any(|one| one.at == self.members[index].at);
         (0..self.members.len()).filter(|&index| !is_copy(index)).count()
     }
 
-    /// Returns false if most members are copies, whose extent says nothing.
+    /// Returns false if most members are copies, so that the extent of the population means nothing.
     pub fn has_spread(&self) -> bool {
         self.distinct() as f64 >= DISTINCT * self.members.len() as f64
     }
 }
 
-/// Half the square of a residual over its noise. That of a point on the wrong side of a jump continues as a logarithm: measured
-/// displacements are not exact to the edge of a jump.
+/// Cost of a residual (in units of the noise): half its square, continued as a logarithm for points on the wrong side of a
+/// jump, since measured displacements are not exact to the edge of a jump.
 pub(super) fn loss(rest: f64) -> f64 {
     let rest = rest.abs();
     if rest > WRONG_SIDE {
@@ -52,7 +52,7 @@ pub(super) fn loss(rest: f64) -> f64 {
     }
 }
 
-/// Draws members by their weights, evenly from a share of the first one on.
+/// Draws `count` members in proportion to their weights, at even distances; `share` is the position of the first one.
 pub(super) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
     let step = weights.iter().sum::<f64>() / count as f64;
     let (mut drawn, mut sum) = (Vec::with_capacity(count), 0.0);
@@ -65,7 +65,7 @@ pub(super) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f6
     drawn
 }
 
-/// Point from 0 to 1 of an evenly scattered sequence (van der Corput).
+/// Point number `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
 pub(super) fn share_of(number: usize, base: usize) -> f64 {
     if number == 0 { 0.0 } else { ((number % base) as f64 + share_of(number / base, base)) / base as f64 }
 }

@@ -1,4 +1,4 @@
-//! Columns of a measured curve in SI units: text, CSV or an array of NumPy.
+//! Columns of a measured curve in SI units, read from text, CSV or a NumPy array.
 
 use super::ExperimentError;
 use super::baseline::ends;
@@ -10,26 +10,27 @@ use asperity_surface::{Place, TopographyError, columns as npy_columns, content, 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Largest displacement, m, and force, N, either way.
+/// Largest allowed displacement, m, and force, N, in magnitude.
 const LARGEST: [f64; 2] = [1e3, 1e6];
-/// Distance from the central nine tenths of the displacements, in units of their range, beyond which a few are wild.
+/// Distance from the central nine tenths of the displacements, in units of their range, beyond which a few displacements
+/// are mistakes.
 const WILD: f64 = 10.0;
 
-/// Line of the header of a table that PyJibe and afmformats write, the columns of which are in SI units.
+/// Header line of tables that PyJibe and afmformats write, whose columns are in SI units.
 const OF_AFMFORMATS: &str = "END METADATA";
 
-/// Columns of a file in SI units, without the points of which a value is missing.
+/// Columns of a file in SI units, without points that lack a value.
 #[derive(Debug, Default)]
 pub(super) struct Columns {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
-    /// Labels of the segments, counted from 0; empty without such a column.
+    /// Index of the segment of each point, as labelled in the file; empty without such a column.
     pub segment: Vec<usize>,
-    /// Points left out since a value is missing.
+    /// Number of points left out since a value is missing.
     pub missing: usize,
-    /// Statements on the choice of columns and units.
+    /// Sentences on the choice of columns and units.
     pub statements: Vec<String>,
-    /// Number of the line, or of the point, of each point.
+    /// Line number, or number of the point, of each point.
     places: Vec<usize>,
 }
 
@@ -45,7 +46,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// The approach, and the retraction beside it from the end that is nearer to the end of the approach.
+    /// Joins an approach with the retraction beside it, which begins at its end nearer to the end of the approach.
     fn joined(parts: Vec<Columns>) -> Columns {
         let has_two = parts.len() > 1;
         let mut joined = Columns::default();
@@ -69,7 +70,7 @@ impl Columns {
         joined
     }
 
-    /// Adds a point of these values of displacement and force in the units of the file, unless one of them is missing.
+    /// Adds a point with these values of displacement and force in the units of the file, unless a value is missing.
     fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<(), TopographyError> {
         if !values.iter().all(|value| value.is_finite()) {
             self.missing += 1;
@@ -96,7 +97,7 @@ impl Columns {
         Ok(())
     }
 
-    /// Refuses a few displacements far from all others: mistakes of a file that would set the range of the curve.
+    /// Returns an error for a few displacements far from all others: mistakes in a file that would determine the range.
     fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), TopographyError> {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
@@ -123,12 +124,12 @@ impl Columns {
     }
 }
 
-/// The points of a file in its chosen columns.
+/// Collects the points of a file from its chosen columns.
 struct Points {
     choice: Choice,
-    /// One part, or an approach and the retraction beside it.
+    /// One set of columns, or one for an approach and one for the retraction beside it.
     parts: Vec<Columns>,
-    /// Number of the present segment, and its word or number in the file.
+    /// Index of the present segment, and the word or number that labels it in the file.
     label: (usize, String),
 }
 
@@ -140,7 +141,8 @@ impl Points {
         Ok(Points { choice, parts, label: (0, String::new()) })
     }
 
-    /// Adds the point at a place, by the values of the columns, NaN for a missing one, and their texts.
+    /// Adds the point at a place of the file; `value` returns the number in a column (NaN if it is missing) and `text` its
+    /// text.
     fn take<'a>(
         &mut self,
         place: &Place,
@@ -307,7 +309,7 @@ mod tests {
         array(fields, "600,", &mut all.iter().flat_map(|&(d, f)| [f, d]), plain());
     }
 
-    /// Tables of analysis programs and instruments, also with approach and retraction side by side.
+    /// Tables of analysis programs and instruments are read, also with approach and retraction side by side.
     #[test]
     fn exports_of_other_programs_are_read_without_options() {
         let (all, expected) = (of_spring(600), spring());

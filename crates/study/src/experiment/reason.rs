@@ -1,4 +1,4 @@
-//! The reason why a model does not describe a curve, by the pattern of its residuals.
+//! The reason why a model does not describe a curve, from the pattern of its residuals.
 
 use super::ExperimentError;
 use super::baseline::{dot, ends, right_angled, take_off};
@@ -14,24 +14,26 @@ use asperity_scene::Simulation;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-/// Share of the length in contact of a body that is longer than its profile, and fewest springs in contact.
+/// Share of the length from which on a contact fills its profile, and smallest number of springs in contact.
 const FULL: f64 = 0.99;
 const FEWEST_SPRINGS: u64 = 20;
-/// Jump between two points over the pull-off force: a sphere on a rigid instrument jumps by 5/9 of it.
+/// Jump between two points, over the pull-off force, above which the instrument is not rigid: a sphere on a rigid
+/// instrument jumps by 5/9.
 const RIGID: f64 = 0.65;
-/// Share of the squared residuals that a pattern explains.
+/// Share of the squared residuals that a pattern must explain.
 const EXPLAINS: f64 = 0.4;
 /// Tabor number below which the theory of Johnson, Kendall and Roberts does not apply at all.
 const LONG_RANGE: f64 = 1.0;
-/// Slope of the force over the stiffness of an instrument that does not allow it, and the part of the way from first touch to
-/// the turn, and fewest points there, by which it is found.
+/// Slope of the force, over the stiffness of the instrument, that the instrument does not allow; and the part of the way
+/// from first touch to the turning point, with the smallest number of points, in which the slope is measured.
 const STEEPER: f64 = 1.03;
 const PRESSED: f64 = 0.2;
 const FEWEST: usize = 5;
-/// Relative step of a derivative, and change of the force over its range that is a jump and no derivative.
+/// Relative step of a numerical derivative, and change of the force, over its range, above which it is a jump and no
+/// derivative.
 const STEP: f64 = 1e-3;
 const LEAPS: f64 = 0.02;
-/// Residual over their median that counts no further: a point on the wrong side of a jump.
+/// Residual, in units of the median, at which larger residuals are cut off: such points are on the wrong side of a jump.
 const CUT: f64 = 5.0;
 
 /// Why a model does not describe a curve.
@@ -40,67 +42,67 @@ pub enum Reason {
     /// The contact fills the profile of this length, m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]
     ShortProfile(f64),
-    /// So few springs are in contact at most.
+    /// At most this few springs are in contact.
     #[error(
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]
     CoarseProfile(u64),
-    /// The force jumps by this, N, on an instrument that the scene takes as rigid.
+    /// The force jumps by this much, N, although the scene takes the instrument as rigid.
     #[error(
         "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
         format_quantity(*.0, "N")
     )]
     Rigid(f64),
-    /// Residuals at pauses.
+    /// The residuals are at pauses.
     #[error(
         "Most of the residual is at pauses, where the body creeps or relaxes: --segments 1,2 leaves them out."
     )]
     Pause,
-    /// A slope of the force over time where nothing touches.
+    /// The force without contact changes over time.
     #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
     Drift,
-    /// A slope of the force over the displacement where nothing touches.
+    /// The force without contact changes over the displacement.
     #[error("The force has a slope over the displacement where nothing touches: --tilt remove takes it off.")]
     Tilt,
-    /// Slopes of the force over time and over the displacement where nothing touches.
+    /// The force without contact changes over time and over the displacement.
     #[error(
         "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
     )]
     DriftAndTilt,
-    /// The force differs before and after contact by this, N.
+    /// The forces before and after contact differ by this much, N.
     #[error(
         "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
          alone.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
-    /// Attraction of long range: its Tabor number.
+    /// The attraction is long-ranged, with this Tabor number.
     #[error(
         "The Tabor number is {}, below {LEAST_TABOR_NUMBER}: attraction of this range is not that of Johnson, Kendall and \
          Roberts.",
         format_quantity(*.0, "1")
     )]
     TaborNumber(f64),
-    /// Approach and retraction differ.
+    /// Approach and retraction differ: viscoelasticity, or two works of adhesion.
     #[error(
         "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
          closing. --free {} tries the second, --segments 2 fits the retraction alone.",
         Parameter::ClosingWork.name()
     )]
     Branches,
-    /// The force rises by so many N/m, more than the stiffness of the instrument in the scene allows.
+    /// The force rises with this slope, N/m, above what the stiffness of the instrument in the scene allows.
     #[error(
         "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
         format_quantity(*.0, "N/m")
     )]
     Stiffness(f64),
-    /// Approach and retraction deviate alike: another stiffness of the instrument, or another form or profile.
+    /// Approach and retraction deviate alike: the stiffness of the instrument, the form or the profile is different.
     #[error(
         "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
          another form or profile."
     )]
     StiffnessOrForm,
-    /// Another form or profile.
+    /// The form or the profile is different.
     #[error("Another form or profile than that of the scene is likely.")]
     Form,
 }
@@ -111,10 +113,10 @@ impl Serialize for Reason {
     }
 }
 
-/// The reason why a scene with these values does not describe a curve, for these free parameters.
+/// Finds the reason why a scene with these values does not describe a curve, given the free parameters.
 ///
 /// # Errors
-/// A failure of the computation.
+/// A computation fails.
 pub(super) fn reason(
     curve: &MeasuredCurve,
     scene: &CheckedScene,
@@ -172,7 +174,7 @@ pub(super) fn reason(
     Ok(low.map_or(other, Reason::TaborNumber))
 }
 
-/// A contact that fills its profile, or has few springs.
+/// The reason that the contact fills its profile or has few springs, if it does.
 fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
     let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).ok()?;
     let points = || outcome.history.legs.iter().flat_map(|leg| &leg.curve);
@@ -186,14 +188,15 @@ fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reaso
     (springs < FEWEST_SPRINGS).then_some(Reason::CoarseProfile(springs))
 }
 
-/// Largest rise of the force from point to point of a retraction, N: only a contact that is lost makes it rise.
+/// Largest rise of the force between neighbouring points of a retraction, N: only the loss of contact makes it rise.
 fn largest_jump(curve: &MeasuredCurve) -> f64 {
     let pairs = curve.segment.windows(2).zip(curve.force.windows(2));
     let retracting = pairs.filter(|(segment, _)| segment[0] == segment[1] && segment[0] % 2 == 1);
     retracting.map(|(_, force)| force[1] - force[0]).fold(0.0, f64::max)
 }
 
-/// Slope of the force over the displacement in the last fifth of the first approach, or the first one of a retraction, N/m.
+/// Slope of the force over the displacement, N/m, in the last fifth of the first approach, or in the first fifth of a
+/// retraction.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     let (touch, turn) = (curve.touch, curve.turns[0]);
     let first = curve.segment.iter().zip(curve.displacement.iter().zip(&curve.force));
@@ -208,8 +211,8 @@ fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     slope.map_or(0.0, |found| found[1].0 - 3.0 * found[1].1)
 }
 
-/// Returns true if another modulus or work of adhesion of the retractions alone explains most of the residuals, beside small
-/// changes of the free parameters: their effects are linear.
+/// Returns true if another modulus or work of adhesion on retractions alone explains most of the residuals, together with
+/// small changes of the free parameters, all with linear effects.
 fn branches_differ(
     curve: &MeasuredCurve,
     model: &mut Model<'_>,
@@ -283,7 +286,8 @@ mod tests {
         open("jkr-sphere").unwrap().set_all(&changes.collect::<Vec<_>>()).unwrap()
     }
 
-    /// Force of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3 N/m: by bisection of d + F/k.
+    /// Force, N, of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3 N/m, by bisection of d
+    /// + F/k.
     fn hertz(modulus: f64, at: f64) -> f64 {
         let force = |d: f64| 4.0 / 3.0 * modulus * (7.5e-6 * d.powi(3)).sqrt();
         let (mut low, mut high) = (0.0, at.max(0.0));
@@ -294,7 +298,7 @@ mod tests {
         force(low)
     }
 
-    /// The reason for a curve of these points, displacement in µm from first touch, force in µN and noise of 1 nN, against a
+    /// The reason found for a curve of these points (displacement in µm from first touch, force in µN, noise of 1 nN) and a
     /// scene.
     fn found(points: impl Iterator<Item = (f64, f64)>, changes: &[(&str, &str)]) -> Reason {
         let mut text = "displacement [um],force [uN]\n".to_owned();
@@ -311,8 +315,8 @@ mod tests {
         reason(&curve, document.scene(), &mut simulation, (&values, &free), tabor).unwrap()
     }
 
-    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, at a displacement, m, and a time from 0
-    /// to 1.
+    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, as functions of displacement, m,
+    /// and time from 0 to 1.
     fn curve(approach: impl Fn(f64, f64) -> f64, retraction: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
         let point = |index: i32| {
             let time = f64::from(index) / 399.0;

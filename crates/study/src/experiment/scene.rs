@@ -1,4 +1,4 @@
-//! The scene of a fit: the values from which a search begins, and the document with the values found.
+//! The scene of a fit: the values at which a search begins, and the document with the fitted values.
 
 use super::ExperimentError;
 use super::curve::MeasuredCurve;
@@ -14,7 +14,7 @@ fn change(path: &str, value: f64) -> Change {
     (path.to_owned(), ron_float(value))
 }
 
-/// Values of a scene with these governing parameters.
+/// The parameters of a fit as the scene states them; `governing` has its works of adhesion.
 pub(super) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let closing = governing.closing_work.unwrap_or(work);
@@ -23,17 +23,18 @@ pub(super) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     [work, closing, governing.effective_modulus, 0.0, 0.0, stiffness, radius]
 }
 
-/// Radius of the form of a scene, m, if it has one.
+/// Radius of the form of a scene, m; `None` for a form without a radius.
 pub(super) fn radius_of(scene: &Scene) -> Option<f64> {
     scene.form.clone()?.radius_mut().copied()
 }
 
-/// Largest work of adhesion on closing that a scene allows, J/m².
+/// Largest work of adhesion on closing that a scene allows, J/m²; infinite if it states none.
 pub(super) fn most_on_closing(scene: &Scene) -> f64 {
     scene.adhesion.and_then(|adhesion| adhesion.closing_work()).unwrap_or(f64::INFINITY)
 }
 
-/// The document with works of adhesion in place of κ or e_el/γ. Without adhesion it gets this work, J/m², if there is one.
+/// The document with works of adhesion in place of κ or e_el/γ. If it has no adhesion, `start` (J/m²) is added if it is
+/// given.
 pub(super) fn written_out(
     document: &Document,
     governing: &Governing,
@@ -48,7 +49,7 @@ pub(super) fn written_out(
     document.with_adhesion(adhesion.map_or(by_work, |adhesion| adhesion.with_work(work)))
 }
 
-/// The document with the values found, loaded as the curve was.
+/// The document with the fitted values, loaded as the measured curve was.
 pub(super) fn with_values(
     document: &Document,
     values: &Values,
@@ -77,10 +78,10 @@ pub(super) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// The document loaded as the curve was, with first touch at this measured displacement, m.
+    /// The document loaded as the measured curve was, with first touch at the measured displacement `offset`, m.
     ///
     /// # Errors
-    /// A scene that does not allow such a loading.
+    /// The scene does not allow this loading.
     pub fn load(&self, document: &Document, offset: f64) -> Result<Document, SceneErrors> {
         document.set_all(&[self.loading(offset)])
     }
@@ -95,7 +96,7 @@ impl MeasuredCurve {
     }
 }
 
-/// The first error of a scene with other values.
+/// The first error of a scene with other values, as an error of the fit.
 pub(super) fn wrong(errors: SceneErrors) -> ExperimentError {
     let error = errors.first();
     let found = format!("{} = {}", error.field, error.value);

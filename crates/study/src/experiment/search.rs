@@ -1,12 +1,13 @@
-//! The search for the parameters that describe a curve, and their errors: a population that samples their probability
+//! The search for the parameters that describe a curve, with their errors: a population that samples their probability
 //! (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat. Soc. B 68, 411, 2006).
 //!
-//! The forces jump with the parameters, so neither derivatives nor a linearised fit say how well a curve determines them. A
-//! population can: its members are drawn over the ranges and weighted as if the noise were large, where jumps count little.
-//! Then the noise falls step by step to the noise of the curve. At each step likely members are doubled, unlikely ones are left
-//! out, and all move by differences of others, which have the extent and the directions of the population, and now and then
-//! by a random step of any size, so that copies of one member part again. In the end the members are distributed as the
-//! parameters are by the noise. The start is no member: a start close to the values would be copied to the whole population.
+//! The forces jump with the parameters, so neither derivatives nor a linearised fit can show how well a curve determines
+//! them. A population can: its members are drawn from the ranges and weighted as if the noise were large, so that jumps
+//! count little. Then the noise is lowered step by step to the noise of the curve. At each step likely members are copied
+//! and unlikely ones are dropped; then each member moves by the difference of two others, which has the extent and
+//! direction of the population, and sometimes by a random step of any size, so that copies separate again. In the end the
+//! members are distributed as the noise lets the parameters be. The start is no member, since a start close to the result
+//! would be copied to the whole population.
 
 use super::baseline::{dot, ends};
 use super::model::Model;
@@ -20,63 +21,67 @@ use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
 
 const SEED: u64 = 29;
-/// Members drawn at first for each free parameter.
+/// Number of members drawn at first for each free parameter.
 const SCAN: usize = 60;
-/// Members of a population, and further ones for each free parameter.
+/// Number of members of a population, and number of further members for each free parameter.
 const MEMBERS: usize = 24;
 const FOR_EACH: usize = 8;
-/// Share of the members that count after a step of the noise.
+/// Share of the members that still count after a step of the noise.
 const EFFECTIVE: f64 = 0.3;
-/// Moves of the population at each step, and moves at the end, after each of which all members are samples.
+/// Number of moves of the population at each step, and number of moves at the end, after each of which all members become
+/// samples.
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
-/// Share of the moves that are random steps, and decades over which their lengths extend down from the whole range.
+/// Share of the moves that are random steps, and the number of decades below the whole range over which their lengths extend.
 const RANDOM: f64 = 0.02;
 const DECADES: f64 = 6.0;
-/// Noise over the noise of the curve down to which the forces are coarse, and factor of the members until then.
+/// Noise, over the noise of the curve, down to which forces are computed coarsely; and the factor of the number of members
+/// until then.
 const COARSE: f64 = 10.0;
 const MORE: usize = 2;
-/// Part of the residual of the best member down to which the noise falls, if that residual exceeds the noise of the curve.
+/// Part of the residual of the best member down to which the noise is lowered, if that residual exceeds the noise of the
+/// curve.
 const DEEPER: f64 = 8.0;
-/// Mean square residual in units of the noise beyond which a second population is made.
+/// Mean square residual, in units of the noise, beyond which another population is made.
 const EXPECTED: f64 = 1.2;
-/// Populations at most, and cost by which a start is better than a population that missed it.
+/// Limit of the number of populations, and the cost by which a start must be better than a population to count as missed.
 const ATTEMPTS: usize = 3;
 const MISSED: f64 = 3.0;
-/// Largest noise over the noise of the curve, and halvings of its logarithm in a step.
+/// Largest noise over the noise of the curve, and number of halvings to determine a step of its logarithm.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
-/// Largest factor of the noise in a step.
+/// Factor of the noise in a step where no smaller factor leaves enough members.
 const SLOWEST: f64 = 0.99;
-/// Residual in contact, in units of the noise, of a model that does not describe the curve.
+/// Residual in contact, in units of the noise, from which on a model does not describe the curve.
 pub(super) const MISFIT: f64 = 1.5;
-/// Coordinate of a work of adhesion below which one without adhesion is tried: a few times that which the noise hides.
+/// Coordinate of the work of adhesion below which a scene without adhesion is tried: a few times the work that the noise
+/// hides.
 const CLOSE: f64 = 2.5;
-/// Residual in units of the noise of a force beyond all numbers.
+/// Residual, in units of the noise, that replaces a force that is not finite.
 const FAR: f64 = 1e12;
-/// Bases of evenly scattered points.
+/// Bases of the sequences of evenly scattered points, one for each coordinate.
 const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 
-/// What a search has found.
 pub(super) struct Found {
-    /// The member of the least residuals.
+    /// The member with the smallest residuals.
     pub best: Member,
-    /// Noise of the samples over the noise of the curve: the residual where it is larger.
+    /// Noise at which the samples are distributed, over the noise of the curve; larger than 1 where the residual is.
     pub noise: f64,
-    /// Members that are distributed as the noise has it.
+    /// Coordinates that are distributed as the noise lets the parameters be.
     pub samples: Vec<Vec<f64>>,
-    /// Costs of each sample at its noise over each block of the curve; empty where the model describes the curve.
+    /// Costs of each sample for each block of the curve; empty if the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
-    /// Least cost without adhesion less the cost of the best member; infinite if no sample comes close to no adhesion.
+    /// Smallest cost of a scene without adhesion less the cost of the best member; infinite if no sample comes close to no
+    /// adhesion.
     pub without_adhesion: f64,
 }
 
-/// A search on one profile.
+/// A search on one random profile.
 pub(super) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
     pub lines: Vec<Vec<f64>>,
-    /// Receives the number of computed curves.
+    /// Receives the number of curves computed so far.
     pub report: &'a mut dyn FnMut(usize),
 }
 
@@ -93,7 +98,7 @@ impl Search<'_> {
         Ok(Member { at, rests })
     }
 
-    /// Residuals without the lines of zero and drift, for which residuals beyond a limit count as the limit.
+    /// Residuals after a fit of the lines of zero and drift; in that fit residuals beyond `limit` count as `limit`.
     pub fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
         let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
         let mut refined = rests.to_vec();
@@ -104,24 +109,24 @@ impl Search<'_> {
         refined
     }
 
-    /// Residual in contact in units of the noise, see [`Space::misfit`], with lines that are estimated at this noise.
+    /// Residual in contact in units of the noise of the curve, see [`Space::misfit`], after a fit of the lines at this noise.
     fn misfit(&self, member: &Member, noise: f64) -> f64 {
         self.space.misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
     }
 
-    /// Sum of the [`loss`] of all points at a noise over the noise of the curve.
+    /// Cost of a member: sum of the [`loss`] of all points at this noise, in units of the noise of the curve.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
         self.refined(&member.rests, WRONG_SIDE * noise).iter().map(|rest| loss(rest / noise)).sum()
     }
 
-    /// Costs over each block of the curve.
+    /// Costs of a member for each block of the curve, at this noise.
     fn block_costs(&self, member: &Member, noise: f64) -> Vec<f64> {
         let rests = self.refined(&member.rests, WRONG_SIDE * noise);
         let cost = |block: Range<usize>| rests[block].iter().map(|rest| loss(rest / noise)).sum();
         self.space.blocks().into_iter().map(cost).collect()
     }
 
-    /// Points evenly scattered over the ranges, others in each attempt.
+    /// Points evenly scattered over the ranges, different ones in each attempt.
     fn scattered(&mut self, attempt: usize) -> Result<Vec<Member>, ExperimentError> {
         let coordinates = &self.space.coordinates;
         let start = self.space.start();
@@ -143,9 +148,9 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Finds the member of the least residuals, and coordinates that are distributed as the noise has it. A population is drawn
-    /// anew at other points if its residuals exceed the noise, as one in thirty ends in another minimum and one in 200 twice, if
-    /// it has missed a better start, which is then a member of the next one, or if it has not spread.
+    /// Finds the member with the smallest residuals, and coordinates distributed as the noise lets them be. Another
+    /// population is drawn if the residuals exceed the noise (one in thirty ends in another minimum, one in 200 twice), if
+    /// it missed a better start (which then becomes a member of the next one), or if it has not spread.
     pub fn find(&mut self) -> Result<Found, ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
         self.model.noise = 1.0;
@@ -189,12 +194,13 @@ impl Search<'_> {
         Ok(Found { best: population.best, noise, samples, blocks, without_adhesion })
     }
 
-    /// Coordinates of the best member of one population.
+    /// Coordinates of the best member of a single population.
     pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
         Ok(self.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
     }
 
-    /// Least cost without adhesion less the cost of the best member; infinite if no sample comes close to no adhesion.
+    /// Smallest cost of a scene without adhesion less the cost of the best member; infinite if no sample comes close to no
+    /// adhesion.
     fn without_adhesion(
         &mut self,
         population: &Population,
@@ -215,8 +221,8 @@ impl Search<'_> {
         Ok(least)
     }
 
-    /// A population at the noise of the curve, or at a part of the residual: with more members and coarse forces while the
-    /// noise is large.
+    /// A population whose noise was lowered to the noise of the curve, or to a part of the residual. While the noise is
+    /// large it has more members, and forces are coarse.
     fn anneal(
         &mut self,
         attempt: usize,
@@ -251,7 +257,7 @@ impl Search<'_> {
         }
     }
 
-    /// Computes the exact forces of a population of which the forces are coarse.
+    /// Recomputes a population exactly if its forces are coarse.
     fn refine(&mut self, population: &mut Population) -> Result<(), ExperimentError> {
         if self.model.noise > 1.0 {
             self.model.noise = 1.0;
@@ -263,7 +269,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Weighs a population by this noise.
+    /// Sets the noise of a population and computes its costs.
     fn set_noise(&self, population: &mut Population, noise: f64) {
         population.costs = population.members.iter().map(|member| self.cost(member, noise)).collect();
         (population.noise, population.cost) = (noise, self.cost(&population.best, noise));
@@ -274,7 +280,7 @@ impl Search<'_> {
         }
     }
 
-    /// The next noise, at least `least`, and the weights of the members there.
+    /// The next lower noise, at least `least`, and the weights of the members there.
     fn cooler(&self, population: &Population, least: f64) -> (f64, Vec<f64>) {
         let weights = |noise: f64| -> Vec<f64> {
             let pairs = population.members.iter().zip(&population.costs);
@@ -299,8 +305,8 @@ impl Search<'_> {
         (next, weights(next))
     }
 
-    /// Moves each member by the difference of two others (ter Braak, Stat. Comput. 16, 239, 2006) or by a random step along one
-    /// coordinate, or leaves it where it is.
+    /// Moves each member by the difference of two others (ter Braak, Stat. Comput. 16, 239, 2006) or by a random step along
+    /// one coordinate; rejected moves leave it where it is.
     fn move_all(
         &mut self,
         population: &mut Population,
@@ -348,7 +354,7 @@ mod tests {
 
     const FREE: [Parameter; 4] = [Parameter::Work, Parameter::Modulus, Parameter::Offset, Parameter::Zero];
 
-    /// Does this with a search on rubber without adhesion, the stated noise of which is this multiple of the true one.
+    /// Calls `of` with a search on a curve of rubber without adhesion, whose stated noise is `times` the true one.
     fn searched(times: f64, of: impl Fn(&mut Search, &MeasuredCurve)) {
         let mut curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
         curve.noise *= times;
@@ -406,7 +412,8 @@ mod tests {
         });
     }
 
-    /// Residuals of 1000 noises: the noise ends at a part of them, where the population is still the larger one, of exact forces.
+    /// For residuals of 1000 times the noise, the noise is lowered to a part of them, where the population is still the
+    /// larger one and forces are exact.
     #[test]
     fn a_population_at_large_noise_is_larger() {
         searched(1e-3, |search, _| {

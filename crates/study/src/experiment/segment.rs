@@ -1,27 +1,28 @@
-//! The segments of a curve, which alternately press and pull, and the pauses between them.
+//! The segments of a curve, which press and pull in turn, and the pauses between them.
 
 use super::baseline::ends;
 
-/// Share of the range of the displacement by which it turns, and of the points in the mean that is looked at.
+/// Share of the range of the displacement that counts as a turn, and share of the points that a smoothed displacement
+/// averages.
 const TURN: f64 = 0.05;
 const SMOOTHING: f64 = 1e-3;
-/// Share of the range within which a pause stays, fewest points of a pause, and how many times as many as a motion has there.
+/// Share of the range within which a pause stays, smallest number of points of a pause, and how many times more points than
+/// a motion it has there.
 const STILL: f64 = 0.01;
 const FEWEST: usize = 10;
 const MORE: f64 = 8.0;
-/// Mean step between points over the range, beyond which the rows are not in the order of time.
+/// Mean step between points, over the range of the displacement, above which the rows are not in the order of time.
 const SHUFFLED: f64 = 0.2;
 
-/// Segments of a curve.
 pub(super) struct Segments {
-    /// Number of the segment of each point, from 0.
+    /// Index of the segment of each point, from 0.
     pub numbers: Vec<usize>,
-    /// True at the points of a pause.
+    /// True for each point that belongs to a pause.
     pub is_still: Vec<bool>,
 }
 
 impl Segments {
-    /// Segments by the labels of a column, or by the turning points of the displacement if there are none.
+    /// Finds segments by the labels of a column, or without labels by the turning points of the displacement.
     pub fn of(displacement: &[f64], labels: &[usize]) -> Self {
         let mut segments = if labels.is_empty() {
             Segments { numbers: by_turning_points(displacement), is_still: vec![false; displacement.len()] }
@@ -32,7 +33,7 @@ impl Segments {
         segments
     }
 
-    /// Marks the points beside each turn where many more stay than pass by.
+    /// Marks points beside each turning point as a pause where many more points stay than pass by.
     fn find_pauses(&mut self, displacement: &[f64]) {
         let (low, high) = ends(displacement.iter().copied());
         let near = STILL * (high - low);
@@ -54,15 +55,15 @@ impl Segments {
     }
 }
 
-/// Returns true for displacements that go to and fro from point to point, as rows in a wrong order do.
+/// Returns true for displacements that jump to and fro from point to point, as displacements of rows in a wrong order do.
 pub(super) fn are_shuffled(displacement: &[f64]) -> bool {
     let (low, high) = ends(displacement.iter().copied());
     let way: f64 = displacement.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
     way > SHUFFLED * (high - low) * displacement.len() as f64
 }
 
-/// Numbers of the segments between the turning points of the smoothed displacement, from which the displacement
-/// comes back by a share of its range.
+/// Index of the segment of each point, between turning points of the smoothed displacement: from a turning point the
+/// displacement comes back by a share of its range.
 fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     let last = displacement.len() - 1;
     let half = (0.5 * SMOOTHING * last as f64) as usize;
@@ -100,7 +101,7 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     numbers
 }
 
-/// Segments of the labels of a column: parts of one direction are one segment, and parts without motion are pauses.
+/// Finds segments by the labels of a column: parts in one direction are one segment, and parts without motion are pauses.
 fn by_labels(labels: &[usize], displacement: &[f64]) -> Segments {
     let (low, high) = ends(displacement.iter().copied());
     let (mut numbers, mut is_still) = (Vec::with_capacity(labels.len()), Vec::with_capacity(labels.len()));

@@ -1,4 +1,4 @@
-//! The coordinates in which a scene is fitted, and the parts of the curve beside it.
+//! The coordinates in which a scene is fitted, and what a fit derives from the curve.
 
 use super::baseline::ends;
 use super::curve::MeasuredCurve;
@@ -13,23 +13,23 @@ use asperity_scene::{Document, Solver};
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Factor from the start to the ends of a range that is not given.
+/// Ratio between the start and the ends of a range that is not given.
 const FACTOR: f64 = 30.0;
-/// Pull-off force of a smooth body over the pull-off force of the curve up to which the coordinate of the work of adhesion is
-/// linear, if the noise does not hide more.
+/// Pull-off force of a smooth body, over the pull-off force of the curve, up to which the coordinate of the work of
+/// adhesion is linear, unless the noise hides more.
 const LINEAR: f64 = 0.01;
 
-/// The coordinates in which a scene is fitted, from these values on.
+/// The coordinates in which a scene is fitted, with the values of all other parameters.
 pub(super) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
-    /// Largest work of adhesion on closing, J/m².
+    /// Largest allowed work of adhesion on closing, J/m².
     pub most_on_closing: f64,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// Refuses parameters of which there are none, or one twice.
+/// Returns an error unless there is a free parameter, and none is given twice.
 fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
     if free.is_empty() {
         let names = Parameter::ALL.map(Parameter::name).join(", ");
@@ -44,7 +44,7 @@ fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
 }
 
 impl<'a> Space<'a> {
-    /// Checks parameters and scene; returns the document with a work of adhesion, and the coordinates of the fit.
+    /// Checks parameters and scene; returns the document with works of adhesion written out, and the coordinates of the fit.
     pub fn of(
         curve: &'a MeasuredCurve,
         document: &Document,
@@ -153,12 +153,12 @@ impl<'a> Space<'a> {
         values
     }
 
-    /// Coordinates of the start.
+    /// Coordinates at which the search begins.
     pub fn start(&self) -> Vec<f64> {
         self.coordinates.iter().map(|one| one.of(one.start, &self.base)).collect()
     }
 
-    /// Consecutive parts of each segment in contact, which depend on each other less than points do.
+    /// Consecutive parts of each segment in contact; they depend on each other less than points do.
     pub fn blocks(&self) -> Vec<Range<usize>> {
         let (mut blocks, mut from) = (Vec::new(), self.curve.free);
         for segment in self.curve.segment[from..].chunk_by(|one, next| one == next) {
@@ -169,13 +169,13 @@ impl<'a> Space<'a> {
         blocks
     }
 
-    /// Straight lines of the curve that are refined with each model, see [`MeasuredCurve::lines`].
+    /// Straight lines of the curve that each model refines; see [`MeasuredCurve::lines`].
     pub fn lines(&self) -> Vec<Vec<f64>> {
         let has_zero = self.coordinates.iter().any(|one| one.parameter == Parameter::Zero);
         self.curve.lines(has_zero)
     }
 
-    /// Root mean square residual in contact, in units of the noise; see [`scale`].
+    /// Root mean square residual in contact, in units of the noise of the curve; see [`scale`].
     pub fn misfit(&self, rests: &[f64]) -> f64 {
         scale(&rests[self.curve.free..], WRONG_SIDE)
     }
@@ -199,8 +199,8 @@ mod tests {
         }
     }
 
-    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) of a sphere (JKR) and F²/(π E* L³) of a punch as
-    /// long as the profile (Kendall).
+    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR) and F²/(π E* L³) for a
+    /// punch as long as the profile (Kendall).
     #[test]
     fn a_fit_begins_with_the_work_of_a_smooth_body() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);

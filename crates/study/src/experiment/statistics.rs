@@ -3,14 +3,14 @@
 use super::baseline::dot;
 use asperity_data::{mean, standard_deviation};
 
-/// Fewest ranges without correlation in a curve.
+/// Smallest number of independent ranges that a curve is assumed to have.
 const RANGES: usize = 20;
 
-/// Parts of each segment that are blocks of a curve.
+/// Number of parts into which each segment is divided as blocks of the curve.
 pub(super) const PARTS: usize = 4;
 
-/// Root mean square of residuals, where larger ones than `cut` times this scale count as `cut` times the scale (Huber, Robust Statistics,
-/// proposal 2): single ones on the wrong side of a jump count little, while all may be as large as they are.
+/// Robust root mean square of residuals: residuals larger than `cut` times this scale count as `cut` times the scale
+/// (Huber, Robust Statistics, proposal 2), so that single points on the wrong side of a jump count little.
 pub(super) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();
     squares.sort_by(f64::total_cmp);
@@ -24,10 +24,10 @@ pub(super) fn scale(residuals: &[f64], cut: f64) -> f64 {
     (sum / count).sqrt()
 }
 
-/// Standard error of a value by the scatter over blocks of the curve, from samples of the value and their costs over each block
-/// (infinitesimal jackknife; Giordano and Broderick, arXiv 2305.06466): where a model does not describe a curve, its residuals
-/// are no independent noise, and each block would have other values. Blocks are joined up to whole segments; the largest
-/// error counts.
+/// Standard error of a value by its scatter over blocks of the curve, from samples of the value and the costs of each
+/// sample for each block (infinitesimal jackknife; Giordano and Broderick, arXiv 2305.06466). Where a model does not
+/// describe a curve, its residuals are no independent noise, and each block would give another value. Blocks are joined, up
+/// to whole segments; the largest error counts.
 pub(super) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let (count, average) = (values.len() as f64, mean(values));
     let influence = |block: usize| {
@@ -42,7 +42,7 @@ pub(super) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
 }
 
-/// Factor of the variance of a mean of residuals by their correlation along the curve: 1 without one.
+/// Factor by which correlation of the residuals along the curve increases the variance of their mean: 1 without correlation.
 pub(super) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
@@ -62,14 +62,14 @@ pub(super) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     }
 }
 
-/// Standard deviation, and 2.5 % and 97.5 % quantiles.
+/// Standard deviation of values, and their 2.5 % and 97.5 % quantiles.
 pub(super) fn spread(mut values: Vec<f64>) -> (f64, (f64, f64)) {
     values.sort_by(f64::total_cmp);
     let quantile = |share: f64| values[((share * values.len() as f64) as usize).min(values.len() - 1)];
     (standard_deviation(&values, mean(&values)), (quantile(0.025), quantile(0.975)))
 }
 
-/// Correlation of two coordinates over samples, 0 of one that does not vary.
+/// Correlation of two coordinates over samples; 0 if one of them does not vary.
 pub(super) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
     let [one, other] = pair.map(|index| {
         let mut values = column(samples, index);

@@ -1,4 +1,4 @@
-//! The points of a curve without contact, and the zero, drift and tilt of its force that they give.
+//! The points of a curve without contact, and the zero, drift and tilt of the force at these points.
 
 use super::baseline::{Baseline, ends};
 use super::free::{FEWEST, NoBaseline, Slopes, free_count};
@@ -9,17 +9,17 @@ use asperity_data::format_quantity;
 use asperity_data::mean;
 use std::ops::Range;
 
-/// Drift or tilt in standard errors that remains in a curve.
+/// Drift or tilt, in standard errors, from which on it is said to remain in a curve.
 const REMAINS: f64 = 5.0;
-/// Residual of the lines of drift, tilt and step over the noise from point to point of parts without contact that are not
-/// straight, and lines over that residual that are drift or tilt all the same.
+/// Residual of the lines of drift, tilt and step, over the noise between neighbours, above which the parts without contact
+/// are not straight; and ratio of the lines to that residual above which they count as drift or tilt nevertheless.
 const CURVED: f64 = 1.5;
 const DOMINATES: f64 = 20.0;
 
 /// The points without contact: the first ones of an approach and the last ones of a retraction.
 pub(super) struct FreeParts {
     pub before: Option<usize>,
-    /// Number of the last ones; 0 where there are few.
+    /// Number of the last points after contact; 0 if there are few.
     pub after: usize,
     /// Time and displacement of each point, as shares of the whole curve.
     pub shares: [Vec<f64>; 2],
@@ -58,7 +58,7 @@ impl FreeParts {
         Ok(FreeParts { before: before.ok(), after, shares: [time, displacement] })
     }
 
-    /// Place of the points without contact that give zero and noise.
+    /// Index range of the points without contact that give zero and noise.
     fn base(&self) -> Range<usize> {
         let count = self.shares[0].len();
         self.before.map_or(count - self.after..count, |before| 0..before)
@@ -68,8 +68,8 @@ impl FreeParts {
         Baseline::through(&points.force[self.base()])
     }
 
-    /// Displacement at which the contact seems to begin, m: behind the part before contact, or where a retraction alone
-    /// leaves compression, or half way to its end.
+    /// Displacement at which the contact seems to begin, m: behind the part before contact; for a retraction alone where
+    /// compression ends, or half way to its end.
     pub fn touch(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];
@@ -83,7 +83,8 @@ impl FreeParts {
         points.displacement[points.of(1).start + place.min(in_contact.len() - 1)]
     }
 
-    /// Takes zero, drift and tilt off as asked for. Returns drift, tilt and step that remain, N, and says all that.
+    /// Subtracts zero, drift and tilt as the options ask. Returns the drift, tilt and step that remain, N, and a statement
+    /// on all of it.
     pub fn take_off_lines(
         &self,
         points: &mut Points,
@@ -184,7 +185,7 @@ impl FreeParts {
     }
 }
 
-/// Refuses a curve without a part before contact, by its reason.
+/// Returns the error of a curve without a part before contact, according to the reason.
 fn refuse_baseline<T>(
     why: NoBaseline,
     points: &Points,
@@ -229,7 +230,7 @@ mod tests {
     use super::super::made::{from_text, lines, of_spring};
     use super::*;
 
-    /// The spring with a drift, a tilt and a step after contact, nN.
+    /// The curve of the spring with a drift, a tilt and a step after contact, all in nN.
     fn made(drift: f64, tilt: f64, step: f64) -> String {
         lines(of_spring(600).into_iter().enumerate().map(|(index, (d, f))| {
             let step = if index < 300 { 0.0 } else { step };
@@ -250,7 +251,7 @@ mod tests {
         assert!((end(Drift::Known(5.99e-9)) - without).abs() < 2e-10);
     }
 
-    /// A retraction alone leaves compression where the force is zero, here at a displacement of zero.
+    /// A retraction alone touches where compression ends and the force is zero, here at the displacement zero.
     #[test]
     fn a_retraction_alone_touches_where_it_leaves_compression() {
         let pulled = |at: f64| (at, if at < -50.0 { 0.0 } else { at });
@@ -259,8 +260,8 @@ mod tests {
         assert_eq!(from_text(&text, &options).unwrap().touch, 0.0);
     }
 
-    /// Drift over time and tilt over the displacement, separated by the parts before and after contact; a force that differs
-    /// before and after contact is neither.
+    /// Drift over time and tilt over the displacement are separated by the parts before and after contact; a difference of
+    /// the force before and after contact is neither.
     #[test]
     fn what_remains_without_contact_is_named_with_its_remedy() {
         let keep = |text: &str| read(text, Drift::Keep, Tilt::Keep).remaining.map(|one| (one * 1e9).round());
