@@ -1,4 +1,4 @@
-//! `asperity check`: closed forms, laws and hard cases, on this machine.
+//! `asperity check`: computes closed forms, laws and hard cases on this machine.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};

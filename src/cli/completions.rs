@@ -1,4 +1,4 @@
-//! `asperity completions`: completion scripts for shells.
+//! `asperity completions`: writes completion scripts for shells.
 
 use super::error::CliError;
 use clap::{Args, Command};

@@ -1,4 +1,4 @@
-//! `asperity cost`: the cost of accuracy for a scene.
+//! `asperity cost`: measures the cost of accuracy for a scene.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES};
@@ -22,7 +22,7 @@ Examples:
 Errors are relative to the closed form of the adhesion force if the scene has one, else to the
 finest solution within the budget, whose own error is estimated and stated.";
 
-/// Longest budget, s.
+/// Largest allowed budget, s.
 const LONGEST: f64 = 86_400.0;
 
 #[derive(Args, Debug)]

@@ -1,4 +1,4 @@
-//! `asperity demo`: automatic play of the explorer.
+//! `asperity demo`: plays the explorer automatically.
 
 use super::error::CliError;
 use super::explore::failed;
@@ -27,7 +27,7 @@ Examples:
 
 The same command gives the same frames, whenever and wherever it runs.";
 
-/// Frames per second of an animation, and of plain frames.
+/// Frames per second of an animation on a terminal, and of plain frames.
 const WATCHED: f64 = 12.0;
 const READ: f64 = 1.0;
 

@@ -9,23 +9,23 @@ use std::io;
 /// Exit code of a failed run or wrong input.
 const FAILED: u8 = 1;
 
-/// Error of a command: one message, or one for each wrong line of input.
+/// Error of a command: one message, or one message for each wrong line of the input.
 #[derive(Debug)]
 pub struct CliError {
     pub message: String,
     /// Exit code of the process.
     pub exit_code: u8,
-    /// True if the reader of the results has closed its end.
+    /// True if the reader of the results has closed the pipe.
     pub is_closed_pipe: bool,
 }
 
 impl CliError {
-    /// An error in words.
+    /// Creates an error with this message.
     pub fn message(message: impl Into<String>) -> CliError {
         CliError { message: message.into(), exit_code: FAILED, is_closed_pipe: false }
     }
 
-    /// An error, or a message, after the name of its cause: a scene, a file, a word.
+    /// Creates an error whose message begins with the name of its cause: a scene, a file, a word.
     pub fn named(name: impl Display, error: impl Display) -> CliError {
         CliError::message(format!("{name}: {error}"))
     }

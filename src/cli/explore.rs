@@ -79,11 +79,11 @@ pub struct LookArguments {
 }
 
 impl LookArguments {
-    /// The options of the explorer. A wrong configuration file of the user is a warning, and the explorer opens with the
-    /// defaults.
+    /// The options of the explorer. If the user's own configuration file is wrong, the explorer opens with a warning and
+    /// the defaults.
     ///
     /// # Errors
-    /// The first mistake in a named configuration file.
+    /// The first mistake in a configuration file that the user names.
     pub(super) fn options(&self) -> Result<Options, CliError> {
         let defaults = || Config::new(bindings());
         let (config, warning) = match (&self.config, default_path()) {
@@ -99,9 +99,10 @@ impl LookArguments {
     }
 }
 
-/// Opens the explorer on a scene or a study; a word that is neither may be meant as one of the `commands`.
+/// Opens the explorer on a scene or a study. `commands` are the names of commands, one of which a word that is neither may
+/// have been meant as.
 ///
-/// On leaving, prints a brief summary of the last scene.
+/// When the explorer is left, prints a brief summary of the last scene.
 pub(super) fn explore(
     arguments: &ExploreArguments,
     commands: &str,
@@ -131,7 +132,7 @@ pub(super) fn failed(error: impl Display) -> CliError {
     CliError::message(format!("the explorer failed: {error}"))
 }
 
-/// Opens the explorer in the terminal; on leaving, prints a brief summary of the last scene.
+/// Opens the explorer in the terminal; when it is left, prints a brief summary of the last scene.
 fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(CliError::message(format!(
@@ -151,7 +152,7 @@ fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), C
     Ok(())
 }
 
-/// Newest unsaved changes of an ended session.
+/// The newest unsaved changes of an ended session; an error if there are none.
 fn restored(folder: Option<&Path>) -> Result<Kept, CliError> {
     let none = || "no unsaved changes are kept; asperity opens a scene".to_owned();
     let newest = folder.map_or(Ok(None), autosave::newest);

@@ -1,4 +1,4 @@
-//! `asperity fit`: the parameters of a scene that describe a measured force curve.
+//! `asperity fit`: fits the parameters of a scene to a measured force curve.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};

@@ -1,4 +1,4 @@
-//! `asperity line`: the rigid profile of a scene.
+//! `asperity line`: writes the rigid profile of a scene.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES, without_look};

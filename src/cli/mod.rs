@@ -1,7 +1,7 @@
 //! The command line: its arguments, and one function for each command.
 //!
-//! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the input
-//! or the run failed, 2 wrong usage.
+//! Results go to standard output, everything else to standard error. Exit codes: 0 for success, 1 for a failure of the
+//! input or the run, 2 for wrong usage.
 
 pub mod arguments;
 mod check;
@@ -39,12 +39,12 @@ use std::io;
 use std::io::{BufWriter, Write};
 use std::process::ExitCode;
 
-/// Bytes gathered before a write to standard output.
+/// Size in bytes of the buffer before standard output.
 const BUFFER: usize = 1 << 18;
 
 const WRONG_USAGE: u8 = 2;
 
-/// Runs the program with these arguments, starting with the program name.
+/// Runs the program with these arguments, the first of which is the program name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let typed: Vec<OsString> = arguments.into_iter().collect();
     if let Some(word) = typed.iter().skip(1).find(|word| word.to_str().is_none()) {
@@ -91,8 +91,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-/// The error, or a plainer one for a word in front that is not a command: the parser takes that word for a scene, and
-/// the words that follow for another command, or for options of none.
+/// The error, or a plainer one if the first word is no command: the parser takes that word for a scene, and the following
+/// words for another command or its options.
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
     let names = names(&command);

@@ -1,4 +1,4 @@
-//! Formats and destinations of results.
+//! Formats and destinations of the results of commands.
 
 use super::error::CliError;
 use crate::export::parameters::parameter_lines;
@@ -19,12 +19,12 @@ pub(super) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
 pub(super) const TEXT_OR_PICTURE: &[Format] = &[Format::Text, Format::Svg, Format::Png, Format::Pdf];
 pub(super) const TABLES: &[Format] = &[Format::Csv, Format::Npy];
 pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Npy];
-/// Formats of results without a table and without a picture.
+/// Formats of results that have neither a table nor a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Widths of a figure, m.
+/// Allowed widths of a printed figure, m.
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
-/// Number of px in a metre of a print.
+/// Number of px (1/96 inch) in a metre of a print.
 const PX: f64 = 96.0 / 0.0254;
 
 /// Format of results, a file for them in place of standard output, and the look of figures.
@@ -48,7 +48,7 @@ pub struct OutputArguments {
     pub parameters: bool,
 }
 
-/// Hides the look of figures in the help of a command without figures.
+/// Hides the options for figures in the help of a command without figures.
 pub(super) fn without_look(option: Arg) -> Arg {
     let is_look = ["width", "parameters"].contains(&option.get_id().as_str());
     option.hide(is_look)
@@ -59,19 +59,19 @@ fn width(text: &str) -> Result<f64, String> {
     if WIDTHS.contains(&width) { Ok(width) } else { Err("allowed: from 50mm to 500mm".to_owned()) }
 }
 
-/// Input of results.
+/// What the results are computed from, for their provenance.
 #[derive(Clone, Copy)]
 pub(super) enum Origin<'a> {
-    /// A scene, with its document for the places of its files.
+    /// A scene, with the document that locates its files.
     Scene(&'a Document, &'a Scene),
-    /// Scenes of a figure with their names.
+    /// Scenes of a figure, each with its name.
     Scenes(&'a [(String, Scene)]),
     /// Measured files.
     Files(&'a [PathBuf]),
 }
 
 impl OutputArguments {
-    /// The file, unless results go to standard output.
+    /// Path of the file; `None` if results go to standard output.
     pub(super) fn file(&self) -> Option<&Path> {
         self.output.as_deref().filter(|path| *path != Path::new("-"))
     }
@@ -81,8 +81,8 @@ impl OutputArguments {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// The format of the results: that of the extension of FILE, else the chosen one, else the usual one. Before any
-    /// computation, checks also that FILE can be written. A terminal gets text only.
+    /// The format of the results: by the extension of the file, else the chosen format, else the usual one. Also checks,
+    /// before any computation, that the file can be written. A terminal gets text only.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
         if (self.width.is_some() || self.parameters) && !format.is_picture() {
@@ -107,7 +107,7 @@ impl OutputArguments {
         Ok(format)
     }
 
-    /// Writes a report to its destination with its provenance, a figure as asked.
+    /// Writes a report with its provenance to its destination; a figure gets the requested width and parameters.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -166,7 +166,7 @@ impl OutputArguments {
     }
 }
 
-/// Checks that a file of one kind has its extension or none, and that it can be written.
+/// Checks that the name of a file has this extension or none, and that the file can be written.
 pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Result<(), CliError> {
     check_extension(path, &[extension]).map_err(|error| CliError::named(path_name(path), error))?;
     Ok(check_writable(path, overwrite)?)
@@ -196,7 +196,7 @@ impl AnswerFormat {
     }
 }
 
-/// The command of this process, for a POSIX shell, without format and destination of its results.
+/// The command of this process, for a POSIX shell, without the options for format and destination.
 fn command() -> String {
     let mut words = vec!["asperity".to_owned()];
     let mut typed = std::env::args().skip(1);
@@ -212,10 +212,10 @@ fn command() -> String {
     words.join(" ")
 }
 
-/// Columns of figures as text without a terminal.
+/// Width of figures as text without a terminal, columns.
 const COLUMNS: usize = 80;
 
-/// A figure as text, in the width and the colours of the terminal if it is for one.
+/// A figure as text; in the width and colours of the terminal if the text is for a terminal.
 fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     let terminal = to_stdout && io::stdout().is_terminal();
     let size = crossterm::terminal::size().ok().filter(|_| terminal);
@@ -223,7 +223,7 @@ fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     figure_text(figure, columns, if terminal { colours() } else { Colours::None })
 }
 
-/// Colours of the terminal according to the environment.
+/// Colours of the terminal, by the environment variables.
 fn colours() -> Colours {
     let value = |name| std::env::var(name).unwrap_or_default();
     if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {

@@ -1,4 +1,4 @@
-//! `asperity plan`: the stages of a scene and their cost.
+//! `asperity plan`: lists the computing stages of a scene and their cost.
 
 use super::error::CliError;
 use super::output::AnswerFormat;

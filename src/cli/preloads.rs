@@ -1,4 +1,4 @@
-//! Preloads on the command line: `1uN..20uN`, their number, and `log` for equal ratios.
+//! Preloads on the command line: `1uN..20uN`, optionally with their number, and `log` for equal ratios.
 
 use super::error::CliError;
 use asperity_contact::Move;
@@ -11,7 +11,7 @@ use asperity_study::Axis;
 const USUAL: usize = 64;
 const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
-/// Parses a range of forces and, after colons, the number of forces and `log`.
+/// Parses a range of forces and, after colons, the number of preloads and `log`.
 pub(super) fn parse_preloads(text: &str) -> Result<Axis, String> {
     let mut parts = text.split(':').map(str::trim);
     let ends = parse_range(parts.next().unwrap_or_default())?;
@@ -26,14 +26,14 @@ pub(super) fn parse_preloads(text: &str) -> Result<Axis, String> {
     Axis::of_preloads(ends, count, scale)
 }
 
-/// Parses two forces, N.
+/// Parses a range of two forces, N.
 pub(super) fn parse_range(text: &str) -> Result<(f64, f64), String> {
     let (from, to) = text.split_once("..").ok_or(ALLOWED)?;
     let force = |text: &str| parse_quantity(text, "N").map_err(|error| format!("{error}; {ALLOWED}"));
     Ok((force(from)?, force(to)?))
 }
 
-/// Refuses preloads far beyond full contact of a scene.
+/// Returns an error for preloads far beyond full contact of the scene.
 pub(super) fn check_reach(
     document: &Document,
     scene: &CheckedScene,

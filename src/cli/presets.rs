@@ -1,4 +1,4 @@
-//! `asperity presets`: the built-in scenes and the user's own, and checks of scene files.
+//! `asperity presets`: lists and shows the built-in scenes and the user's own, and checks scene files.
 
 use super::error::CliError;
 use super::output::AnswerFormat;
@@ -55,7 +55,7 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
     }
 }
 
-/// Prints a scene as it is, but on a terminal with escaped control characters: its comments may be of others.
+/// Prints the text of a scene; on a terminal with escaped control characters, since the text may come from others.
 fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
     let shown = if io::stdout().is_terminal() { printable_lines(text) } else { text.into() };
     Ok(stdout.write_all(shown.as_bytes())?)
@@ -89,7 +89,7 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     if wrong.is_empty() { Ok(()) } else { Err(CliError::message(wrong.join("\n"))) }
 }
 
-/// The name of a valid scene with its warning, or all its errors, line by line.
+/// The name of a valid scene with its warning, or else all its errors, line by line.
 fn checked(file: &str) -> Result<(String, Option<String>), String> {
     let document = asperity_scene::open_argument(file).map_err(|errors| errors.to_string())?;
     match profile_error(&document) {
@@ -98,7 +98,7 @@ fn checked(file: &str) -> Result<(String, Option<String>), String> {
     }
 }
 
-/// Error of the measured surface of a scene, with its place in the scene.
+/// Error of the measured surface of a scene, with its place in the scene; `None` if there is no error or no surface.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
     scene.measured()?;

@@ -1,4 +1,4 @@
-//! Progress on standard error: on a terminal one line that changes.
+//! Progress on standard error: on a terminal a single line that changes.
 
 use std::io;
 use std::io::{IsTerminal, Write};
@@ -9,8 +9,8 @@ pub(super) struct ProgressLine {
 }
 
 impl ProgressLine {
-    /// Shows a text on a terminal in place of the previous one. Without a terminal, prints `plain` if given. A
-    /// closed reader is no failure.
+    /// Shows a text on a terminal in place of the previous one. Without a terminal, prints `plain` if it is given. A closed
+    /// standard error is no failure.
     pub(super) fn show(&mut self, text: &str, plain: Option<&str>) {
         let mut stderr = io::stderr();
         if stderr.is_terminal() {

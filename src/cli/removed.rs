@@ -1,6 +1,6 @@
 //! Commands and options that the program no longer has.
 
-/// Names of commands and options, and what serves instead.
+/// Names of removed commands and options, each with what to use instead.
 const REMOVED: &[(&str, &str)] = &[
     ("compare", "asperity A --compare B opens A with the curve of B, asperity run A B prints both"),
     ("config", "docs/keys.md lists the settings of the configuration file"),
@@ -12,7 +12,7 @@ const REMOVED: &[(&str, &str)] = &[
     ("--memory", "--jobs keeps the memory of a study down, and --check states it"),
 ];
 
-/// Returns what serves in place of the first removed command or option among these words.
+/// Returns what to use instead of the first of these words that is a removed command or option.
 pub(super) fn instead<'a>(words: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let name = |word: &'a str| word.split('=').next().unwrap_or(word);
     let row = |word| REMOVED.iter().find(|(removed, _)| *removed == name(word));

@@ -1,4 +1,4 @@
-//! `asperity reversals`: the unloadings of a scene from many turning points.
+//! `asperity reversals`: unloads a scene from many turning points.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES};

@@ -1,4 +1,4 @@
-//! `asperity run`: computation of a scene without a terminal.
+//! `asperity run`: computes scenes without the explorer.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE, WITHOUT_PICTURE};
@@ -89,10 +89,10 @@ pub struct RunArguments {
     pub output: OutputArguments,
 }
 
-/// Columns of messages.
+/// Width of messages, columns.
 const WIDTH: usize = 80;
 
-/// A scene to compute, with springs and edges for the tolerance if one is given.
+/// A scene to compute, with the springs and edges that a given tolerance chooses.
 struct Chosen<'a> {
     document: &'a Document,
     scene: CheckedScene,
@@ -123,8 +123,8 @@ impl RunArguments {
         Ok(documents)
     }
 
-    /// The scene of a document, with springs and edges for the tolerance if one is given. Text of one scene states the
-    /// choice; else it is on standard error.
+    /// The scene of a document, with the springs and edges that a given tolerance chooses. The choice is stated in the text
+    /// of a single scene, otherwise on standard error.
     fn chosen<'a>(&self, document: &'a Document, format: Format) -> Result<Chosen<'a>, CliError> {
         let Some(tolerance) = self.tolerance else {
             return Ok(Chosen { document, scene: document.scene().clone(), choice: None });
@@ -147,7 +147,7 @@ impl RunArguments {
             .map_err(|error| CliError::named(document.name(), error))
     }
 
-    /// Adhesion of a scene against preload, and the staircase where this is shown or judges preloads below zero.
+    /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads are below zero.
     fn adhesion(
         &self,
         chosen: &Chosen<'_>,
@@ -189,10 +189,9 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     }
 }
 
-/// Writes a report of all scenes.
+/// Function that writes a report of all scenes.
 type WriteReport<'a> = dyn FnMut(&dyn Report) -> Result<(), CliError> + 'a;
 
-/// Computes the loading of each scene.
 fn run_loadings(
     arguments: &RunArguments,
     chosen: &[Chosen<'_>],
@@ -223,7 +222,6 @@ fn run_loadings(
     write(&RunReport { title, scene, outcome: &outcome, choice, estimate })
 }
 
-/// Computes the adhesion force of each scene over the preload.
 fn run_preloads(
     arguments: &RunArguments,
     preloads: &Axis,
@@ -247,7 +245,7 @@ fn run_preloads(
     write(&Figure::of_panels(figures))
 }
 
-/// The profiles of the scenes with their contact, or their contact patches.
+/// Figure of the profiles of the scenes with their contact, or of their contact patches.
 fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, CliError> {
     let mut figures = Vec::new();
     for Chosen { document, scene, .. } in chosen {

@@ -1,4 +1,4 @@
-//! Scene of a command, and its overrides.
+//! The scene of a command, with overrides.
 
 use super::error::CliError;
 use asperity_data::parallel;
@@ -9,7 +9,7 @@ use clap::Args;
 use std::io;
 use std::io::Write;
 
-/// Most random profiles of a scene.
+/// Largest number of random profiles of a scene.
 pub(super) const MOST_LINES: i64 = 1_000_000;
 
 /// A scene, with overrides.
@@ -37,7 +37,7 @@ pub struct Overrides {
 }
 
 impl SceneArguments {
-    /// Opens the scene and changes it.
+    /// Opens the scene and applies the overrides.
     pub(super) fn open(&self) -> Result<Document, CliError> {
         let document = self.overrides.apply(open_argument(&self.scene)?)?;
         if let Some(warning) = document.scene().warning() {
@@ -54,7 +54,7 @@ impl Overrides {
     }
 }
 
-/// A simulation of one scene that finds its files, which are relative to the scene's own.
+/// A simulation for one scene, whose files are relative to the file of the scene.
 pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
 }
@@ -65,7 +65,7 @@ pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outco
         .map_err(|error| CliError::named(document.name(), error))
 }
 
-/// Threads that share many profiles: the requested number, or one for each core.
+/// Number of threads that share the profiles: the requested number, or one for each core.
 pub(super) fn threads(asked: Option<u16>) -> usize {
     asked.map_or_else(parallel::threads, usize::from)
 }

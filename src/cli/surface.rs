@@ -1,4 +1,4 @@
-//! `asperity surface`: measured surfaces, their statistics and spectrum, and the equivalent line.
+//! `asperity surface`: analyses measured surfaces and the equivalent line.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
@@ -38,7 +38,8 @@ through the surface; the contact is computed on its equivalent line.
 
 JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
-/// Default number of random profiles for the adhesion force, and the largest number of springs for it: some seconds.
+/// Number of random profiles for the adhesion force by default, and the largest number of springs for which it is computed
+/// without a request, since that takes some seconds.
 const LINES: u32 = 16;
 const MOST_SPRINGS: u64 = 1 << 17;
 
@@ -91,16 +92,16 @@ pub struct SurfaceArguments {
     pub output: OutputArguments,
 }
 
-/// Length as typed.
+/// A length as the user types it.
 #[derive(Clone, Copy, Debug)]
 pub struct Length {
-    /// Number in m, or in the unit of `--unit`.
+    /// Number in m, or without a unit in the unit of `--unit`.
     value: f64,
     has_unit: bool,
 }
 
 impl SurfaceArguments {
-    /// The value of an option in m.
+    /// The length given with an option, in m.
     fn in_metres(&self, option: &str, length: Option<Length>) -> Result<Option<f64>, CliError> {
         match (length, self.measured.unit.parse::<Unit>().ok()) {
             (Some(Length { value, has_unit: true }), _) => Ok(Some(value)),
@@ -113,7 +114,7 @@ impl SurfaceArguments {
         }
     }
 
-    /// The surfaces with all options; the files have the names of the command line.
+    /// The measured surfaces with all options; the files are named as on the command line.
     fn surfaces(&self) -> Result<Measured, CliError> {
         let continue_to = self.in_metres("--continue-to", self.continue_to)?;
         if let Some(length) = continue_to.filter(|length| !(1e-15..=10.0).contains(length)) {
@@ -134,7 +135,8 @@ impl SurfaceArguments {
         })
     }
 
-    /// Refuses to write over a measured file, also with `--force`: it could not be measured again.
+    /// Returns an error for an output file that is one of the measured files, even with `--force`: it could not be measured
+    /// again.
     fn check_outputs(&self) -> Result<(), CliError> {
         let place = |file: &Path| file.canonicalize().ok();
         let outputs: Vec<PathBuf> =
@@ -149,7 +151,7 @@ impl SurfaceArguments {
         }
     }
 
-    /// Scene of the equivalent line over the length of the scan, the shorter one of two faces.
+    /// Creates a scene of the equivalent line over the length of the scan; of two faces the shorter scan counts.
     fn scene_of(
         &self,
         measured: Measured,
@@ -227,7 +229,7 @@ fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, Cl
     Ok(MeasuredFace { files: facts, analysis })
 }
 
-/// Writes a scene that names the measured files from its own folder.
+/// Writes a scene, in which the measured files are named relative to its own folder.
 fn write_scene(file: &Path, mut scene: Scene, overwrite: bool) -> Result<(), CliError> {
     let folder = file.parent().unwrap_or(Path::new(""));
     scene.rename_measured_files(|measured| {
@@ -244,7 +246,7 @@ fn length(text: &str) -> Result<Length, String> {
     Ok(Length { value, has_unit: text.trim().parse::<f64>().is_err() })
 }
 
-/// Parses a value above 0 with its unit.
+/// Parses a value above 0, with its unit.
 fn positive(text: &str, unit: &str) -> Result<f64, String> {
     match parse_quantity(text, unit) {
         Ok(value) if value > 0.0 => Ok(value),

@@ -1,4 +1,4 @@
-//! Everything that can happen to the explorer, and the work outside of its state that follows.
+//! Everything that can happen to the explorer, and the tasks outside of its state that follow.
 
 use super::keys::bindings::Command;
 use super::opening::Opening;
@@ -10,34 +10,34 @@ use crossterm::event::KeyEvent;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Event: input of the user, a report from outside, or elapsed time.
+/// An event: input of the user, a result from outside, or elapsed time.
 #[derive(Clone, Debug)]
 pub enum Action {
     Key(KeyEvent),
     Command(Command),
-    /// Text for the line being typed.
+    /// Text pasted into the line being typed.
     Paste(String),
     Resize(u16, u16),
     Elapse(Duration),
     Reply(Reply),
     Found(Finding),
-    /// A written file, or the reason why it was not written.
+    /// A file was written, or the reason why it was not.
     Written(OutputFile, Result<(), WriteFailure>),
-    /// The scenes that can be opened.
+    /// The scenes that can be opened have been listed.
     Listed(Vec<Entry>),
-    /// Paths that begin as the typed one.
+    /// Paths that begin as the typed path have been found.
     Completed(Vec<String>),
-    /// A scene or a study opened by its path, or the reason for none.
+    /// A scene or study, by its path, was opened; or the reason why it was not.
     Opened(String, Result<Box<Opening>, String>),
     Mouse(Mouse),
 }
 
-/// Work outside of the state.
+/// A task outside of the state of the explorer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
     /// Ask the solver for the state that the screen waits for.
     Ask,
-    /// Perform the remaining studies of the scene, and no others.
+    /// Perform the studies of the scene that are still open, in place of all others.
     Study,
     Write(OutputFile),
     List,
@@ -59,15 +59,14 @@ pub struct OutputFile {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteFailure {
     Exists,
-    /// The system refused, or the content does not exist.
+    /// The system refused to write, or there is no such content.
     Refused(String),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
-    /// The scene, in RON.
     Scene,
-    /// The selected pane: its picture, its result, or, as text, all panes.
+    /// The selected pane in this format: its picture, its result, or for text all panes.
     Pane(Format),
 }
 
@@ -85,6 +84,6 @@ pub struct Mouse {
 pub enum Gesture {
     Press,
     Drag,
-    /// Turns of the wheel, positive upwards.
+    /// Turns of the mouse wheel, positive upwards.
     Wheel(i32),
 }

@@ -1,4 +1,4 @@
-//! The state of the explorer: changed by `update` alone, drawn by the views.
+//! The state of the explorer: only `update` changes it, and the views draw it.
 
 use super::action::Task;
 use super::config::Config;
@@ -35,8 +35,8 @@ pub struct CloseUpTarget {
 }
 
 impl CloseUpTarget {
-    /// Springs shown when a scene opens: a small part of the line, but several asperities; a larger part of a scene
-    /// that observes its contact patches, with both ends of the patch at first touch.
+    /// Number of springs in the close-up when a scene opens: a small part of the line, but several asperities; a larger
+    /// part for a scene that observes its contact patches, so that both ends of the patch at first touch are visible.
     pub fn springs_shown(document: &Document) -> usize {
         let scene = document.scene();
         let part = if scene.observe.contains(&Observer::Fragments) { 4 } else { 32 };
@@ -46,62 +46,60 @@ impl CloseUpTarget {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualState {
-    /// Path so far, the newest point last.
+    /// Points of the path so far, the newest last.
     pub path: Vec<CurvePoint>,
-    /// Places of the stages of these points.
+    /// Index of the loading stage of each point of the path.
     pub stages: Vec<usize>,
-    /// The history from separation to the present state.
     pub loading: Vec<Move>,
-    /// Springs attached or detached on the last move.
+    /// Number of springs that attached or detached in the last move.
     pub changed: u64,
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
     pub moves: Vec<ManualMove>,
-    /// The force typed last, which the solver may refuse.
+    /// The text of the force typed last, which the solver may refuse.
     pub typed: String,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     pub quantities: LoopQuantities,
-    /// True for units of F_a,max, h and the whole line, false for SI units.
+    /// True for quantities in units of F_a,max, h and L, false for SI units.
     pub normalised: bool,
-    /// True if the dissipated energy is shaded.
+    /// True if the area of the dissipated energy is shaded.
     pub loss: bool,
 }
 
-/// A line for the user, below the panes.
+/// A message to the user, below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Message {
     Done(String),
     Error(String),
-    /// A refused change of the selected parameter.
+    /// A change of the selected parameter was refused, for this reason.
     Refused(String),
 }
 
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane in the place of profile and close-up; `None`: these.
+    /// Pane in place of profile and close-up; `None` if these two are shown.
     pub large: Option<Pane>,
-    /// True if the chosen pane has the whole screen.
     pub zoomed: bool,
     pub size: (u16, u16),
     pub appearance: Appearance,
     pub close_up: CloseUpTarget,
     pub profile: LineView,
     pub curve: CurveLook,
-    /// Scale of the preloads of adhesion against preload.
+    /// Scale of the preloads in the pane of adhesion against preload.
     pub preloads: AxisScale,
-    /// Position of the crosshair as a share of the profile, or of the horizontal axis of another chart.
+    /// Position of the crosshair as a share of the profile, or of the horizontal axis in another chart.
     pub crosshair: Option<f64>,
-    /// True if times are shown: they differ from run to run.
+    /// True if computing times are shown; they differ from run to run.
     pub shows_times: bool,
-    /// Line in place of the keys, which have no effect while a script plays.
+    /// Text in place of the keys, which have no effect while a script plays.
     pub demo: Option<&'static str>,
 }
 
-/// Generation, snapshot and number of manual moves that the screen waits for.
+/// What the screen waits for: generation of the scene, snapshot, and number of manual moves.
 pub(super) type Awaited = (u64, SnapshotRequest, usize);
 
 #[derive(Clone, Debug)]
@@ -111,30 +109,28 @@ pub struct App {
     pub manual: Option<ManualState>,
     pub view: View,
     pub solved: Option<Arc<SolvedScene>>,
-    /// The newest snapshot of its animation.
     pub snapshot: Option<Arc<ContactSnapshot>>,
-    /// Legs done of the scene being computed.
+    /// Number of computed stages of the scene being computed; `None` if none is.
     pub progress: Option<usize>,
     pub studies: Findings,
     pub map: MapState,
-    /// Loops kept for comparison, the newest last.
     pub ghosts: Vec<Ghost>,
     pub measured: Option<Measured>,
-    /// Scene with the value being typed, whose outcome is awaited.
+    /// The scene with the value being typed, whose outcome is awaited.
     pub tried: Option<Document>,
     pub prompt: Option<Prompt>,
     pub message: Option<Message>,
     pub config: Config,
-    /// Command chosen in the list of commands, to be run next.
+    /// The command chosen in the list of commands, to be run next.
     pub chosen: Option<Command>,
     pub finished: bool,
     pub(super) effects: Vec<Task>,
-    /// The last order to the solver.
+    /// What was last asked of the solver.
     pub(super) asked: Option<Awaited>,
 }
 
 impl App {
-    /// The explorer just opened on a scene.
+    /// Creates the state of an explorer that has just opened on a scene.
     pub fn new(document: Document, size: (u16, u16), appearance: Appearance, config: Config) -> Self {
         let springs = CloseUpTarget::springs_shown(&document);
         App {
@@ -189,21 +185,22 @@ impl App {
         self.prompt.as_ref().is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
-    /// Opens a prompt again for a text that could not be used, for this reason, which may begin with the text.
+    /// Opens a prompt again with a text that could not be used; `why` is the reason, which may begin with the text.
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
         let reason = why.strip_prefix(text).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
         self.ask(purpose, text);
         self.refuse(Some(reason.to_owned()));
     }
 
-    /// States the reason why the typed text is refused.
+    /// States in the prompt why the typed text is refused; `None` removes the reason.
     pub(super) fn refuse(&mut self, why: Option<String>) {
         if let Some(prompt) = &mut self.prompt {
             prompt.refused = why;
         }
     }
 
-    /// Begins a command on scene or panes: ends the notice, and the edit of successive moves in the map.
+    /// Prepares for a command on scene or panes: removes the notice, and ends an edit that consists of successive moves in
+    /// the map.
     pub(super) fn begin(&mut self) {
         self.map.moving = false;
         // The reason for a missing curve remains; any other notice ends with the next key.
@@ -216,8 +213,8 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Governing parameters of the present scene from the newest computation, which must have the same line; its
-    /// adhesion may differ.
+    /// Governing parameters of the present scene, from the newest computation, if that has the same line; its adhesion may
+    /// differ. `None` otherwise.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let (before, now) = (&computed.scene, &self.edit.scene);
@@ -233,18 +230,18 @@ impl App {
         self.current().is_some()
     }
 
-    /// The computed scene, if this is the present one.
+    /// The computed scene, if it is the present one.
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
         self.solved.as_ref().filter(|computed| computed.generation == self.edit.generation)
     }
 
-    /// Returns true while a newer scene than the shown one is computed.
+    /// Returns true while a newer scene than the shown one is being computed.
     pub fn is_computing(&self) -> bool {
         self.progress.is_some()
     }
 
-    /// Outcome for the value being typed, until then for the one typed before; for an accepted value until the scene is
-    /// computed.
+    /// Outcome for the value being typed, or until it is computed for the value typed before; for an accepted value until
+    /// the scene itself is computed.
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.studies.value::<Preview>()?;
         let is_shown = match self.prompt {
@@ -255,14 +252,14 @@ impl App {
         Some(&preview.outcome).filter(|_| is_shown && is_valid)
     }
 
-    /// Returns true once the typed value itself has an outcome.
+    /// Returns true if the outcome for the typed value itself is known.
     pub fn is_tried(&self) -> bool {
         let tried = self.tried.as_ref().map(Document::text);
         self.studies.value::<Preview>().is_some_and(|preview| tried == Some(&preview.text))
     }
 
-    /// Values of the scene on the axes of the map: its mark. `None` where the scene has no such quantity, or its value
-    /// is not known yet.
+    /// Position of the scene on the map: its values on the axes. `None` if the scene has no such quantity, or its value is
+    /// not known yet.
     pub fn place(&self) -> Option<Place> {
         let scene = self.edit.document.scene();
         let (across, up) = self.map_axes()?;
@@ -279,7 +276,7 @@ impl App {
         }
     }
 
-    /// Axes across and up of the shown map or, before there is one, of the live map.
+    /// Axes across and up of the shown map or, before a map is computed, of the live map.
     pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
@@ -288,14 +285,14 @@ impl App {
         Some((axes.next()?, axes.next()))
     }
 
-    /// Quantity of the glyphs: the chosen one, where the map has it.
+    /// Quantity that the map shows: the chosen one, or the first one of a map that does not have it.
     pub fn mapped(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let chosen = all.iter().find(|one| **one == self.map.quantity);
         *chosen.or(all.first()).unwrap_or(&self.map.quantity)
     }
 
-    /// Next quantity of the glyphs.
+    /// The quantity that follows the quantity shown on the map.
     pub fn next_mapped(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let now = self.mapped();
@@ -311,25 +308,25 @@ impl App {
         }
     }
 
-    /// Returns true if a pane is in its place, as far as the window has room.
+    /// Returns true if a pane is one of the selectable panes.
     pub fn is_shown(&self, pane: Pane) -> bool {
         self.panes().contains(&pane)
     }
 
-    /// Shows and selects a pane, or hides it again. A shown map with another pane selected is selected first: a user in
-    /// another pane wants its keys.
+    /// Shows and selects a pane, or hides it again. A shown map is selected first if another pane is, since the user then
+    /// wants its keys.
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
         if self.is_shown(pane) && is_in_use { self.show_large(None, Pane::Force) } else { self.show(pane) }
     }
 
-    /// Shows a pane in its place and selects it.
+    /// Shows a pane at its place and selects it.
     pub fn show(&mut self, pane: Pane) {
         let large = if pane.is_large() { Some(pane) } else { self.view.large };
         self.show_large(large, pane);
     }
 
-    /// Shows this pane, or none, in place of profile and close-up, where other data are studied, and selects a pane.
+    /// Shows this pane, or none, in place of profile and close-up, and selects a pane. Another pane needs other studies.
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
             self.effects.push(Task::Study);
@@ -337,7 +334,7 @@ impl App {
         self.view.pane = selected;
     }
 
-    /// Valid keys: in the map the arrows move its mark, in panes with a crosshair the crosshair; in the list of
+    /// Context of the keys: in the map arrows move its mark, with a crosshair they move the crosshair; in the list of
     /// parameters digits begin a value.
     pub fn keys(&self) -> Context {
         match (&self.prompt, self.view.pane.keys()) {
@@ -347,7 +344,7 @@ impl App {
         }
     }
 
-    /// The part of the profile in the selected pane.
+    /// The part of the profile that the selected pane shows.
     pub fn section(&self) -> Option<&Section> {
         let snapshot = self.snapshot.as_ref()?;
         match self.view.pane {
@@ -361,7 +358,7 @@ impl App {
         if self.manual.is_some() { Drive::Manual } else { Drive::Leg(self.play.leg) }
     }
 
-    /// The newest snapshot, where it belongs to the present scene and kind of loading.
+    /// The newest snapshot, if it belongs to the present scene and kind of loading.
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
         (snapshot.generation == self.edit.generation && snapshot.drive == self.drive()).then_some(snapshot)
@@ -371,19 +368,19 @@ impl App {
         self.solved.as_ref().map_or(&[], |computed| &computed.outcome.history.legs)
     }
 
-    /// Returns true for a shown scene whose instrument is not rigid.
+    /// Returns true if the shown scene has a compliant instrument.
     pub fn deflects(&self) -> bool {
         self.solved.as_ref().is_some_and(|computed| computed.outcome.instrument.is_some())
     }
 
-    /// Returns a force of the shown scene, N; zero where it is a rounding error of the largest marked force, as after a
-    /// stage to zero force.
+    /// Returns a force of the shown scene, N; zero if it is a rounding error of the largest marked force, as after a stage
+    /// to zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
         let largest = marks(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
         if force.abs() < 1e-12 * largest { 0.0 } else { force }
     }
 
-    /// A parameter's value in the notation of the scene; computed where the value follows from others.
+    /// Value of a parameter in the notation of the scene; for a value that follows from others the computed one, if known.
     pub fn written(&self, parameter: &Parameter) -> Option<String> {
         if !parameter.written.is_empty() {
             return Some(parameter.written.clone());
@@ -396,7 +393,7 @@ impl App {
         }
     }
 
-    /// Lowest and highest indentation of the curves shown, m; `None` when there is no curve.
+    /// Lowest and highest indentation of the shown curves, m; `None` without a curve.
     pub fn indentations(&self) -> Option<(f64, f64)> {
         indentations(self.legs())
     }

@@ -1,5 +1,5 @@
-//! Copies of unsaved changes, in case the process or its connection ends first: one file for each session, locked while
-//! the session runs. Files of the user are never written.
+//! Copies of unsaved changes, in case the process or its connection ends first: one file for each session, locked while the
+//! session runs. Files of the user are not touched.
 
 use asperity_data::{into_text, open_regular, read_limited};
 use asperity_scene::Document;
@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf, absolute};
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-/// Largest size of a file, bytes: many scenes of a few hundred bytes each.
+/// Largest size of a file, bytes: enough for many scenes of a few hundred bytes each.
 const LONGEST: usize = 1 << 24;
 
-/// A scene with unsaved changes. The explored scene is the first of a file.
+/// A scene with unsaved changes. The explored scene is the first in a file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Copy {
-    /// Whole path of the file, or name of a built-in scene.
+    /// Absolute path of the file, or name of a built-in scene.
     name: String,
     opened: String,
     text: String,
@@ -28,26 +28,26 @@ struct Copy {
 /// The file of a session.
 pub struct Autosave {
     path: PathBuf,
-    /// The file, locked; `None` without unsaved changes.
+    /// The locked file; `None` without unsaved changes.
     own: Option<File>,
 }
 
-/// Returns the folder of the files; `None` where the system has none.
+/// Returns the folder of the copies; `None` if the system has none.
 pub fn folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     let state = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());
     Some(state.join("asperity").join("unsaved"))
 }
 
-/// Unsaved changes of an ended session, the explored scene first, and their file, which belongs to this process alone as
-/// long as this value lives.
+/// Unsaved changes of an ended session, the explored scene first, and their file, which belongs to this process alone while
+/// this value exists.
 pub struct Kept {
     path: PathBuf,
     lock: File,
     pub documents: Vec<Document>,
 }
 
-/// Returns the newest unsaved changes of an ended session; `None` without any.
+/// Returns the newest unsaved changes of an ended session; `None` if there are none.
 ///
 /// # Errors
 /// The newest file of an ended session cannot be read.
@@ -77,7 +77,7 @@ pub fn offer(folder: &Path) -> Option<String> {
     Some(format!("unsaved changes of {} are kept: asperity --restore opens them", names.join(", ")))
 }
 
-/// Reads the scenes of a file, the explored one first.
+/// Reads the scenes in a file, the explored one first.
 fn read(file: &File) -> Result<Vec<Document>, String> {
     let text = read_limited(file, LONGEST).and_then(into_text).map_err(|error| error.to_string())?;
     let copies: Vec<Copy> = ron::from_str(&text).map_err(|error| error.to_string())?;
@@ -89,7 +89,7 @@ fn read(file: &File) -> Result<Vec<Document>, String> {
 }
 
 impl Autosave {
-    /// A session without a file, or with the file of an ended session.
+    /// Begins a session without a file, or with the file of an ended session.
     pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
         if let Some(Kept { path, lock, .. }) = restored {
             return Autosave { path, own: Some(lock) };
@@ -98,7 +98,8 @@ impl Autosave {
         Autosave { path: folder.join(format!("{}-{now}.ron", std::process::id())), own: None }
     }
 
-    /// Keeps these scenes in place of all before; without any, there is no file. The file is whole at every moment.
+    /// Keeps these scenes in place of all kept before; for an empty list the file is removed. The file is complete at every
+    /// moment.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
             return self.own.take().map_or(Ok(()), |_| fs::remove_file(&self.path));
@@ -156,7 +157,8 @@ mod tests {
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0, "nothing is unsaved any more");
     }
 
-    /// A power cut may have damaged the newest file, and anything may be in the folder.
+    /// A file that cannot be read is reported: a power cut may have damaged the newest one, and anything may be in the
+    /// folder.
     #[test]
     fn a_file_that_cannot_be_read_is_stated() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,16 +1,15 @@
-//! Words for the event at the shown state of the contact: first contact, spreading, preload, detachment, pull-off,
-//! separation.
+//! The event at the shown state of the contact in words: first contact, spreading, preload, detachment, pull-off, separation.
 
 use super::app::App;
 use super::request::Drive;
 use asperity_contact::{CurvePoint, Direction, LegRecord};
 use asperity_scene::Branch;
 
-/// Share of the indentation range of a branch within which a point is at its end or at its smallest force.
+/// Share of the indentation range of a branch within which a state counts as its end or its smallest force.
 const NEAR: f64 = 0.01;
 
-/// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and
-/// where the body rests.
+/// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and while
+/// the body does not move.
 pub fn caption(app: &App) -> Option<&'static str> {
     let snapshot = app.present()?;
     match snapshot.drive {
@@ -69,7 +68,7 @@ mod tests {
         Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap().history
     }
 
-    /// Events along a stage in the order of their first occurrence: on a rough profile some recur.
+    /// Events along a branch in the order of their first occurrence; on a rough profile some recur.
     fn events(legs: &[LegRecord], branch: &Branch) -> Vec<&'static str> {
         let mut events = Vec::new();
         let points = legs[branch.stages.clone()].iter().flat_map(|leg| &leg.curve);

@@ -1,11 +1,11 @@
-//! The neighbourhood of one contact patch: its place, its stretches, its force.
+//! The close-up of one contact patch: its position, its stretches, its force.
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, PatchFacts};
 use crate::export::section::{Contact, LineColumns, Part};
 use asperity_contact::{Leg, Patch};
 
-/// The requested part of the line, and the patch nearest to its middle.
+/// Makes the close-up of the requested part of the line, with the patch nearest to its middle.
 pub fn close_up(
     contact: &Contact<'_>,
     leg: &Leg,
@@ -59,7 +59,7 @@ fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
     }
 }
 
-/// Sum of the compressions of a patch's springs, m.
+/// Sum of the compressions of the springs of a patch, m.
 fn compression(contact: &Contact<'_>, patch: Patch) -> f64 {
     contact.gaps[patch.springs()].iter().map(|gap| contact.indentation - gap).sum()
 }

@@ -19,14 +19,14 @@ pub struct Config {
     pub theme: Option<Theme>,
     pub markers: Option<Marker>,
     pub frame_rate: u32,
-    /// Speed of the animation; 1 takes six seconds for a loading stage.
+    /// Speed of the animation; at 1 a loading stage takes six seconds.
     pub speed: f64,
     /// True if the animation begins again at its end.
     pub repeat: bool,
-    /// Scene that opens where none is named.
+    /// Name of the scene that opens if none is given.
     pub scene: String,
     keys: Vec<KeySetting>,
-    /// All keys; none before the configuration has been read.
+    /// All keys; empty before the configuration has been read.
     #[serde(skip)]
     pub bindings: Bindings,
 }
@@ -64,8 +64,8 @@ impl Config {
         Config { bindings, ..Config::default() }
     }
 
-    /// Reads a file that may change these keys. `is_named`: the user has named it, and a missing file is an error; otherwise a missing file has
-    /// the defaults.
+    /// Reads a configuration file that may change these keys. A missing file is an error if the user has named it
+    /// (`is_named`), and otherwise means the defaults.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         // A broken link is a file that cannot be read.
         let is_missing = || path.symlink_metadata().is_err_and(|error| error.kind() == NotFound);
@@ -76,7 +76,7 @@ impl Config {
         Config::parse(&text.map_err(|error| format!("{}: {error}", path.display()))?, path, bindings)
     }
 
-    /// Reads the text of a file that may change these keys.
+    /// Reads the text of a configuration file that may change these keys.
     pub fn parse(text: &str, path: &Path, bindings: Bindings) -> Result<Config, String> {
         let wrong_at = |offset: usize, message: String| {
             let (line, column) = line_column(text, offset);
@@ -123,7 +123,6 @@ mod tests {
         Config::parse(text, Path::new("config.ron"), bindings())
     }
 
-    /// A file with every field.
     const FULL: &str = r#"// Settings
 (
     version: 1,

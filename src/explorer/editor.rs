@@ -1,4 +1,4 @@
-//! The scene as edited: its list of parameters, its history, and its state on disk.
+//! The scene as edited: its list of parameters, its history, and whether it is saved.
 
 use super::parameters::{Parameter, parameters};
 use asperity_scene::{CheckedScene, Document};
@@ -14,17 +14,16 @@ const UNDO_DEPTH: usize = 1000;
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
-    /// Its scene, with files named from the working folder.
+    /// The checked scene of the document, with its files named from the working folder.
     pub scene: Arc<CheckedScene>,
-    /// Documents before each edit.
+    /// Documents before each edit, the newest last.
     pub past: Vec<Document>,
-    /// Documents after each undone edit.
     future: Vec<Document>,
-    /// Document on disk or as opened, for each scene by its name.
+    /// For each scene by its name, the document on disk or as opened.
     pub saved: BTreeMap<String, Document>,
     /// Number of times that a scene was saved or opened.
     pub saves: u64,
-    /// Scenes left with unsaved changes, by their names.
+    /// Scenes by their names that were left with unsaved changes.
     left: BTreeMap<String, Document>,
     pub generation: u64,
     pub parameters: Vec<Parameter>,
@@ -53,18 +52,18 @@ impl Editor {
         self.parameters.get(self.selected)
     }
 
-    /// Selects a parameter, or the last one.
+    /// Selects the parameter in a row, or the last one.
     pub fn select(&mut self, row: usize) {
         self.selected = row.min(self.parameters.len().saturating_sub(1));
     }
 
-    /// Moves the selection by a number of rows, at most to the first or the last row.
+    /// Moves the selection by a number of rows, up to the first or last row.
     pub fn move_selection(&mut self, rows: i32) {
         self.select(self.selected.saturating_add_signed(rows as isize));
     }
 
-    /// Row of the field at a path, or of the group around it: the selection stays in place when rows come and go, and
-    /// the row that switched an effect off can switch the effect on again.
+    /// Row of the field at a path, or of the group around it. So the selection stays in place when rows come and go, and
+    /// the row that switched an effect off can switch it on again.
     fn row_of(&self, path: &str) -> usize {
         // A loading stage with a number has its row at the path of the number.
         let is_at =
@@ -74,7 +73,7 @@ impl Editor {
         around.filter_map(row).next().unwrap_or(self.selected)
     }
 
-    /// Makes a document the explored one; undo returns to the former one, unless they are the same.
+    /// Makes a document the explored one; an undo returns to the former document, unless both are the same.
     pub fn adopt(&mut self, document: Document) {
         let before = replace(&mut self.document, document);
         if before.name() != self.document.name() || before.text() != self.document.text() {
@@ -87,15 +86,15 @@ impl Editor {
         self.renew();
     }
 
-    /// Continues the last edit: its new result replaces the former one.
+    /// Continues the last edit: the new document replaces the result of the edit.
     pub fn replace(&mut self, document: Document) {
         self.document = document;
         self.future.clear();
         self.renew();
     }
 
-    /// Undoes the last edit, or redoes the last edit that was undone. Returns the change in words; `None` without such an
-    /// edit.
+    /// Undoes the last edit or, unless `back`, redoes the last undone edit. Returns the change in words; `None` without
+    /// such an edit.
     pub fn undo(&mut self, back: bool) -> Option<String> {
         let (from, to) =
             if back { (&mut self.past, &mut self.future) } else { (&mut self.future, &mut self.past) };
@@ -111,7 +110,7 @@ impl Editor {
         Some(what)
     }
 
-    /// Keeps the unsaved changes of a scene that another one replaces.
+    /// Keeps a document if it has unsaved changes, since another scene replaces it.
     pub fn leave(&mut self, document: Document) {
         if self.is_changed(&document) {
             self.left.insert(document.name().to_owned(), document);
@@ -133,8 +132,8 @@ impl Editor {
         self.is_changed(&self.document)
     }
 
-    /// Returns true if a document differs from its saved one by a value or a comment; another notation of a number is
-    /// no change.
+    /// Returns true if a document differs from the saved one by a value or a comment; another notation of a number is no
+    /// change.
     fn is_changed(&self, document: &Document) -> bool {
         let is_same = |saved: &Document| {
             saved.text() == document.text()
@@ -143,13 +142,13 @@ impl Editor {
         !self.saved.get(document.name()).is_some_and(is_same)
     }
 
-    /// All scenes with unsaved changes, starting with the explored one.
+    /// All scenes with unsaved changes, the explored one first if it has any.
     pub fn unsaved(&self) -> Vec<&Document> {
         let all = [&self.document].into_iter().chain(self.left.values());
         all.filter(|document| self.is_changed(document)).collect()
     }
 
-    /// Registers scenes as unsaved changes of another session, the first of them as the explored scene.
+    /// Takes scenes as the unsaved changes of another session; the first is the explored scene.
     pub fn restore(&mut self, documents: &[Document]) {
         for (number, document) in documents.iter().enumerate() {
             match Document::parse(document.opened(), document.name()) {
@@ -162,7 +161,7 @@ impl Editor {
         }
     }
 
-    /// Marks the scene as saved to a file, which becomes the file of the scene.
+    /// Marks the scene as saved to a file, which becomes its own file.
     pub fn set_saved_as(&mut self, path: &Path) {
         if let Ok(document) = Document::parse(self.document.text(), &path.to_string_lossy()) {
             self.scene = scene_of(&document);
@@ -177,7 +176,7 @@ impl Editor {
     }
 }
 
-/// The scene of a document, with files named from the working folder.
+/// The checked scene of a document, with its files named from the working folder.
 pub fn scene_of(document: &Document) -> Arc<CheckedScene> {
     let named = |file: &str| document.resolve(file).to_string_lossy().into_owned();
     Arc::new(document.scene().with_files_named(named))

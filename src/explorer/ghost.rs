@@ -4,7 +4,6 @@ use asperity_scene::Outcome;
 use asperity_scene::{Change, Document};
 use std::sync::Arc;
 
-/// A computed scene kept for comparison.
 #[derive(Clone, Debug)]
 pub struct Ghost {
     pub document: Document,
@@ -12,7 +11,7 @@ pub struct Ghost {
 }
 
 impl Ghost {
-    /// Differences from a scene, each in words.
+    /// Differences of the kept scene from another one, in words.
     pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
         let changes = self.document.changes_to(present);
         let parts: Vec<String> = changes.iter().map(words).collect();

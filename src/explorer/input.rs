@@ -1,10 +1,10 @@
-//! Input: keys and mouse on a thread of their own, and their actions.
+//! Input: reads keys and mouse on a thread of its own, and converts them to actions.
 
 use super::action::{Action, Gesture, Mouse};
 use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 
-/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns true
-/// while anyone listens; the end of the input is sent as `None`.
+/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns true while anyone
+/// receives; the end of the input is sent as `None`.
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()
         .name("input".to_owned())
@@ -21,7 +21,7 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
         .map(drop)
 }
 
-/// The action of an input event; `None` without a meaning.
+/// The action that an input event causes; `None` for an event without a meaning.
 pub fn action_of(event: Event) -> Option<Action> {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Press => Some(Action::Key(key)),

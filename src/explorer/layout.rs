@@ -1,28 +1,28 @@
-//! Places of the panes: all four in a large window, fewer in a small one.
+//! Positions of the panes on the screen: all four in a large window, fewer in a small one.
 
 use super::app::App;
 use super::pane::Pane;
 use ratatui::layout::Rect;
 
-/// Columns of the histogram beside the profile, its frame line included.
+/// Width of the histogram beside the profile, columns, with the line of its frame.
 const HISTOGRAM_COLUMNS: u16 = 14;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     pub title: Option<Rect>,
     pub panes: Vec<(Pane, Rect)>,
-    /// One line with the headline figures, or the typed text.
+    /// Lines with the headline figures, or with the typed text.
     pub status: Rect,
     pub footer: Option<Rect>,
 }
 
 impl Layout {
-    /// The layout of a model in its own window.
+    /// The layout of the explorer's state in its own window.
     pub fn of(app: &App) -> Self {
         Layout::within(app, app.view.size)
     }
 
-    /// The layout in a window of a width and a height in cells.
+    /// The layout in a window of this width and height, in cells.
     pub fn within(app: &App, (width, height): (u16, u16)) -> Self {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
         // The frame of the panes gives way before the panes.
@@ -42,12 +42,12 @@ impl Layout {
         self.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
     }
 
-    /// The place of a pane, frame included.
+    /// The area of a pane with its frame; `None` for a pane that is not shown.
     pub fn pane(&self, wanted: Pane) -> Option<Rect> {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
-    /// Cells across the profile, without its histogram.
+    /// Width of the profile in cells, without its histogram.
     pub fn profile_cells(&self) -> usize {
         self.pane(Pane::Profile).map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
     }
@@ -57,7 +57,7 @@ impl Layout {
     }
 }
 
-/// A pane without its frame; a pane too small for a frame has none.
+/// The area inside the frame of a pane; a pane too small for a frame has none.
 pub fn inside(area: Rect) -> Rect {
     if is_framed(area) { area.inner(ratatui::layout::Margin::new(1, 1)) } else { area }
 }
@@ -67,7 +67,7 @@ pub fn is_framed(area: Rect) -> bool {
     area.height >= 6 && area.width >= 16
 }
 
-/// Parts a profile pane into the profile and the histogram beside it.
+/// Divides the area of the profile pane into the profile and the histogram beside it.
 pub fn split_profile(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < 3 * HISTOGRAM_COLUMNS {
         return (area, None);

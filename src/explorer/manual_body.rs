@@ -1,4 +1,4 @@
-//! The body under manual loading, with its path for the curve.
+//! The body under manual loading, with the path of its force curve.
 
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
@@ -7,14 +7,14 @@ use asperity_contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
 use asperity_data::round_to;
 use asperity_scene::{Reach, out_of_reach};
 
-/// Points of the curve along the way of one order.
+/// Number of points of the curve for one move.
 const POINTS: u32 = 16;
 const MOST_POINTS: u32 = 512;
 
 pub struct ManualBody {
     body: Body,
     travel: ManualPath,
-    /// A small part of the range of indentations, m.
+    /// Distance of the points of a pull, m: a small part of the range of indentations.
     step: f64,
     reach: Reach,
     /// Direction of the last stage of the path.
@@ -22,8 +22,9 @@ pub struct ManualBody {
 }
 
 impl ManualBody {
-    /// Begins manual loading at an indentation of a leg, m, or where the contact is separated there. `step` is the distance of
-    /// the points of a pull, m; the stages so far end in a direction. `None` without enough memory.
+    /// Begins manual loading at an indentation of a leg, m, or in separation if the contact is separated there. `step` is
+    /// the distance of the points of a pull, m; `loading` are the stages so far and `direction` that of the last one.
+    /// `None` without enough memory.
     pub fn take(
         leg: &Leg,
         (indentation, is_separated): (f64, bool),
@@ -52,7 +53,7 @@ impl ManualBody {
         std::mem::replace(&mut self.travel, ManualPath { released_energy, loading, ..ManualPath::default() })
     }
 
-    /// Moves the body; a refused order moves nothing.
+    /// Moves the body; a refused move leaves it where it is.
     pub fn follow(&mut self, order: ManualMove) {
         let from = self.body.point();
         let target = match order {
@@ -66,7 +67,7 @@ impl ManualBody {
         self.travel.refused = self.go(from, target).err();
     }
 
-    /// Moves the body, or states why not.
+    /// Moves the body to a target, or returns the reason why not.
     fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), String> {
         if let Some(why) = self.reach.refusal(target) {
             return Err(why);

@@ -6,20 +6,20 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapState {
-    /// Quantity of the glyphs, where the map has it.
+    /// Quantity to show; a map without it shows its first one.
     pub quantity: Quantity,
-    /// A finished study, kept until another one is opened.
+    /// A finished study; kept until another one is opened.
     pub study: Option<OpenStudy>,
-    /// True if the map of the study replaces the live map.
+    /// True if the map of the study is shown in place of the live map.
     pub of_study: bool,
-    /// True if the last edit was a move of the mark: the next move belongs to the same edit.
+    /// True if the last edit moved the mark: the next move then belongs to the same edit.
     pub moving: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
     pub study_map: Arc<StudyMap>,
-    /// Number of the shown map.
+    /// Number of the shown map among the maps of the study, from 0.
     pub slice: u64,
     pub grid: Arc<Grid>,
 }
@@ -27,7 +27,6 @@ pub struct OpenStudy {
 #[derive(Debug)]
 pub struct Live {
     pub map: LiveMap,
-    /// The estimates in the cells of the map, for the pane.
     pub grid: Grid,
 }
 
@@ -38,13 +37,12 @@ impl Default for MapState {
 }
 
 impl OpenStudy {
-    /// A study with this one of its maps.
     pub fn new(study_map: Arc<StudyMap>, slice: u64) -> Self {
         let grid = Arc::new(study_map.grid(slice));
         OpenStudy { study_map, slice, grid }
     }
 
-    /// Number of the map `steps` after this one; the first follows the last.
+    /// Number of the map `steps` after the shown one; the first follows the last.
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
         (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64
@@ -66,7 +64,7 @@ impl MapState {
         live_plan(scene, RoughnessParameter::Kappa).ok()
     }
 
-    /// Key of the live map of a scene: kept while κ and H change.
+    /// Key of the live map of a scene; it stays the same while only κ and H change.
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }

@@ -1,4 +1,4 @@
-//! A measured force curve beside the scene, in its place over the displacement.
+//! A measured force curve, placed over the displacement of the instrument beside the scene.
 
 use super::studies::Findings;
 use asperity_contact::CurvePoint;
@@ -7,10 +7,9 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Name of its file.
     pub name: String,
     pub curve: Arc<MeasuredCurve>,
-    /// The options of reading, as arguments of a command.
+    /// Options with which the curve was read, as arguments of a command.
     pub options: String,
     /// Measured displacement at first touch, m.
     pub offset: f64,
@@ -21,7 +20,7 @@ impl Measured {
         Measured { name, offset: curve.touch, curve: curve.into(), options: options.to_string() }
     }
 
-    /// The points on the curve of a scene with an instrument of this stiffness, N/m.
+    /// The measured points as points of a force curve, for an instrument of this stiffness, N/m.
     pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
         let point = |(at, force): (&f64, &f64)| {
             let indentation = at - self.offset - force / stiffness;
@@ -31,21 +30,20 @@ impl Measured {
     }
 }
 
-/// Search of parameters that describe the curve.
+/// A fit of parameters to the curve, while it is computed.
 #[derive(Clone, Debug)]
 pub struct Fitting {
     pub free: Vec<Free>,
-    /// Number of computed curves.
     pub evaluations: usize,
     pub found: Option<Result<Arc<Fit>, String>>,
 }
 
-/// The fit of the present scene, of the place of the curve alone or of further parameters.
+/// The fit to the present scene, either of the position of the curve alone or also of parameters; `None` if not known yet.
 pub fn fitted(studies: &Findings) -> Option<&Fit> {
     studies.value::<Arc<Fit>>().map(|fit| &**fit)
 }
 
-/// Reason why the scene cannot be compared with the curve.
+/// Reason why the scene cannot be compared with the curve, if it cannot.
 pub fn failure(studies: &Findings) -> Option<&str> {
     studies.failure::<Arc<Fit>>()
 }

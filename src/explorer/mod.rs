@@ -1,5 +1,5 @@
-//! The explorer: threads of input, solver and studies send actions into one channel, `update` changes the state, the views
-//! draw the state. This thread computes nothing and sleeps without events.
+//! The explorer. Threads for input, solver and studies send actions into one channel; `update` changes the state, and the
+//! views draw it. This thread computes nothing, and sleeps while there are no events.
 
 // Public for the tests alone: names and types state what a doc would repeat.
 #![allow(missing_docs)]

@@ -1,4 +1,4 @@
-//! The mouse: selects panes and rows, drags the body and scrolls. Keys can do all this too.
+//! The mouse: it selects panes and rows, drags the body and scrolls. Keys can do all of this too.
 
 use super::action::{Gesture, Mouse};
 use super::app::App;
@@ -44,7 +44,7 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
     }
 }
 
-/// Acts on what is under the mouse in the selected pane: at a press, or during a drag.
+/// Acts on what is under the mouse in the selected pane, when a button is pressed (`is_press`) or during a drag.
 fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
     match (app.view.pane, under) {
         (Pane::Map, Under::Data(across, up)) if is_press || app.map.moving => {
@@ -61,7 +61,7 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
     }
 }
 
-/// Moves the body to the indentation under the mouse.
+/// Moves the body to the indentation under the mouse; `x` is the number on the horizontal axis.
 fn drag(app: &mut App, here: Position, x: f64) {
     if indentation_at(app, x).is_none() {
         return;

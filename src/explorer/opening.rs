@@ -1,4 +1,4 @@
-//! Arguments of the explorer: a scene, or a finished study around one.
+//! What the explorer opens on: a scene, or a finished study with its scene.
 
 use super::ghost::Ghost;
 use super::measured::Measured;
@@ -11,16 +11,15 @@ use thiserror::Error;
 #[derive(Clone, Debug)]
 pub struct Opening {
     pub document: Document,
-    /// The study of the scene, whose maps are shown.
+    /// The study, whose maps are shown.
     pub study_map: Option<Arc<StudyMap>>,
-    /// A computed scene to compare with.
     pub ghost: Option<Ghost>,
     pub measured: Option<Measured>,
 }
 
 #[derive(Debug, Error)]
 pub enum OpeningError {
-    /// No scene, or an invalid scene.
+    /// There is no such scene, or it is invalid.
     #[error(transparent)]
     Scene(Box<SceneErrors>),
     #[error(
@@ -28,7 +27,7 @@ pub enum OpeningError {
          merged study"
     )]
     Folder(String),
-    /// The folder of a study that cannot be shown.
+    /// The folder holds a study that cannot be shown.
     #[error(transparent)]
     Study(Box<StudyError>),
 }
@@ -40,13 +39,13 @@ impl From<Document> for Opening {
 }
 
 impl Opening {
-    /// Opens a scene by its name or file, or a study by its folder. The folder of a study has precedence over a
-    /// built-in scene of the same name.
+    /// Opens a scene by its name or file, or a study by its folder. A folder of a study has precedence over a built-in
+    /// scene of the same name.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open)
     }
 
-    /// As [`Self::of`], for an argument of a command, which may also name a stream; see [`open_argument`].
+    /// Opens as [`Self::of`] does, for an argument of a command, which may also name a stream; see [`open_argument`].
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }

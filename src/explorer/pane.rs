@@ -1,4 +1,4 @@
-//! The panes: their places and keys.
+//! The panes of the explorer, and the context of their keys.
 
 use super::keys::bindings::Context;
 
@@ -7,12 +7,11 @@ pub enum Pane {
     Force,
     Profile,
     CloseUp,
-    /// Cost of accuracy and stages of the run.
+    /// Cost of accuracy, and computing stages of the scene.
     Accuracy,
     Spectrum,
-    /// Adhesion force over preload.
     Preloads,
-    /// Changes of the results where one number of the scene changes.
+    /// Changes of the results with each number of the scene.
     Sensitivity,
     /// Regimes over κ and H, or the map of a study.
     Map,
@@ -23,12 +22,12 @@ impl Pane {
     /// All panes, in the order of the help.
     pub const ALL: &[Pane] = <Pane as strum::VariantArray>::VARIANTS;
 
-    /// Returns true for a pane in place of profile and close-up.
+    /// Returns true for a pane that takes the place of profile and close-up.
     pub fn is_large(self) -> bool {
         !matches!(self, Self::Force | Self::Profile | Self::CloseUp | Self::Parameters)
     }
 
-    /// Keys of the selected pane; those of the crosshair act while it is shown.
+    /// Context of the keys while the pane is selected; a crosshair acts only while it is shown.
     pub fn keys(self) -> Context {
         match self {
             Self::Sensitivity => Context::Explore,

@@ -1,5 +1,5 @@
-//! Panels: the content of panes as data. One renderer draws all of them, and the same division of an area finds the data
-//! under a cell.
+//! Panels: the content of panes as data. One renderer draws all of them, and finds from the same division of an area what
+//! is under a cell.
 
 use super::layout::{inside, is_framed, split_profile};
 use super::text::{Part, filled, fitted, wrapped};
@@ -16,7 +16,7 @@ pub struct Panel {
     pub head: Vec<Line<'static>>,
     pub body: Body,
     pub foot: Vec<Line<'static>>,
-    /// Parts on the lower edge of the frame, the most important first.
+    /// Texts on the lower edge of the frame, the most important first.
     pub edge: Vec<Part>,
 }
 
@@ -31,22 +31,22 @@ pub enum Body {
     Text(String),
 }
 
-/// A chart with the texts that a figure has in its legend.
+/// A chart with texts that a figure has in its legend.
 pub struct Plot {
     pub chart: Chart,
-    /// Texts beside points of the chart.
+    /// Texts beside points of the chart, with their inks.
     pub names: Vec<((f64, f64), String, Ink)>,
-    /// A chart on the same vertical axis, on the right.
+    /// A second chart on the right, with the same vertical axis.
     pub beside: Option<Chart>,
-    /// True where springs are in contact along the horizontal axis; a row of signs shows them.
+    /// True for each spring in contact along the horizontal axis, shown by a row of signs; empty without such a row.
     pub contact: Vec<bool>,
 }
 
-/// Fewest rows of a chart with both scales: lines above and below take the rest.
+/// Smallest number of rows of a chart with both scales; only the remaining rows are for lines above and below.
 const FEWEST_ROWS: u16 = 6;
-/// Most rows for which scales beside a chart are laid out; the plot has the rows of the chart.
+/// Largest number of rows for which the scales beside a chart are laid out; the plot has the rows of the chart.
 const MOST_BESIDE: u16 = 15;
-/// Fewest rows of a chart with a row of contact signs.
+/// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
 impl Panel {
@@ -64,8 +64,8 @@ impl Panel {
         if let Body::Chart(plot) = &self.body { Some(&plot.chart) } else { None }
     }
 
-    /// Adds a line at a share of the horizontal axis, and the values of all named curves there: on the
-    /// lower edge, or below the chart where they need more than a line of this width.
+    /// Adds a vertical line at a share of the horizontal axis, with the values of all named curves there: on the lower edge
+    /// or, if they need more than this width, below the chart.
     pub fn read_at(&mut self, share: f64, look: Appearance, width: u16) {
         let Body::Chart(plot) = &mut self.body else { return };
         let Chart { x: across, y: up, layers, .. } = &mut plot.chart;
@@ -111,14 +111,14 @@ impl Panel {
     }
 }
 
-/// Label of the vertical axis of a chart with its unit, and the entries of its legend.
+/// Label of the vertical axis with its unit, and the entries of the legend.
 pub fn names(chart: &Chart, look: Appearance) -> Vec<Part> {
     let label = Span::styled(chart.y.label_with_unit().to_string(), look.theme.style(Meaning::Quiet));
     let entries = in_theme(look, |style| legend(std::slice::from_ref(chart), style));
     std::iter::once(vec![label]).chain(entries).collect()
 }
 
-/// Label of the vertical axis of a map, and its shades with their numbers, each at most `width` wide.
+/// Label of the vertical axis of a map, and its shades with their numbers, each at most `width` columns wide.
 pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     let title = |text: String| Span::styled(text, look.theme.style(Meaning::Title));
     let scale = chart.map().map(|map| {
@@ -130,7 +130,7 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     std::iter::once(label).chain(scale).collect()
 }
 
-/// Calls `draw` with the look of charts in a theme.
+/// Calls `draw` with the styles of charts for this appearance.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
     let ink = |ink| look.theme.style(meaning(ink));
     draw(&CellStyle { ink: &ink, colours: Colours::None })
@@ -162,7 +162,8 @@ struct Places {
 }
 
 impl Places {
-    /// Divides the area within the frame: in small windows the foot becomes shorter first, then the head.
+    /// Divides the area inside the frame into head, body and foot: in small windows first the foot becomes shorter, then
+    /// the head.
     fn within(panel: &Panel, area: Rect) -> Places {
         let least = match &panel.body {
             Body::Chart(_) => FEWEST_ROWS,
@@ -181,7 +182,7 @@ impl Places {
     }
 }
 
-/// Draws a panel into an area, with a frame if there is room; the selected panel is marked.
+/// Draws a panel into an area, with a frame if there is room; a selected panel is marked.
 pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buffer: &mut Buffer) {
     let quiet = look.theme.style(Meaning::Quiet);
     if is_framed(area) {
@@ -221,15 +222,15 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
     }
 }
 
-/// Draws lines from the top of an area on, as far as there is room; too wide a line ends in `…`.
+/// Draws lines from the top of an area down, as far as there is room; a line that is too wide ends in `…`.
 pub fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
     for (y, line) in (area.y..area.bottom()).zip(lines) {
         buffer.set_line(area.x, y, &fitted(line.clone(), area.width), area.width);
     }
 }
 
-/// First visible row of a list. It depends on the selected row alone, so that a click on a visible row leaves the list in
-/// place; a row above and one below the selected row are visible.
+/// First visible row of a list. It depends only on the selected row, so that a click on a visible row does not scroll the
+/// list; the rows above and below the selected one are visible.
 fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     let height = usize::from(height.max(1));
     let margin = usize::from(height >= 3);
@@ -237,7 +238,7 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     (selected.saturating_sub(margin) / page * page).min(rows.saturating_sub(height))
 }
 
-/// A line of the first parts that fit into a number of columns: two columns apart if all parts fit, else one.
+/// A line of the first parts that fit into a number of columns; two blanks apart if all fit, otherwise one.
 pub fn spaced(parts: Vec<Part>, columns: usize) -> Option<Line<'static>> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
     let between = if widths + 2 * parts.len().saturating_sub(1) <= columns { "  " } else { " " };
@@ -245,7 +246,7 @@ pub fn spaced(parts: Vec<Part>, columns: usize) -> Option<Line<'static>> {
 }
 
 impl Plot {
-    /// Place of the chart, and the area of the one beside.
+    /// Division of an area into the chart and the area of the second chart.
     fn places(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() { split_profile(area) } else { (area, None) };
         let signs = u16::from(!self.contact.is_empty() && area.height >= WITH_CONTACT);
@@ -301,7 +302,7 @@ impl Plot {
     }
 }
 
-/// A sign for each cell of a row: `■` where all springs are in contact, `▪` some, `·` none.
+/// A sign for each cell of a row: `■` if all springs are in contact, `▪` if some are, `·` if none is.
 fn contact_signs(contact: &[bool], cells: usize) -> String {
     let sign = |cell: usize| {
         let from = cell * contact.len() / cells;
@@ -317,13 +318,13 @@ fn contact_signs(contact: &[bool], cells: usize) -> String {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Under {
-    /// Numbers on the axes of a chart: the nearest ones for a cell beside the plot.
+    /// Numbers on the axes of a chart; for a cell beside the plot the numbers of the nearest cell.
     Data(f64, f64),
     Row(usize),
     Frame,
 }
 
-/// Returns what a panel that is drawn into an area shows in a cell.
+/// Returns what a panel drawn into an area shows in a cell.
 pub fn under(panel: &Panel, area: Rect, cell: Position) -> Under {
     let inner = inside(area);
     let body = Places::within(panel, inner).body;

@@ -1,4 +1,4 @@
-//! The list of parameters: the fields of the present scene that can be changed, in groups, by use.
+//! The list of parameters: the fields of the present scene that can be changed, in groups.
 
 use asperity_contact::Move;
 use asperity_data::format_quantity;
@@ -8,17 +8,17 @@ use asperity_scene::{
     ron_float, stage_in_ron, target_field,
 };
 
-/// Groups in the order of the list. The parameters that are varied most come first: adhesion, load, roughness, and the
-/// number of springs that resolves the roughness. Form and material are chosen once for a scene.
+/// Groups in the order of the list. Parameters that are varied most come first: adhesion, load, roughness, and the number
+/// of springs that resolves the roughness. Form and material are usually chosen once for a scene.
 const GROUPS: [&str; 7] = ["adhesion", "loading", "roughness", "numerics", "form", "material", "title"];
 
-/// Fields of the scene file without a row; the tolerance chooses the edges.
+/// Fields of the scene file without a row in the list; the choice of a tolerance sets the edges.
 const HIDDEN: [&str; 5] = ["version", "observe", "numerics.samples", "numerics.edges", "numerics.solver"];
 
-/// Three ways to give the adhesion, of which the others follow.
+/// Three ways to give the adhesion; each determines the others.
 const ADHESION: [&str; 3] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
 
-/// Order in a group: the first row, these fields, and the others as in the scene file.
+/// Order within a group: the first row, these fields, then the others as in the scene file.
 const FIRST: [&str; 7] = [
     ADHESION[0],
     ADHESION[1],
@@ -33,13 +33,13 @@ const FIRST: [&str; 7] = [
 pub struct Parameter {
     pub field: &'static Field,
     pub path: String,
-    /// Name of its group: the path of the first row.
+    /// Name of the group: the path of its first row.
     pub group: &'static str,
-    /// The loading stage, for a row of one.
+    /// Index of the loading stage, for a row of a stage.
     pub leg: Option<usize>,
-    /// Its value as written in the scene file.
+    /// Value as written in the scene file.
     pub written: String,
-    /// Its value for people; empty where the value follows from others and has to be computed.
+    /// Value for readers; empty if the value follows from others and must be computed.
     pub shown: String,
     pub effect: Option<Effect>,
     pub setting: Setting,
@@ -48,16 +48,16 @@ pub struct Parameter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     Field,
-    /// Not at all: a group without a value of its own.
+    /// It cannot be set: a group without a value of its own.
     Heading,
-    /// κ or e_el/γ, for any of γ, κ and e_el/γ in the scene.
+    /// κ or e_el/γ, in place of any of γ, κ and e_el/γ that the scene states.
     RoughnessParameter(RoughnessParameter),
-    /// γ, for any of γ, κ and e_el/γ in the scene.
+    /// γ, in place of any of γ, κ and e_el/γ that the scene states.
     WorkOfAdhesion,
 }
 
 impl Parameter {
-    /// A field without a value of its own.
+    /// Creates the row of a field, without its value.
     fn new(field: &'static Field, path: &str) -> Self {
         Parameter {
             field,
@@ -71,7 +71,7 @@ impl Parameter {
         }
     }
 
-    /// Name with the number of its loading stage.
+    /// Name, with the number of the loading stage if it is of one.
     pub fn name(&self) -> String {
         match self.leg {
             Some(leg) => format!("{} {}", self.field.name, leg + 1),
@@ -79,14 +79,14 @@ impl Parameter {
         }
     }
 
-    /// Returns true if its value is typed as a number.
+    /// Returns true if the value is typed as a number.
     pub fn takes_number(&self) -> bool {
         let is_text = matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. });
         // A stage in words may become one with a number.
         self.setting != Setting::Heading && (self.leg.is_some() || !is_text)
     }
 
-    /// The given quantity from which a shown value follows, which a value of its own replaces; `None` for a given value.
+    /// The stated quantity from which the shown value follows, and which typing a value replaces; `None` for a stated value.
     pub fn follows_from(&self, scene: &Scene) -> Option<&'static str> {
         let is_computed = self.shown.is_empty() || self.shown.starts_with('=');
         match (self.setting, self.path.as_str()) {
@@ -105,7 +105,7 @@ impl Parameter {
         self.path == self.group
     }
 
-    /// Texts of a search: symbol, in Greek and spelled, name, path and meaning.
+    /// Texts that a search compares: symbol, as written and in Latin letters, name, path and meaning.
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         let words = self.path.replace(['.', '_'], " ");
@@ -113,7 +113,7 @@ impl Parameter {
     }
 }
 
-/// Greek letters of the symbols, rare on keyboards, and their names.
+/// Greek letters of symbols, which keyboards rarely have, with their names.
 const GREEK: [(char, &str); 6] =
     [('γ', "gamma"), ('κ', "kappa"), ('λ', "lambda"), ('θ', "theta"), ('ν', "nu"), ('Δ', "delta ")];
 
@@ -121,8 +121,8 @@ fn spelled(symbol: &str) -> String {
     GREEK.iter().fold(symbol.to_owned(), |text, (letter, name)| text.replace(*letter, name))
 }
 
-/// The group of a field: that of its path, the form for the diameter of the body, the loading for the stiffness of the
-/// instrument, and the title for the notice.
+/// The group of a field: that of its path, but the form for the diameter, the loading for the stiffness of the instrument,
+/// and the title for the notice.
 fn group_of(path: &str) -> &'static str {
     let first = match path {
         "notice" => "title",
@@ -191,7 +191,7 @@ fn setting_of(path: &str) -> Setting {
     }
 }
 
-/// Adds rows for those of γ, κ and e_el/γ that follow from the given ones.
+/// Adds rows for the two of γ, κ and e_el/γ that follow from the stated one.
 fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     let is_listed = |path: &str| parameters.iter().any(|one| one.path == path);
     let others: Vec<&str> = ADHESION.into_iter().filter(|path| !is_listed(path)).collect();
@@ -201,7 +201,8 @@ fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     }
 }
 
-/// The other way to give the waves of a self-affine profile, and as a roll-off without effect the longest of them.
+/// Value of a field that follows from others: the other way to give the waves of a self-affine profile, and as a roll-off
+/// without effect the longest wave.
 fn waves(document: &Document, field: &Field) -> Option<String> {
     let spectrum = document.scene().spectrum()?;
     let [longest, shortest] =
@@ -232,7 +233,7 @@ fn stage_rows(loading: &[Move]) -> impl Iterator<Item = Parameter> {
     })
 }
 
-/// A written value in the format for people.
+/// A written value in the format for readers.
 fn shown(field: &Field, written: &str) -> String {
     if let Some(quantities) = field.quantities(written, format_quantity) {
         return quantities;
@@ -255,13 +256,13 @@ fn shown(field: &Field, written: &str) -> String {
     }
 }
 
-/// The text of a written string, on one line; any other value as it is written.
+/// The text of a string as written in RON, on one line; any other value as it is written.
 pub(super) fn text_of(written: &str) -> String {
     let text: String = ron::from_str(written).unwrap_or_else(|_| written.to_owned());
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The first name in a group: `work` of `(work: 0.05)`, in words.
+/// The first name in a group, in words: `work` of `(work: 0.05)`.
 fn first_name(written: &str) -> &str {
     let name = written.trim_start_matches('(').split(':').next().unwrap_or("").trim();
     match name {

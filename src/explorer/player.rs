@@ -1,17 +1,16 @@
-//! State of the animation, and its indentation.
+//! State of the animation, and the indentation that it shows.
 
 use asperity_contact::LegRecord;
 
-/// Share of the whole range of indentations by which the body is lifted before first touch.
+/// Height, as a share of the range of indentations, at which the body begins above first touch.
 const LIFT: f64 = 0.12;
 
-/// Place of the animation in a loading stage.
+/// Position of the animation in a loading stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum At {
     Start,
-    /// At an indentation, m.
     Indentation(f64),
-    /// After the stage: nothing is in contact at the end of a separation.
+    /// After the stage; after a stage to separation nothing is in contact.
     End,
 }
 
@@ -25,8 +24,8 @@ pub struct Player {
 impl Player {
     pub const START: Player = Player { leg: 0, at: At::Start, playing: true };
 
-    /// This state on existing loading stages: at the end of the last one where its own stage does not exist, and between
-    /// the ends of its stage.
+    /// This state for loading stages that may have changed: at the end of the last stage if its own does not exist any
+    /// more, and otherwise between the ends of its stage.
     pub fn within(self, legs: &[LegRecord]) -> Player {
         match legs.len().checked_sub(1) {
             Some(last) if self.leg > last => Player { leg: last, at: At::End, playing: false },
@@ -35,7 +34,7 @@ impl Player {
         }
     }
 
-    /// The indentation of the animation of these loading stages, m.
+    /// The indentation that the animation shows, m.
     pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
         match self.at {
             At::Start => start_of(legs, self.leg),
@@ -44,7 +43,7 @@ impl Player {
         }
     }
 
-    /// Played share of the stage, 0 to 1.
+    /// Played share of the stage, from 0 to 1.
     pub fn share(&self, legs: &[LegRecord]) -> f64 {
         let Some(end) = legs.get(self.leg).map(LegRecord::end) else { return 0.0 };
         let start = start_of(legs, self.leg);
@@ -56,7 +55,7 @@ impl Player {
         }
     }
 
-    /// The place that is a share of the stage further on, at most at its ends.
+    /// The position further on by a share of the stage, limited to its ends.
     pub fn advanced(&self, legs: &[LegRecord], share: f64) -> At {
         let to = self.share(legs) + share;
         let start = start_of(legs, self.leg);
@@ -70,7 +69,7 @@ impl Player {
     }
 }
 
-/// Lowest and highest indentation of the curves of loading stages, m.
+/// Lowest and highest indentation of the curves of loading stages, m; `None` without points.
 pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     let points = legs.iter().flat_map(|leg| &leg.curve).map(|point| point.indentation);
     points.fold(None, |range: Option<(f64, f64)>, d| {
@@ -78,7 +77,7 @@ pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     })
 }
 
-/// Indentation at which the animation begins a loading stage, m. The first begins a little above the foundation.
+/// Indentation at which the animation begins a loading stage, m; the first stage begins a little above first touch.
 pub fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
     let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
     let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };

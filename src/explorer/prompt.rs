@@ -1,4 +1,4 @@
-//! Prompts: a line being typed for a purpose, with a list of what fits; questions, and the help.
+//! Prompts: a line being typed for a purpose, with a list of matches; questions; and the help.
 
 use super::action::OutputFile;
 use super::keys::bindings::{Binding, Context, Row};
@@ -9,16 +9,16 @@ use super::text_line::TextLine;
 use asperity_scene::{Entry, Source};
 use std::path::is_separator;
 
-/// A prompt: keys act on it until it is closed.
+/// A prompt: it receives the keys until it is closed.
 #[derive(Clone, Debug)]
 pub struct Prompt {
     pub purpose: Purpose,
     pub line: TextLine,
-    /// Indices of the rows of the list that fit the line, the best first.
+    /// Indices of the rows of the list that match the line, the best first.
     pub found: Vec<usize>,
-    /// Place of the selected row among them.
+    /// Index of the selected row in `found`.
     pub selected: usize,
-    /// Paths that begin as typed, as far as several were asked for.
+    /// Paths that begin as the typed one, if there are several.
     pub paths: Vec<String>,
     pub refused: Option<String>,
 }
@@ -27,20 +27,20 @@ pub struct Prompt {
 pub enum Purpose {
     Value,
     Force,
-    /// Relative error for a choice of springs.
+    /// A relative error, for the choice of the number of springs.
     Tolerance,
-    /// Parameters of a fit to the measured curve.
+    /// Names of parameters, for a fit to the measured curve.
     Fit,
     Save {
         then_quit: bool,
     },
     Export,
-    /// Search of a scene, or path of a scene or a study.
+    /// The search of a scene, or the path of a scene or a study.
     Scene(Vec<Entry>),
     Parameter {
         before: Pane,
     },
-    /// The help or the list of commands: a list whose entries are searched once `is_typed`.
+    /// The help or the list of commands; its entries are searched if `is_typed`.
     Topics {
         name: &'static str,
         topics: Vec<Topic>,
@@ -50,11 +50,11 @@ pub enum Purpose {
     Leave,
 }
 
-/// Entry of the help or of the list of commands.
+/// An entry of the help or of the list of commands.
 #[derive(Clone, Debug)]
 pub struct Topic {
     pub section: &'static str,
-    /// Keys, or the name of a pane.
+    /// Names of keys, or the name of a pane.
     pub name: String,
     pub text: String,
     pub row: Option<&'static Row>,
@@ -66,7 +66,7 @@ impl Topic {
         Topic { section: row.section, name: binding.names(), text: row.help.to_owned(), row: Some(row) }
     }
 
-    /// Texts of a search: each key, description, section.
+    /// Texts that a search compares: each key, description, section.
     fn texts(&self) -> Vec<String> {
         let words = [self.name.clone(), self.text.clone(), self.section.to_owned()];
         self.name.split(' ').map(str::to_owned).chain(words).collect()
@@ -74,8 +74,8 @@ impl Topic {
 }
 
 impl Prompt {
-    /// A prompt with this text, for a scene with these parameters. The first typed character replaces a value or the name
-    /// of a file.
+    /// Creates a prompt with this text; `parameters` are the parameters of the scene. The first typed character replaces a value or
+    /// the name of a file.
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
         let is_replaced = matches!(purpose, Purpose::Value | Purpose::Save { .. } | Purpose::Export);
         let line = if is_replaced { TextLine::selected(text) } else { TextLine::new(text) };
@@ -85,7 +85,7 @@ impl Prompt {
         prompt
     }
 
-    /// Returns the context of keys: a list, a line or a question.
+    /// Returns the context of the keys: help, a list, a line or a question.
     pub fn context(&self) -> Context {
         match self.purpose {
             Purpose::Topics { is_typed: false, .. } => Context::Help,
@@ -96,7 +96,7 @@ impl Prompt {
         }
     }
 
-    /// Finds the rows of the list that fit the line, and selects the best.
+    /// Finds the rows of the list that match the line, and selects the best one.
     pub fn search(&mut self, parameters: &[Parameter]) {
         let query = self.line.text();
         self.selected = 0;
@@ -119,7 +119,7 @@ impl Prompt {
     }
 }
 
-/// Texts of a search: the number of a built-in scene, which come first, name, title and notice.
+/// Texts that a search compares: number of a built-in scene (these come first), name, title and notice.
 fn scene_texts((place, entry): (usize, &Entry)) -> Vec<String> {
     let number = if entry.origin == Source::BuiltIn { (place + 1).to_string() } else { String::new() };
     vec![number, entry.name.clone(), entry.title().to_owned(), entry.notice().to_owned()]

@@ -4,8 +4,8 @@ use super::player::At;
 use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
-/// State that the screen waits for: the scene, solved unless it is the last one, after the manual moves, reduced to a
-/// snapshot.
+/// Request for a state of a scene after manual moves, reduced to a snapshot. The scene is solved first, unless it is the
+/// last one.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
@@ -16,7 +16,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// This request in place of an earlier one: no manual move of the same scene is lost.
+    /// Merges this request with an earlier one that was not answered: manual moves of the same scene are kept.
     pub fn after(mut self, mut earlier: Request) -> Request {
         if earlier.generation == self.generation {
             earlier.moves.append(&mut self.moves);
@@ -28,32 +28,30 @@ impl Request {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualMove {
-    /// Begins manual loading at a place of a loading stage.
+    /// Begins manual loading at a position of a loading stage.
     Take {
         leg: usize,
         at: At,
     },
-    /// Moves the body to an indentation, m.
     To(f64),
-    /// Moves the body by a distance, m; pressing is positive.
+    /// Moves the body by a distance, m; positive presses.
     By(f64),
-    /// Moves the body to a force, N.
     ToForce(f64),
     Separate,
 }
 
-/// Request for a snapshot of the contact, with the sizes of the panes.
+/// Request for a snapshot of the contact, in the resolution of the panes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
     pub drive: Drive,
-    /// Place of the animation in the stage; manual loading has a place of its own.
+    /// Position of the animation in the stage; not used under manual loading.
     pub at: At,
-    /// Columns of dots of the profile pane.
+    /// Width of the profile pane, columns of dots.
     pub profile_columns: usize,
     pub profile: LineView,
-    /// Columns of dots of the close-up pane.
+    /// Width of the close-up pane, columns of dots.
     pub close_up_columns: usize,
-    /// Cells across the close-up pane.
+    /// Width of the close-up pane, cells.
     pub strip_cells: usize,
     pub focus: Focus,
     pub close_up_springs: usize,
@@ -63,9 +61,9 @@ pub struct SnapshotRequest {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineView {
-    /// Its middle, as a share of the line.
+    /// Middle of the shown part, as a share of the line.
     pub centre: f64,
-    /// Shown share of the line, above 0 to 1.
+    /// Shown part, as a share of the line, above 0 and at most 1.
     pub share: f64,
 }
 
@@ -77,17 +75,17 @@ impl LineView {
 pub enum Focus {
     Summit,
     Spring(usize),
-    /// The patch after the one nearest to a spring.
+    /// The patch that follows the patch nearest to this spring.
     After(Option<usize>),
-    /// The patch before the one nearest to a spring.
+    /// The patch that precedes the patch nearest to this spring.
     Before(Option<usize>),
     Largest,
-    /// The patch that carries the largest force, pressing or pulling.
+    /// The patch with the largest force, compressive or tensile.
     MostLoaded,
 }
 
 impl Focus {
-    /// Returns true for a question, with a spring as the answer.
+    /// Returns true for a question that the solver answers by a spring.
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
     }
@@ -95,7 +93,7 @@ impl Focus {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
-    /// A leg of the scene's loading, by its index.
+    /// A loading stage of the scene, by its index.
     Leg(usize),
     Manual,
 }

@@ -1,5 +1,5 @@
-//! The interpreter of effects: one for the session, for demos and for tests. Solver and studies run on threads of their
-//! own, or at once: the same actions then lead to the same screens.
+//! The interpreter of tasks, the same for a session, for demos and for tests. Solver and studies run on threads of their
+//! own, or at once: the same actions then give the same screens.
 
 use super::action::{Action, Task};
 use super::app::App;
@@ -17,10 +17,10 @@ use asperity_scene::{own_folder, scenes};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Solver and studies: they answer at once, or later by reports.
+/// Solver and studies; they answer at once, or later by actions.
 pub struct Engine {
     solve: Box<dyn FnMut(Request) -> Vec<Action>>,
-    /// Performs studies in place of all others.
+    /// Performs these studies in place of all others.
     perform: Box<dyn FnMut(Vec<Study>) -> Vec<Action>>,
 }
 
@@ -38,7 +38,7 @@ impl Engine {
         }
     }
 
-    /// An engine that answers at once, with those studies for which `performs` returns true.
+    /// Creates an engine that answers at once and performs the studies for which `performs` returns true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let mut solver = Solver::new(solve, Default::default());
         let solve = move |request| {
@@ -58,25 +58,25 @@ impl Engine {
     }
 }
 
-/// The explorer and all that its effects need, except the terminal.
+/// The explorer with all that its tasks need, except the terminal.
 pub struct Runtime {
     pub app: App,
     pub engine: Engine,
-    /// Generation of the scene requested last.
+    /// Generation of the scene that was requested last.
     pub asked: u64,
-    /// Folder of relative paths; empty for the working folder.
+    /// Folder to which paths are relative; empty for the working folder.
     pub folder: PathBuf,
 }
 
 impl Runtime {
-    /// Applies an action and performs its effects; returns those for the terminal.
+    /// Applies an action and performs the tasks that follow; returns the tasks that need the terminal.
     pub fn act(&mut self, action: Action) -> Vec<Task> {
         let effects = update(&mut self.app, action);
         self.perform(effects)
     }
 
-    /// Runs a command by its name, if its keys are valid or, while exploring, in another pane; returns the effects for
-    /// the terminal.
+    /// Runs a command by its name, if its keys are valid here or, while exploring, in another pane; returns the tasks that
+    /// need the terminal.
     pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
         let elsewhere = || bindings.named(name, Context::Explore).filter(|_| self.app.prompt.is_none());
@@ -84,7 +84,7 @@ impl Runtime {
         command.map_or_else(Vec::new, |command| self.act(Action::Command(command)))
     }
 
-    /// Performs effects, and those of the actions that follow; returns the effects for the terminal.
+    /// Performs tasks, and the tasks of the actions that follow; returns the tasks that need the terminal.
     pub fn perform(&mut self, effects: Vec<Task>) -> Vec<Task> {
         let (mut waiting, mut left) = (VecDeque::from(effects), Vec::new());
         while let Some(effect) = waiting.pop_front() {
@@ -99,7 +99,7 @@ impl Runtime {
         left
     }
 
-    /// Performs one effect; returns the actions that follow at once.
+    /// Performs one task; returns the actions that follow at once.
     pub fn answer(&mut self, effect: Task) -> Vec<Action> {
         let Runtime { app, engine, folder, asked, .. } = self;
         let action = match effect {

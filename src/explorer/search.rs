@@ -1,13 +1,13 @@
-//! Search of lists by words: one matcher for parameters, commands and scenes.
+//! Search of lists by words, for parameters, commands and scenes.
 
-/// Longest query, bytes: longer than all names. Each word is sought in all of them.
+/// Limit of the length of a query, bytes: longer than all names. Each word is searched in all of them.
 const LONGEST_QUERY: usize = 256;
-/// Number of ranks of a word in one text.
+/// Number of ranks that a word can have in one text.
 const RANKS: usize = 4;
 
-/// Returns the indices of the candidates in which every word of a query occurs, the best first; equal candidates keep
-/// their order. The texts of a candidate come in the order of their importance. An empty query finds everything, one
-/// longer than 256 bytes nothing.
+/// Returns the indices of the candidates that contain every word of a query, the best first; equally good candidates keep
+/// their order. The texts of a candidate are in the order of their importance. An empty query finds everything, one longer
+/// than 256 bytes nothing.
 pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Vec<usize> {
     if query.len() > LONGEST_QUERY {
         return Vec::new();
@@ -25,8 +25,8 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
     found.into_iter().map(|(_, index)| index).collect()
 }
 
-/// Rank of a word in a text: the whole text, its start, the start of a word, inside. Capitals decide only between whole
-/// texts: `h` and `H`.
+/// Rank of a word in a text: it is the whole text, its start, the start of a word, or inside. Upper and lower case differ
+/// only for whole texts: `h` and `H`.
 fn rank(text: &str, word: &str) -> Option<usize> {
     if text == word {
         return Some(0);

@@ -29,33 +29,32 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel, sync_channel};
 use std::time::{Duration, Instant};
 
-/// Most frames per second over SSH, where each has to travel.
+/// Limit of the frame rate over SSH, 1/s, where each frame has to be transmitted.
 const REMOTE_FRAMES: u32 = 12;
 
-/// Most events of the input that wait for the loop: the terminal keeps further ones.
+/// Number of input events that may wait for the loop; the terminal keeps further ones.
 const MOST_WAITING: usize = 64;
 
-/// Longest time of actions without a frame.
+/// Longest time in which actions are applied before a frame is drawn.
 const DRAINING: Duration = Duration::from_millis(100);
 
 pub struct Options {
-    /// Colours in place of those by the environment.
+    /// Colours; `None` to choose them by the environment.
     pub theme: Option<Theme>,
-    /// Markers in place of those by the environment.
+    /// Marker of plots; `None` to choose it by the environment.
     pub marker: Option<Marker>,
-    /// True to leave the mouse to the terminal.
     pub no_mouse: bool,
-    /// Unsaved changes of another session; the opened scene is the first.
+    /// Unsaved changes of another session; the opened scene is the first of them.
     pub restored: Option<Kept>,
-    /// Configuration; options here have precedence.
+    /// Configuration; the options here have precedence over it.
     pub config: Config,
     pub warning: Option<String>,
-    /// Folder in which unsaved changes are kept; `None`: nowhere.
+    /// Folder in which unsaved changes are kept; `None` to keep none.
     pub unsaved: Option<PathBuf>,
 }
 
 impl Options {
-    /// The options of this configuration.
+    /// Options of a session with this configuration.
     pub fn new(config: Config) -> Self {
         Options {
             theme: None,
@@ -72,22 +71,22 @@ impl Options {
 pub struct SessionEnd {
     pub document: Document,
     pub computed: Option<Arc<SolvedScene>>,
-    /// Number of the signal that ended the explorer.
+    /// Number of the signal that ended the explorer; `None` if the user left it.
     pub signal: Option<i32>,
 }
 
-/// Function that draws the state of the explorer, as [`super::view::draw`].
+/// Function that draws the state of the explorer; see [`super::view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &App);
 
 enum Message {
-    /// Input of the user; `None` at its end.
+    /// Input of the user; `None` when it ends.
     Input(Option<Event>),
     Signal(SystemSignal),
-    /// Report of solver or studies.
+    /// Result of solver or studies.
     Act(Box<Action>),
 }
 
-/// Opens the explorer on a scene or a finished study, with a solver and a view, and returns its final state.
+/// Opens the explorer on a scene or a finished study, with functions that solve and draw, and returns its final state.
 pub fn open(
     opening: impl Into<Opening>,
     options: Options,
@@ -162,21 +161,21 @@ struct Session<'a> {
     runtime: Runtime,
     terminal: &'a mut Screen,
     guard: TerminalGuard,
-    /// True if the content of the screen is unknown.
+    /// True if the content of the screen is unknown and has to be drawn anew.
     redraw: bool,
     draw: Draw,
     remote: bool,
     frames: u32,
     inbox: Receiver<Message>,
-    /// An entry for each event of the input in the inbox.
+    /// One entry for each input event in the inbox.
     waiting: Receiver<()>,
     autosave: Option<Autosave>,
-    /// Generation and number of saves when changes were last kept.
+    /// Generation of the scene and number of saves when changes were last kept.
     kept: (u64, u64),
 }
 
 impl Session<'_> {
-    /// Runs until the explorer is to end; returns the signal that ends it, if any.
+    /// Runs until the explorer is to end; returns the number of the signal that ended it, if one did.
     fn run(&mut self) -> io::Result<Option<i32>> {
         let frame_time = Duration::from_secs(1) / self.frames;
         self.runtime.perform(vec![Task::Ask]);
@@ -240,13 +239,11 @@ impl Session<'_> {
         Ok(None)
     }
 
-    /// Action for a window of another size.
     fn resize(&self) -> io::Result<Action> {
         let size = terminal::checked(self.terminal.size()?)?;
         Ok(Action::Resize(size.width, size.height))
     }
 
-    /// Draws a frame.
     fn show(&mut self) -> io::Result<()> {
         terminal::checked(self.terminal.size()?)?;
         if take(&mut self.redraw) {
@@ -258,7 +255,6 @@ impl Session<'_> {
         terminal.draw(|frame| draw(frame, &runtime.app)).map(drop)
     }
 
-    /// Applies an action.
     fn act(&mut self, action: Action) -> io::Result<()> {
         // A window that shrank and grew back between two frames has lost its content, though its size is that of the
         // last frame.
@@ -281,7 +277,6 @@ impl Session<'_> {
         Ok(())
     }
 
-    /// Keeps unsaved changes for another session.
     fn keep_unsaved(&mut self) {
         let app = &mut self.runtime.app;
         let now = (app.edit.generation, app.edit.saves);

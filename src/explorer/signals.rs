@@ -1,26 +1,25 @@
-//! Signals handled by the explorer: those that end it restore the terminal first.
+//! Signals that the explorer handles; before a signal ends it, the terminal is restored.
 
 use std::io;
 
-/// A signal handled by the explorer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemSignal {
-    /// Request to end, by the signal of this number.
+    /// Request to end, with the number of the signal.
     End(i32),
-    /// Continuation after a stop.
+    /// Continuation after the process was stopped.
     Continue,
-    /// Another size of the window.
+    /// The window has another size.
     Resize,
 }
 
-/// Calls `report` when a signal ends or continues the process, or the size of its window changes; `report` returns false once nobody receives.
+/// Calls `report` when a signal asks the process to end, continues it, or announces another size of the window; `report`
+/// returns false once nobody receives.
 ///
-/// If the explorer has not ended some time later, as while the terminal accepts no output,
-/// the process ends by the signal, with the attributes of the terminal restored.
+/// If the explorer has not ended some time after the request, for example because the terminal accepts no output, the
+/// process ends by the signal, with the attributes of the terminal restored.
 #[cfg(unix)]
 pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH};
-    /// Time to end in an orderly way.
     const PATIENCE: std::time::Duration = std::time::Duration::from_millis(800);
     let mut signals =
         signal_hook::iterator::Signals::new([SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH])?;
@@ -47,19 +46,18 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
         .map(drop)
 }
 
-/// No signals on other systems.
+/// Other systems have no such signals.
 #[cfg(not(unix))]
 pub fn watch_for_signals(_: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Ends the process by the default action of a signal, which a waiting process sees.
+/// Ends the process by the default action of a signal, so that its parent sees the signal.
 #[cfg(unix)]
 pub fn end_by(signal: i32) {
     // Returns only for a signal that ends nothing.
     let _ = signal_hook::low_level::emulate_default_handler(signal);
 }
 
-/// Does nothing on other systems.
 #[cfg(not(unix))]
 pub fn end_by(_: i32) {}

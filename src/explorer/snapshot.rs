@@ -1,5 +1,5 @@
-//! Results of the worker: immutable, stamped with the generation of their scene, and
-//! already reduced to the resolution of a pane.
+//! Results of the solver: immutable, stamped with the generation of their scene, and already reduced to the resolution of a
+//! pane.
 
 use super::request::{Drive, Focus, LineView, SnapshotRequest};
 use crate::export::section::Section;
@@ -19,32 +19,29 @@ pub struct SolvedScene {
     pub reach: Reach,
 }
 
-/// State of the contact at one indentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactSnapshot {
     pub generation: u64,
     pub drive: Drive,
     pub line: LineFacts,
-    /// Requested place of the close-up.
+    /// Requested position of the close-up.
     pub focus: Focus,
-    /// Indentation, force, springs in contact and patches.
+    /// Point of the force curve: indentation, force, number of springs in contact and of patches.
     pub point: CurvePoint,
     /// Half the distance between the outermost edges of the contact, m; zero in separation.
     pub contact_radius: f64,
     pub profile: Section,
-    /// All springs of this state, for files.
     pub springs: SpringsInContact,
-    /// The neighbourhood of one patch.
     pub close_up: CloseUp,
-    /// Contact of the whole profile in a row of cells: `■` where all springs touch, `▪` some, `·` none.
+    /// Contact of the whole profile as a row of cells: `■` if all springs are in contact, `▪` if some are, `·` if none is.
     pub strip: String,
-    /// Readings of the crosshair on the profile.
+    /// Readings at the crosshair on the profile.
     pub probe: Option<Probe>,
     /// Path of manual loading to this state.
     pub manual: Option<ManualPath>,
 }
 
-/// The springs of a state and their patches. The snapshot does not keep the springs alive: they are gone as soon as the
+/// The springs in a state and their patches. The snapshot does not keep the springs alive: they are gone as soon as the
 /// solver begins another profile.
 #[derive(Clone, Debug, Default)]
 pub struct SpringsInContact {
@@ -52,7 +49,7 @@ pub struct SpringsInContact {
     pub patches: Vec<Patch>,
 }
 
-/// Equal patches of equal sections have equal springs.
+/// Compares the patches: equal patches of equal sections have equal springs.
 impl PartialEq for SpringsInContact {
     fn eq(&self, other: &Self) -> bool {
         self.patches == other.patches
@@ -63,16 +60,15 @@ impl PartialEq for SpringsInContact {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
     pub spring: usize,
-    /// Height of the rigid profile, m.
     pub height: f64,
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
-    /// Number of the contact patch of the spring along the profile, from 0; none where the spring is free.
+    /// Number, from 0, of the contact patch that the spring belongs to; `None` if it is not in contact.
     pub patch: Option<usize>,
 }
 
 impl Probe {
-    /// Profile and contact at a share of the profile; `None` for a profile without springs.
+    /// Reads profile and contact at a share of the profile; `None` for a profile without springs.
     pub fn at(contact: &Contact<'_>, position: f64) -> Option<Self> {
         let last = contact.gaps.len().checked_sub(1)?;
         let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
@@ -87,7 +83,7 @@ impl Probe {
 }
 
 impl ContactSnapshot {
-    /// A part of the profile and its contact in columns of springs; `None` once the springs are gone.
+    /// A part of the profile and its contact, reduced to columns; `None` if the springs are gone.
     pub fn section(&self, part: Part) -> Option<Section> {
         let SpringsInContact { springs, patches } = &self.springs;
         let (springs, indentation) = (springs.upgrade()?, self.point.indentation);
@@ -96,7 +92,7 @@ impl ContactSnapshot {
     }
 }
 
-/// Contact of the whole profile in a row of cells.
+/// Contact of the whole profile as a row of cells.
 pub fn strip(contact: &Contact<'_>, cells: usize) -> String {
     let whole = Part { first: 0, springs: contact.gaps.len(), columns: cells };
     let glyph = |cell| {
@@ -110,7 +106,7 @@ pub fn strip(contact: &Contact<'_>, cells: usize) -> String {
     (0..cells).map(glyph).collect()
 }
 
-/// The springs of the profile pane: a part within the line.
+/// The springs that the profile pane shows, within the line.
 pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
     let LineView { centre, share } = request.profile;
     let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
@@ -119,53 +115,47 @@ pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
     Part { first, springs, columns: request.profile_columns }
 }
 
-/// Path of manual loading since the last snapshot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualPath {
-    /// Points of the curve on the way, without its start, with the places of their stages.
+    /// Points of the force curve since then, each with the index of its loading stage.
     pub path: Vec<(usize, CurvePoint)>,
-    /// The history from separation to this state: the loading of the scene, then turning points of manual loading.
+    /// Loading history from separation to this state: the loading of the scene, then the turning points of manual loading.
     pub loading: Vec<Move>,
-    /// Springs attached or detached.
+    /// Number of springs that attached or detached since then.
     pub changed: u64,
     /// Elastic energy released since manual loading began, J.
     pub released_energy: f64,
-    /// Reason why the body was not moved.
+    /// Reason why the body was not moved, if it was refused.
     pub refused: Option<String>,
 }
 
-/// The neighbourhood of one contact patch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CloseUp {
-    /// The springs shown.
+    /// The part of the profile that is shown.
     pub section: Section,
-    /// Boundary points of the patches shown: spring and z in m (the white circles of Fig. 3).
+    /// Boundary points of the shown patches: spring, and height in m (the white circles of Fig. 3).
     pub boundaries: Vec<(usize, f64)>,
-    /// The patch nearest to the middle.
+    /// The patch nearest to the middle; `None` if nothing is in contact.
     pub patch: Option<PatchFacts>,
 }
 
-/// One contact patch in numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFacts {
-    /// Its number along the line, from 0.
+    /// Number of the patch along the line, from 0.
     pub number: usize,
-    /// Its springs.
     pub patch: Patch,
-    /// Its length, force and stretch.
     pub state: PatchState,
 }
 
-/// Outcome of a tried scene.
+/// Outcome for a value that is being typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
-    /// The text of the scene, different for different scenes.
+    /// The text of the scene, which identifies the scene.
     pub text: String,
     pub outcome: Outcome,
 }
 
 impl Reply {
-    /// Generation of the scene.
     pub fn generation(&self) -> u64 {
         match self {
             Reply::Solved(solved, _) => solved.generation,
@@ -175,23 +165,21 @@ impl Reply {
     }
 }
 
-/// Answer of the solver.
 #[derive(Clone, Debug)]
 pub enum Reply {
-    /// A scene has been computed, with its first snapshot unless its loading is empty.
+    /// A scene is computed; with its first snapshot, unless its loading is empty.
     Solved(Arc<SolvedScene>, Option<Arc<ContactSnapshot>>),
-    /// Another snapshot of it is ready.
+    /// A further snapshot of a scene is ready.
     Shown(Arc<ContactSnapshot>),
-    /// Part of a scene is done.
+    /// Part of the stages of a scene is computed.
     Progress {
         generation: u64,
-        /// Number of computed stages.
+        /// Number of computed loading stages.
         legs: usize,
     },
-    /// A scene could not be computed.
     Failed {
         generation: u64,
-        /// Reason, in one line.
+        /// Reason, on one line.
         error: String,
     },
 }

@@ -1,5 +1,5 @@
-//! The solver: it owns the simulation and the legs of the newest scene, and answers the newest request of the explorer,
-//! on a thread of its own or at once.
+//! The solver: it owns the simulation and the legs of the newest scene, and answers the newest request of the explorer, on
+//! a thread of its own or at once.
 
 use super::close_up::close_up;
 use super::manual_body::ManualBody;
@@ -18,20 +18,20 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Most bytes of kept legs: further legs are computed again when the animation reaches them.
+/// Limit of the memory of kept legs, bytes; a leg beyond it is computed again when the animation reaches it.
 const BYTES_KEPT: usize = 1 << 29;
 
-/// Points of the curve over the range of indentations, when the body is pulled off manually.
+/// Number of curve points over the range of indentations when the body is pulled off manually.
 const STEPS_OF_A_PULL: f64 = 200.0;
 
-/// Function that computes a scene, as [`Simulation::run`].
+/// Function that computes a scene, as [`Simulation::run`] does.
 pub type Solve =
     fn(&mut Simulation, &CheckedScene, &dyn Fn() -> bool, &mut AfterLeg<'_>) -> Result<Outcome, RunError>;
 
 pub struct Solver {
     solve: Solve,
     simulation: Simulation,
-    /// Generation of the scene that the explorer waits for: a run of another one stops.
+    /// Generation of the scene that the explorer waits for; a run of any other scene stops.
     awaited: Arc<AtomicU64>,
     newest: Newest,
 }
@@ -39,30 +39,30 @@ pub struct Solver {
 #[derive(Default)]
 struct Newest {
     generation: u64,
-    /// The scene as computed; `None` where that failed.
+    /// The scene as computed; `None` if it failed.
     scene: Option<CheckedScene>,
     solved: Option<Arc<SolvedScene>>,
-    /// Legs of the loading, as far as kept.
+    /// Legs of the loading; `None` for a leg that was not kept.
     legs: Vec<Option<Leg>>,
     body: Option<ManualBody>,
-    /// Columns of the line, independent of the contact.
+    /// Lowest and highest point of the profile in each column, kept between snapshots.
     profile: LineColumns,
     close_up: LineColumns,
 }
 
 impl Solver {
-    /// A solver by this function for the scene of the awaited generation.
+    /// Creates a solver with this function; it computes only the scene of the awaited generation.
     pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
         Solver { solve, simulation: Simulation::default(), awaited, newest: Newest::default() }
     }
 
-    /// Marks the scene of a request as awaited, and answers.
+    /// Marks the scene of a request as awaited, and answers the request.
     pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         self.awaited.store(request.generation, Ordering::Relaxed);
         self.serve(request, report);
     }
 
-    /// Answers a request. A panic ends the request, not the explorer.
+    /// Answers a request. A panic ends the request, and not the explorer.
     pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let generation = request.generation;
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report))) {
@@ -120,7 +120,6 @@ impl Solver {
         Ok(())
     }
 
-    /// Moves the body manually.
     fn follow(&mut self, order: ManualMove) {
         match order {
             ManualMove::Take { leg, at } => self.newest.body = self.take(leg, at),
@@ -150,7 +149,7 @@ impl Solver {
         ManualBody::take(&leg, (indentation, is_separated), (high - low) / STEPS_OF_A_PULL, so_far)
     }
 
-    /// The requested snapshot; `None` where the leg does not exist or manual loading has not begun.
+    /// Makes the requested snapshot; `None` if there is no such stage or manual loading has not begun.
     fn snapshot(&mut self, request: &SnapshotRequest) -> Option<ContactSnapshot> {
         let (drive, leg, point) = match request.drive {
             Drive::Leg(number) => {
@@ -195,7 +194,7 @@ impl Solver {
         })
     }
 
-    /// A leg of the loading, computed again if it has not been kept.
+    /// A leg of the loading; computed again if it was not kept.
     fn leg(&mut self, number: usize) -> Option<Leg> {
         if self.newest.legs.get(number)?.is_none() {
             let scene = self.newest.scene.take()?;
@@ -209,7 +208,7 @@ impl Solver {
         self.newest.legs[number].clone()
     }
 
-    /// Runs a scene up to a leg.
+    /// Computes the leg of one loading stage by running the scene up to it.
     fn leg_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Leg> {
         let mut found = None;
         // The run ends as soon as the leg is found.
@@ -224,12 +223,12 @@ impl Solver {
     }
 }
 
-/// Returns true for a stage after which nothing is in contact.
+/// Returns true if nothing is in contact at the end of a stage.
 fn is_separated(leg: Option<&LegRecord>) -> bool {
     leg.and_then(|leg| leg.curve.last()).is_some_and(|end| end.springs == 0)
 }
 
-/// The stages of a loading until a place of a stage, and the direction of the last one.
+/// The loading history up to a position in a stage, and the direction of its last stage.
 fn stages_until(solved: &SolvedScene, number: usize, at: At) -> (Vec<Move>, Option<Direction>) {
     let (legs, loading) = (&solved.outcome.history.legs, &solved.scene.loading);
     let mut stages = loading.iter().take(number).copied().collect::<Vec<_>>();
@@ -256,7 +255,7 @@ pub struct SolverThread {
 }
 
 impl SolverThread {
-    /// Starts the thread. `report` receives its reports.
+    /// Starts the thread of the solver. `report` receives its replies.
     pub fn start(solve: Solve, report: impl Fn(Reply) + Send + 'static) -> std::io::Result<Self> {
         let (requests, inbox) = channel();
         let awaited = Arc::new(AtomicU64::new(0));
@@ -273,7 +272,7 @@ impl SolverThread {
         Ok(SolverThread { requests, awaited })
     }
 
-    /// Sends a request; a run of another scene stops.
+    /// Sends a request; a run of any other scene stops.
     pub fn ask(&self, request: Request) {
         self.awaited.store(request.generation, Ordering::Relaxed);
         // The thread only ends with the explorer.
@@ -281,7 +280,7 @@ impl SolverThread {
     }
 }
 
-/// Serves the newest request until the explorer is gone.
+/// Answers the newest request, again and again, until the explorer is gone.
 pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Reply)) {
     while let Ok(first) = requests.recv() {
         let newest = requests.try_iter().fold(first, |earlier, later| later.after(earlier));

@@ -1,6 +1,6 @@
-//! Values computed late, beside the solver: the error of the outcome, springs for a tolerance, the data of a shown
-//! pane, the curve of a typed value. The explorer knows one value of each type, with the key of what it was computed
-//! from. A thread of its own performs the newest order; a newer one ends it.
+//! Values computed after the outcome: its error, springs for a tolerance, data of a shown pane, the curve for a typed
+//! value. The explorer holds one value of each type, with a key for what it was computed from. A thread of its own performs
+//! the newest order of studies; a newer order ends it.
 
 use asperity_scene::Simulation;
 use std::any::{Any, TypeId};
@@ -11,29 +11,28 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Time after a change of the scene before a study begins: a key held down needs the machine.
+/// Time between a change of the scene and the beginning of a study: a key held down needs the machine.
 const QUIET: Duration = Duration::from_millis(300);
 
 type Value = Arc<dyn Any + Send + Sync>;
 
-/// Function that returns true once a study is to end.
+/// Function that returns true if a study is to end.
 type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Computation of a value: on a simulation that other studies may have used, until `stop` returns true. Each part is
-/// reported.
+/// Computation of a value, on a simulation that other studies may have used, until `stop` returns true. Parts of the value
+/// are reported as they are computed.
 type Run = dyn FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(Value)) -> Result<Value, String> + Send;
 
-/// Computation of a value of one type.
 pub struct Study {
     kind: TypeId,
     key: String,
-    /// True if a demo leaves the study out: viewers would have to wait, or results differ from run to run.
+    /// True if a demo leaves the study out, since viewers would have to wait or results differ from run to run.
     pub is_long: bool,
     run: Box<Run>,
 }
 
 impl Study {
-    /// A study for the scene or the parameters of this key.
+    /// Creates a study; its key identifies the scene or the parameters it depends on.
     pub fn new<T: Any + Send + Sync>(
         key: impl ToString,
         is_long: bool,
@@ -46,12 +45,12 @@ impl Study {
         Study { kind: TypeId::of::<T>(), key: key.to_string(), is_long, run }
     }
 
-    /// Returns true for a study of values of this type.
+    /// Returns true if the study computes a value of this type.
     pub fn is<T: Any>(&self) -> bool {
         self.kind == TypeId::of::<T>()
     }
 
-    /// Performs the study. Nothing is reported once `stop` has returned true; a panic is a failure.
+    /// Performs the study. Nothing is reported once `stop` has returned true; a panic counts as a failure.
     pub fn perform(self, simulation: &mut Simulation, stop: &Stop<'_>, report: &mut dyn FnMut(Finding)) {
         let Study { kind, key, run, .. } = self;
         let mut report = |value, end| {
@@ -72,14 +71,14 @@ impl Study {
     }
 }
 
-/// Part of a value, or the end of its study.
+/// Part of a value, or the end of a study.
 #[derive(Clone, Debug)]
 pub struct Finding {
     kind: TypeId,
     slot: Slot,
 }
 
-/// A value so far, and the end of its study.
+/// A value so far, and how its study ended if it has.
 #[derive(Clone, Debug)]
 struct Slot {
     key: String,
@@ -87,7 +86,7 @@ struct Slot {
     end: Option<Result<(), String>>,
 }
 
-/// Values of the studies so far.
+/// Values of the studies so far, one of each type.
 #[derive(Clone, Debug, Default)]
 pub struct Findings(HashMap<TypeId, Slot>);
 
@@ -96,38 +95,37 @@ impl Findings {
         self.0.get(&TypeId::of::<T>())
     }
 
-    /// The value so far.
+    /// The value of a type so far.
     pub fn value<T: Any>(&self) -> Option<&T> {
         self.slot::<T>()?.value.as_ref()?.downcast_ref()
     }
 
-    /// Returns true if the value is complete.
+    /// Returns true if the value of a type is complete.
     pub fn is_done<T: Any>(&self) -> bool {
         self.slot::<T>().is_some_and(|slot| slot.end == Some(Ok(())))
     }
 
-    /// Reason why the value is missing or incomplete.
+    /// Reason why the value of a type is missing or incomplete, if its study failed.
     pub fn failure<T: Any>(&self) -> Option<&str> {
         self.slot::<T>()?.end.as_ref()?.as_ref().err().map(String::as_str)
     }
 
-    /// Sets a value, complete or to be completed by a study with this key.
+    /// Sets a value; complete, or to be completed by a study with this key.
     pub fn set<T: Any + Send + Sync>(&mut self, key: impl ToString, value: T, is_done: bool) {
         let end = is_done.then_some(Ok(()));
         self.0.insert(TypeId::of::<T>(), Slot { key: key.to_string(), value: Some(Arc::new(value)), end });
     }
 
-    /// Drops the value of a type.
     pub fn forget<T: Any>(&mut self) {
         self.0.remove(&TypeId::of::<T>());
     }
 
-    /// Drops all values but those with these keys.
+    /// Drops all values except values with one of these keys.
     pub fn keep(&mut self, keys: &[&str]) {
         self.0.retain(|_, slot| keys.contains(&slot.key.as_str()));
     }
 
-    /// Stores a finding, unless its value has been dropped or is computed from something else by now.
+    /// Stores a finding, unless its value was dropped or depends on another key by now.
     pub fn take_in(&mut self, finding: Finding) {
         if let Some(slot) = self.0.get_mut(&finding.kind).filter(|slot| slot.key == finding.slot.key) {
             slot.value = finding.slot.value.or(slot.value.take());
@@ -135,7 +133,7 @@ impl Findings {
         }
     }
 
-    /// The studies of these that have not ended. Their findings will be stored.
+    /// Returns the studies among these that have not ended; their findings will be stored.
     pub fn begin(&mut self, studies: Vec<Study>) -> Vec<Study> {
         let is_open = |study: &Study| {
             let slot = self.0.entry(study.kind).or_insert_with(|| Slot {
@@ -158,7 +156,7 @@ pub struct StudyThread {
 }
 
 impl StudyThread {
-    /// Starts the thread. `report` receives the findings.
+    /// Starts the thread of the studies. `report` receives the findings.
     pub fn start(report: impl Fn(Finding) + Send + 'static) -> std::io::Result<Self> {
         let (orders, inbox) = channel();
         let newest = Arc::new(AtomicU64::new(0));
@@ -175,13 +173,13 @@ impl StudyThread {
         let _ = self.orders.send((number, studies));
     }
 
-    /// Ends the running studies of a scene that is changed: the next ones wait for a quiet time.
+    /// Ends the running studies because the scene changes; the next ones wait for a quiet time.
     pub fn stop(&self) {
         self.ask(Vec::new());
     }
 }
 
-/// Performs the newest order until the explorer is gone.
+/// Performs the newest order, again and again, until the explorer is gone.
 fn serve(newest: &AtomicU64, orders: &Receiver<(u64, Vec<Study>)>, report: &dyn Fn(Finding)) {
     let mut simulation = Simulation::default();
     let mut begin = Instant::now();

@@ -1,4 +1,4 @@
-//! The terminal: taken over when the explorer opens, restored at any end.
+//! The terminal: taken over when the explorer opens, restored however it ends.
 
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
@@ -12,21 +12,21 @@ use ratatui::layout::Size;
 use std::io;
 use std::io::Write;
 
-/// Most cells of a window, of about 100 bytes each.
+/// Largest number of cells of a window; a cell takes about 100 bytes.
 const MOST_CELLS: u32 = 4_000_000;
 
-/// Requests presses, drags and the wheel of the mouse. The request of crossterm includes every motion, and
-/// each would travel and wake the explorer for nothing.
+/// Control sequence for presses, drags and the wheel of the mouse. The sequence of crossterm includes every motion, and
+/// each would be transmitted and wake the explorer for nothing.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
-/// Terminal taken over by the explorer; restored on drop and by a panic.
+/// The terminal while the explorer uses it; restored on drop and on a panic.
 pub struct TerminalGuard {
     mouse: bool,
 }
 
 impl TerminalGuard {
-    /// Takes the terminal over, with the mouse or without.
+    /// Takes the terminal over, with or without the mouse.
     pub fn take(mouse: bool) -> io::Result<Self> {
         // NO_COLOR is read by the theme; left to crossterm it would drop reverse and bold as well.
         crossterm::style::force_color_output(true);
@@ -50,15 +50,15 @@ impl TerminalGuard {
         execute!(io::stdout(), EnterAlternateScreen, EnableBracketedPaste, Print(mouse))
     }
 
-    /// Takes the terminal once more, after another program may have had it.
+    /// Takes the terminal over again, after another program may have used it.
     pub fn take_again(&self) -> io::Result<()> {
         // Only a restored terminal can be taken.
         disable_raw_mode()?;
         self.enter()
     }
 
-    /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it again when the shell
-    /// continues the explorer.
+    /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it over again when the shell continues the
+    /// explorer.
     pub fn suspend(&self) -> io::Result<()> {
         give_back(self.mouse)?;
         stop_until_continued();
@@ -77,8 +77,8 @@ impl Drop for TerminalGuard {
     }
 }
 
-/// Leaves the screen, and then raw mode: outside of raw mode a Ctrl+C makes the system throw away output that the terminal
-/// has not read yet.
+/// Leaves the alternate screen, and only then raw mode: outside of raw mode a Ctrl+C makes the system discard output that
+/// the terminal has not read yet.
 fn give_back(mouse: bool) -> io::Result<()> {
     let mouse = if mouse { MOUSE_OFF } else { "" };
     let left = execute!(io::stdout(), Print(mouse), DisableBracketedPaste, LeaveAlternateScreen, Show);
@@ -86,7 +86,7 @@ fn give_back(mouse: bool) -> io::Result<()> {
     left.and(disable_raw_mode())
 }
 
-/// Waits until the output has been sent and, since a pseudo-terminal does not say when that is read, for a moment.
+/// Waits until the output has been sent and then for a moment, since a pseudo-terminal does not report when it is read.
 #[cfg(unix)]
 fn wait_until_written() {
     const READING: std::time::Duration = std::time::Duration::from_millis(20);
@@ -94,11 +94,11 @@ fn wait_until_written() {
     std::thread::sleep(READING);
 }
 
-/// Output is written at once on other systems.
+/// On other systems output is written at once.
 #[cfg(not(unix))]
 fn wait_until_written() {}
 
-/// Refuses a window for which there is no memory, before any is allocated.
+/// Returns an error for a size of the window that needs too much memory, before any is allocated.
 pub fn checked(size: Size) -> io::Result<Size> {
     let Size { width, height } = size;
     if u32::from(width) * u32::from(height) > MOST_CELLS {
@@ -108,20 +108,20 @@ pub fn checked(size: Size) -> io::Result<Size> {
     Ok(size)
 }
 
-/// The size of the window, if there is memory for it.
+/// The size of the window, if there is enough memory for it.
 pub fn window() -> io::Result<Size> {
     let (width, height) = crossterm::terminal::size()?;
     checked(Size { width, height })
 }
 
-/// Stops all processes of this job, as the terminal does when it turns Ctrl-Z into a signal. Where no
-/// shell could continue them the system does not stop them.
+/// Stops all processes of this job, as the terminal does for Ctrl-Z. If no shell could continue them, the system does not
+/// stop them.
 #[cfg(unix)]
 fn stop_until_continued() {
     let _ = rustix::process::kill_current_process_group(rustix::process::Signal::TSTP);
 }
 
-/// No jobs on other systems.
+/// Other systems have no jobs.
 #[cfg(not(unix))]
 fn stop_until_continued() {}
 
@@ -149,28 +149,25 @@ pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()>
         .map(drop)
 }
 
-/// The end of input is an error of its own on other systems.
+/// On other systems the end of the input is an error.
 #[cfg(not(unix))]
 pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Collects a whole frame and writes it at once, as a synchronized update. A frame without a change is
-/// not written.
+/// Collects a whole frame and writes it at once, as a synchronized update. A frame that changes nothing is not written.
 pub struct FrameWriter<W: Write> {
     frame: Vec<u8>,
     out: W,
 }
 
 impl<W: Write> FrameWriter<W> {
-    /// A writer of frames to `out`.
     pub fn new(out: W) -> Self {
         FrameWriter { frame: Vec::with_capacity(64 * 1024), out }
     }
 }
 
-/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor even without anything to
-/// draw.
+/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor even if nothing is drawn.
 fn shows_something(frame: &[u8]) -> bool {
     let mut rest = frame;
     while let Some(sequence) = rest.strip_prefix(b"\x1b[") {

@@ -1,16 +1,16 @@
-//! Text within a number of columns: broken between words, in whole parts, or cut with an `…`.
+//! Text within a number of columns: broken between words, in whole parts, or shortened with an `…`.
 //!
-//! ratatui breaks lines as well, but overruns its area, and panics, where a word has wide characters or
-//! begins with a combining mark, as in titles and typed values.
+//! ratatui breaks lines as well, but where a word has wide characters or begins with a combining mark, as in titles and
+//! typed values, it overruns its area and panics.
 
 use asperity_data::belong_together;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
 
-/// Spans that are shown together or not at all.
+/// Spans of text that are shown together or not at all.
 pub type Part = Vec<Span<'static>>;
 
-/// A line broken into lines of at most this number of columns. A wider word is broken anywhere, a number neither at
+/// Breaks a line into lines of at most this number of columns. A word that is wider is broken anywhere, a number neither at
 /// its thousands nor before its unit.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
@@ -54,7 +54,7 @@ fn styled(graphemes: &[StyledGrapheme<'_>]) -> Line<'static> {
     spans.map(|span| Span::styled(text(span), span[0].style)).collect()
 }
 
-/// A line broken into a limited number of lines, the last with `…` in place of the rest.
+/// Breaks a line into at most `rows` lines; a rest is replaced by `…`.
 pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'static>> {
     let mut lines = wrapped(line, columns);
     if lines.len() > usize::from(rows) {
@@ -64,12 +64,12 @@ pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'sta
     lines
 }
 
-/// A line that is at most `columns` wide: whole, or cut with an `…`.
+/// A line at most `columns` wide, shortened with an `…` if necessary.
 pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
     if line.width() > usize::from(columns) { clipped(&line, columns) } else { line }
 }
 
-/// A line with `…` in place of the rest: at most `columns` wide.
+/// A line shortened to at most `columns`, with `…` in place of the rest.
 fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
     let mut width = 1;
@@ -87,7 +87,7 @@ fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     clipped.style(line.style)
 }
 
-/// Parts in as many lines as needed, with the text between them on a line; a part wider than the columns is
+/// Puts parts into as many lines as needed, with `between` between two parts of a line; a part wider than the columns is
 /// left out.
 pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();

@@ -6,24 +6,22 @@ use ratatui::style::Modifier;
 use ratatui::text::Span;
 use tui_input::{Input, InputRequest};
 
-/// Longest line, characters.
+/// Limit of the length of a line, characters.
 const LONGEST: usize = 4096;
 
-/// Message about a longer one.
 const TOO_LONG: &str = "a line has at most 4096 characters; the rest is left out";
 
-/// A line of text with a cursor.
 #[derive(Clone, Debug, Default)]
 pub struct TextLine {
     input: Input,
     /// True if the text is selected: the next character replaces it.
     selected: bool,
-    /// Message about the part that the last insertion left out.
+    /// Message about what the last insertion left out.
     left_out: Option<&'static str>,
 }
 
 impl TextLine {
-    /// A line with this text, the cursor at its end.
+    /// Creates a line with this text and the cursor at its end.
     pub fn new(text: &str) -> Self {
         let text: String = text.chars().filter(|c| !is_control(*c)).take(LONGEST).collect();
         TextLine { input: Input::new(text), ..TextLine::default() }
@@ -48,13 +46,12 @@ impl TextLine {
         (part(0, cursor), part(cursor, 1), part(cursor + 1, LONGEST))
     }
 
-    /// Message about the part that the last insertion left out; `None` after a whole one.
+    /// Message about what the last insertion left out; `None` if it left nothing out.
     pub fn left_out(&self) -> Option<&'static str> {
         self.left_out
     }
 
-    /// Inserts a text before the cursor, or in place of the selected text, as far as it fits, without its control
-    /// characters.
+    /// Inserts a text before the cursor or in place of the selected text, without control characters, as far as it fits.
     pub fn insert(&mut self, text: &str) {
         let mut inserted = text.chars().filter(|character| !is_control(*character)).peekable();
         if self.selected && inserted.peek().is_some() {
@@ -68,7 +65,7 @@ impl TextLine {
         self.left_out = inserted.next().map(|_| TOO_LONG).or(has_controls);
     }
 
-    /// Moves the cursor, or deletes a part of the text, the whole of a selected one; nothing is selected any more.
+    /// Moves the cursor or deletes text; deleting removes a selected text as a whole. Afterwards nothing is selected.
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
@@ -76,7 +73,7 @@ impl TextLine {
         (self.selected, self.left_out) = (false, None);
     }
 
-    /// The part around the cursor, within a number of columns.
+    /// The part of the line around the cursor that fits into a number of columns.
     pub fn spans(&self, columns: usize, theme: Theme) -> Vec<Span<'static>> {
         let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
         if self.selected && !self.text().is_empty() {

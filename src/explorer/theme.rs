@@ -40,7 +40,7 @@ pub enum Meaning {
     Manual,
     Ghost,
     Cursor,
-    /// Frames, axes, parts of less weight.
+    /// Frames, axes, and text of less importance.
     Quiet,
     Title,
     Selected,
@@ -50,8 +50,8 @@ pub enum Meaning {
 }
 
 impl Appearance {
-    /// Appearance for the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII where the console of Linux
-    /// (`TERM=linux`) or a locale without Unicode (`C`, `POSIX`) shows no Braille.
+    /// Appearance by the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII on the console of Linux (`TERM=linux`)
+    /// and for a locale without Unicode (`C`, `POSIX`), which show no Braille.
     pub fn of_environment() -> Self {
         let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
         let theme = match value("COLORFGBG") {
@@ -67,7 +67,7 @@ impl Appearance {
 }
 
 impl Theme {
-    /// The theme for a background in the format of `COLORFGBG`: its colour comes last.
+    /// The theme for the background in a value of `COLORFGBG`, whose last number is the background colour.
     fn on_background(colours: &str) -> Self {
         match colours.rsplit(';').next().map(str::parse::<u8>) {
             Some(Ok(7 | 9..=15)) => Theme::Light,
@@ -128,7 +128,6 @@ pub trait Cycle: ValueEnum + PartialEq + 'static {
         all[(place + 1) % all.len()].clone()
     }
 
-    /// Its name on the command line.
     fn name(self) -> String {
         self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }

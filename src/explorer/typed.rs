@@ -1,4 +1,4 @@
-//! Values being typed: a number without a unit has the unit that its row shows.
+//! Values being typed: a number without a unit gets the unit that its row shows.
 
 use crate::explorer::app::App;
 use crate::explorer::parameters::{Parameter, Setting};
@@ -6,10 +6,10 @@ use crate::explorer::prompt::Purpose;
 use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_scene::{kind_and_number, loading_text, pressing_force, read_stage, target_field};
 
-/// Force whose prefix a loading without a force has, N.
+/// Force that determines the prefix of a typed force if the loading has no force, N.
 const USUAL_FORCE: f64 = 1e-5;
 
-/// A value in the format for people; one that follows from others is marked.
+/// A value in the format for readers; a value that follows from others is marked.
 pub fn shown(app: &App, parameter: &Parameter) -> String {
     if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
         return parameter.shown.clone();
@@ -23,7 +23,7 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
     }
 }
 
-/// Unit of a typed force, with the prefix of the largest force of the loading or of the computed curve.
+/// Unit of a typed force, with the prefix of the largest force of the loading or, without one, of the computed curve.
 pub fn unit_of_force(app: &App) -> String {
     let computed = || app.current().and_then(|solved| solved.outcome.figures.preload);
     let given =
@@ -32,7 +32,7 @@ pub fn unit_of_force(app: &App) -> String {
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
-/// A typed value of a parameter with the unit of its row, where the value has none. A stage without a number takes a force.
+/// A typed value of a parameter, with the unit of its row if it has none. A number for a stage without one is a force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     match parameter.leg {
         Some(_) if parameter.field.unit.is_empty() => in_unit(typed, &unit_of_force(app)),
@@ -40,7 +40,7 @@ pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     }
 }
 
-/// What the typed text will be where its unit is not typed: `50 mJ/m²` for `50`.
+/// How a typed text without a unit will be read: `50 mJ/m²` for `50`.
 pub fn reading(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let typed = prompt.line.text().trim();

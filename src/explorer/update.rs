@@ -1,5 +1,5 @@
-//! Effect of each action on the state. Nothing here touches terminal, files or worker: work outside
-//! the state is returned.
+//! Effect of each action on the state. Nothing here touches terminal, files or solver: tasks outside of the state are
+//! returned.
 
 use super::action::Action;
 use super::action::Task;
@@ -14,8 +14,7 @@ use super::snapshot::Reply;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use std::sync::Arc;
 
-/// Applies an action and returns the effects to perform outside, a request of the state that the screen waits for among
-/// them.
+/// Applies an action and returns the tasks that follow, including a request for the state that the screen waits for.
 pub fn update(app: &mut App, action: Action) -> Vec<Task> {
     apply(app, action);
     if app.asked.is_some_and(|asked| asked != awaited(app)) {
@@ -73,7 +72,7 @@ fn run(app: &mut App, command: Command) {
     }
 }
 
-/// Stores a reply of the solver, unless the scene or the text has been changed since.
+/// Stores a reply of the solver, unless scene or text have changed since.
 fn replied(app: &mut App, reply: Reply) {
     match reply {
         Reply::Solved(computed, snapshot) if computed.generation == app.edit.generation => {
@@ -99,7 +98,7 @@ fn replied(app: &mut App, reply: Reply) {
     }
 }
 
-/// The state that the screen waits for; takes the manual moves.
+/// Makes the request for the state that the screen waits for; it takes the waiting manual moves with it.
 pub fn request(app: &mut App) -> Request {
     let moves = app.manual.as_mut().map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves));
     // Without the moves taken: a move before the answer is another request.
@@ -112,13 +111,13 @@ pub fn request(app: &mut App) -> Request {
     }
 }
 
-/// Generation, snapshot and number of manual moves that the screen waits for.
+/// What the screen waits for: generation of the scene, snapshot, and number of manual moves.
 fn awaited(app: &App) -> Awaited {
     let moves = app.manual.as_ref().map_or(0, |manual| manual.moves.len());
     (app.edit.generation, snapshot_request(app), moves)
 }
 
-/// Columns of dots in a cell of a pane.
+/// Number of columns of dots in a cell.
 const DOTS: usize = 2;
 
 pub fn snapshot_request(app: &App) -> SnapshotRequest {

@@ -1,4 +1,4 @@
-//! Files of the explorer: scenes, curves, figures of its panes, pictures of its screen.
+//! Files that the explorer writes: scenes, curves, figures of panes, pictures of the screen.
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
@@ -22,8 +22,8 @@ use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
 
-/// Writes a regular file, relative to a folder: a pipe would block. A scene gets the extension `.ron` unless its name has
-/// one or is that of something else than a file. Returns the file with its name, and the result.
+/// Writes a regular file, relative to a folder; a pipe would block. The name of a scene gets the extension `.ron` if it has
+/// none, unless it names something that is no file. Returns the file with its final name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let mut written = || {
         let path = folder.join(&file.path);
@@ -68,7 +68,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
     }
 }
 
-/// The selected pane as a figure; the force curve while the parameters are selected.
+/// The selected pane as a figure; the force curve if the parameters are selected.
 fn figure(app: &App) -> Option<Figure> {
     let pane = if app.view.pane == Pane::Parameters { Pane::Force } else { app.view.pane };
     panes::figure(app, pane)
@@ -81,7 +81,7 @@ pub fn screenshot(app: &App) -> String {
     svg(&picture_of(app), &palette, &format!("Asperity: {}", name.to_string_lossy()))
 }
 
-/// The screen without any question or line of text.
+/// The screen without prompts, questions and messages other than errors.
 pub fn picture_of(app: &App) -> Buffer {
     let mut app = app.clone();
     app.prompt = None;

@@ -34,7 +34,7 @@ impl Report for Boundaries {
         Some(sheet.into_text())
     }
 
-    /// A boundary outside the study has the end of the study in place of its value.
+    /// In JSON a boundary beyond the study has the end of the studied range in place of its value.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let object = |boundary: &Boundary| {
             let mut object = Map::new();

@@ -1,4 +1,4 @@
-//! Verdicts of the catalogue of hard cases as text and JSON.
+//! Results of the catalogue of checks as text and JSON.
 
 use super::report::{Json, Report};
 use super::sheet::Sheet;
@@ -6,7 +6,7 @@ use asperity_data::object;
 use asperity_scene::{Check, Verdict, catalogue};
 
 impl Report for [Verdict] {
-    /// One row for each check, then the claims of the cases, then the failures.
+    /// One row for each check, then the statements of the cases, then the failures.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);
@@ -78,7 +78,7 @@ impl Report for [Verdict] {
     }
 }
 
-/// A bound or an error: two digits suffice for a comparison, zero is exact.
+/// A bound or an error in words: two digits suffice for a comparison, and zero is exact.
 fn figure(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }

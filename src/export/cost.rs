@@ -11,10 +11,10 @@ use asperity_scene::Scene;
 use asperity_scene::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
 use serde::Serialize;
 
-/// Headings of the errors, in the order of [`QUANTITIES`].
+/// Headings of the columns of errors, in the order of [`QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
-/// Cost of accuracy for a scene; JSON has its fields in this order.
+/// Cost of accuracy for a scene. JSON has the fields in this order.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
     #[serde(skip)]
@@ -32,7 +32,7 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
-    /// The answer first, omitted settings last.
+    /// Text with the answer first and the omitted settings last.
     fn text(&self) -> Option<String> {
         let table = self.table;
         let mut sheet = Sheet::default();
@@ -75,7 +75,7 @@ impl Report for CostReport<'_> {
         Some(Box::new(self))
     }
 
-    /// Times in s, errors relative.
+    /// Times in s; errors are relative.
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.table.rows.iter())
             .with("knob", Kind::Text("sub-cell-springs".len()), |row| <&str>::from(row.knob))

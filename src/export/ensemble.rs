@@ -12,17 +12,17 @@ use asperity_scene::Choice;
 use asperity_scene::Regime;
 use asperity_study::{Quantity, Results, Statistics};
 
-/// Results of a scene on random profiles: a study of one cell.
+/// Results of a scene on random profiles, a study of one cell.
 #[derive(Clone, Copy, Debug)]
 pub struct LinesReport<'a> {
-    /// Choice of springs for a tolerance, if one was given.
+    /// Choice of springs for a tolerance, if one was requested.
     pub choice: Option<&'a Choice>,
-    /// The records of [`LinesReport::RECORD`].
+    /// Records with the quantities [`LinesReport::RECORD`].
     pub results: &'a Results,
 }
 
 impl LinesReport<'_> {
-    /// Quantities of the report.
+    /// Quantities that the report needs.
     pub const RECORD: &'static [Quantity] = &[
         Quantity::AdhesionForce,
         Quantity::PreloadIndentation,
@@ -39,7 +39,7 @@ impl LinesReport<'_> {
         0..self.results.plan().lines
     }
 
-    /// A quantity over the profiles; `None` where fewer than two have a value.
+    /// Statistics of a quantity over the profiles; `None` if fewer than two have a value.
     fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity).filter(|all| all.spread.is_some())
     }
@@ -48,7 +48,7 @@ impl LinesReport<'_> {
         Quantity::REGIMES.map(|regime| self.results.regime(0, line, regime))
     }
 
-    /// Root mean square of a quantity over the profiles.
+    /// Root mean square of a quantity over the profiles, in its SI unit.
     fn rms(&self, quantity: Quantity) -> Option<f64> {
         root_mean_square(self.results.values(0, quantity))
     }

@@ -12,18 +12,15 @@ use asperity_study::{Fit, FittedParameter, MeasuredCurve, Parameter};
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// A curve and its fit.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
-    /// Name of the file of the curve.
+    /// Name of the file of the curve, for the title.
     pub title: &'a str,
-    /// The measured curve.
     pub curve: &'a MeasuredCurve,
-    /// Parameters that describe the curve, with their errors.
     pub fit: &'a Fit,
 }
 
-/// A fit in SI units, with the values of its curve.
+/// A fit in SI units, with facts about its curve.
 #[derive(Serialize)]
 struct FitJson<'a> {
     #[serde(flatten)]
@@ -158,7 +155,8 @@ impl Report for FitReport<'_> {
 }
 
 impl FitReport<'_> {
-    /// Work of adhesion, J/m², of a smooth sphere with this pull-off force, N (Johnson, Kendall and Roberts).
+    /// Work of adhesion, J/m², of a smooth sphere with this pull-off force, N (Johnson, Kendall and Roberts); `None` for
+    /// other bodies.
     fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
         let radius = scene.form.as_ref()?.sphere_radius()?;

@@ -1,4 +1,4 @@
-//! The chart of force loops: the same in figures of scenes and in the explorer.
+//! The chart of force loops, the same in figures of scenes and in the explorer.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord};
 use asperity_data::AxisScale;
@@ -6,20 +6,18 @@ use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, S
 use asperity_scene::Outcome;
 use asperity_scene::{DisplacementCurve, DisplacementPoint, Mark, marks};
 
-/// Two quantities, one over the other.
+/// The two quantities of a chart of loops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
     #[default]
     ForceIndentation,
-    /// Force over the displacement of the instrument.
     ForceDisplacement,
     LengthForce,
-    /// Number of contact patches over indentation.
     FragmentsIndentation,
 }
 
 impl LoopQuantities {
-    /// The next quantities, with displacements where an instrument `deflects`.
+    /// The next pair of quantities; pairs with the displacement only if an instrument `deflects`.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -36,24 +34,24 @@ impl LoopQuantities {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoopUnits {
     quantities: LoopQuantities,
-    /// Loading stiffness, N/m; `None`: rigid.
+    /// Loading stiffness, N/m; `None` for a rigid instrument.
     stiffness: Option<f64>,
-    /// RMS height h, m.
+    /// Unit of the indentation: rms height h, m; `None` for SI units.
     indentation: Option<f64>,
-    /// Ideal adhesion force F_a,max, N.
+    /// Unit of the force: ideal adhesion force F_a,max, N; `None` for SI units.
     force: Option<f64>,
-    /// Length L of the profile, m.
+    /// Unit of lengths along the profile: L, m; `None` for SI units.
     length: Option<f64>,
 }
 
-/// A quantity of a point, over a parameter of the scene with its symbol if there is one.
+/// A quantity of a point of the curve, divided by a parameter of the scene if there is one.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
     symbol: &'static str,
     unit: &'static str,
     over: Option<(f64, &'static str)>,
-    /// Value of the quantity at a point, under an instrument of a stiffness, N/m.
+    /// Value of the quantity at a point, with the stiffness of the instrument, N/m.
     of: fn(&CurvePoint, f64) -> f64,
 }
 
@@ -69,7 +67,7 @@ impl LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
 
-    /// With the instrument of a scene, and with the parameters that the scene has where the chart is `normalised`; else SI
+    /// Units for an outcome: with its instrument, and if `normalised` with the parameters that its scene has; otherwise SI
     /// units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
@@ -82,7 +80,7 @@ impl LoopUnits {
         }
     }
 
-    /// Place of a point of a curve in the chart.
+    /// Coordinates in the chart of a point of the curve.
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
         let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
         let [x, y] =
@@ -90,12 +88,13 @@ impl LoopUnits {
         (x, y)
     }
 
-    /// Returns true for a mark on the curve: an instrument that is not rigid jumps over states of contact.
+    /// Returns true if a mark lies on the drawn curve: over the displacement, a compliant instrument jumps over the states
+    /// of a jump into or out of contact.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
 
-    /// Indentation at a number on the horizontal axis, m; `None` where that axis shows another quantity.
+    /// Indentation at a number on the horizontal axis, m; `None` if that axis shows another quantity.
     pub fn indentation(&self, x: f64) -> Option<f64> {
         let is_over_indentation = matches!(
             self.quantities,
@@ -104,12 +103,12 @@ impl LoopUnits {
         is_over_indentation.then(|| x * self.indentation.unwrap_or(1.0))
     }
 
-    /// Returns true where the force is over indentation or displacement.
+    /// Returns true if the chart shows force over indentation or displacement.
     pub fn shows_force(&self) -> bool {
         matches!(self.quantities, LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement)
     }
 
-    /// Symbols of the horizontal and the vertical quantity: `d` and `F`, `d/h` and `F/F_a,max`.
+    /// Symbols of the horizontal and the vertical quantity: `d` and `F`, or `d/h` and `F/F_a,max`.
     pub fn symbols(&self) -> (String, String) {
         let [x, y] = self.quantities().map(|one| one.symbol_and_unit().0);
         (x, y)
@@ -146,42 +145,41 @@ impl LoopUnits {
     }
 }
 
-/// A loop of a chart. Without a name, an ink or a stroke of the loop, loading and unloading have their own.
+/// A loop in a chart. Where it has no name, ink or stroke of its own, loading and unloading have theirs.
 #[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
-    /// Curves with their directions.
+    /// Force curves of the loading stages, with their directions.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
-    /// Stiffness of the instrument that passes parts of them in jumps, N/m; `None`: no jumps.
+    /// Stiffness of the instrument, N/m, which passes parts of the curves in jumps; `None` for no jumps.
     pub stiffness: Option<f64>,
-    /// Remarkable points; those of a loop without a name are in the legend.
+    /// Marked points; the legend has them if the loop has no name.
     pub marks: Vec<(Mark, CurvePoint)>,
-    /// Name in the legend.
     pub name: Option<Label>,
-    /// True for marks without their forces in the legend, where several charts share it.
+    /// True to leave the forces of marks out of the legend, if several charts share it.
     pub without_forces: bool,
     pub ink: Option<Ink>,
     pub stroke: Option<Stroke>,
-    /// Stroke of unloading alone.
+    /// Stroke of the unloading, if it has its own.
     pub unloading: Option<Stroke>,
 }
 
-/// Points of a line in the units of the axes.
+/// Points of a line, in the units of the axes.
 type Places = Vec<(f64, f64)>;
 
 impl<'a> ForceLoop<'a> {
-    /// The loop of a loading history with its marks.
+    /// Creates the loop of a loading history with its marks.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs.iter().map(|leg| (leg.direction, leg.curve.as_slice())).collect();
         ForceLoop { curves, marks: marks(legs), ..ForceLoop::default() }
     }
 
-    /// The loop of an outcome with its marks.
+    /// Creates the loop of an outcome with its marks and its instrument.
     pub fn of_outcome(outcome: &'a Outcome) -> ForceLoop<'a> {
         let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
         ForceLoop { stiffness, ..ForceLoop::new(&outcome.history.legs) }
     }
 
-    /// Lines of the curves with their directions, and true for a jump of the instrument.
+    /// Lines of the curves with their directions; true for a jump of the instrument.
     fn lines(&self, units: LoopUnits) -> Vec<(Direction, Places, bool)> {
         let units = LoopUnits { stiffness: self.stiffness.or(units.stiffness), ..units };
         let mut lines = Vec::new();
@@ -241,7 +239,7 @@ impl<'a> ForceLoop<'a> {
     }
 }
 
-/// Chart of loops, the lowest first, with a line at zero.
+/// Chart of loops, the first one lowest, with a line at zero.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let lines = loops.iter().flat_map(|one| one.lines(units));
     let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
@@ -251,8 +249,8 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     Chart::new(x, y, layers)
 }
 
-/// Force curves of computed scenes with their titles: loading and unloading of one scene in two colours, each of
-/// several scenes in one.
+/// Figure of the force curves of computed scenes with titles. Loading and unloading of a single scene have two colours; of
+/// several scenes each has one.
 pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     let units = LoopUnits::default();
     if let [(title, outcome)] = scenes {
@@ -268,7 +266,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure { notes: vec![Label::plain("dotted: loading")], ..Figure::of_chart("", chart) }
 }
 
-/// Force curves of computed scenes with their titles, each over axes of its own, with the adhesion force in the heading.
+/// Figure with a chart for each of several computed scenes with titles; its heading has the adhesion force.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let figure = |(title, outcome): &(&str, &Outcome)| {
         let one = ForceLoop { without_forces: true, ..ForceLoop::new(&outcome.history.legs) };

@@ -6,7 +6,7 @@ use asperity_scene::Regime;
 use asperity_study::{Cell, Grid, Quantity, Statistics};
 
 impl Report for Grid {
-    /// The computed cells: values of the axes by their paths, profiles, regimes, and the statistics of each quantity, in SI
+    /// The computed cells: values of the axes by their paths, profiles, regimes, and statistics of each quantity, in SI
     /// units.
     fn table(&self) -> Option<Table<'_>> {
         let columns = self.across.values.len();

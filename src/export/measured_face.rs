@@ -1,4 +1,5 @@
-//! Surfaces of one face, samples of the same roughness: facts of their files, and warnings about their analysis.
+//! Measured surfaces of one face, as samples of the same roughness: facts about their files, and warnings about their
+//! analysis.
 
 use asperity_data::format_quantity;
 use asperity_data::{grouped, path_name, printable};
@@ -7,48 +8,49 @@ use asperity_surface::{Analysis, End};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 
-/// Share of the squared height in long waves above which it depends on the length of the scan.
+/// Share of the squared height in long waves above which the rms height depends on the length of the scan.
 const MANY_LONG_WAVES: f64 = 0.3;
 
-/// Number of profiles from which on the moments are as accurate as the moments of a map.
+/// Number of profiles from which on moments are as accurate as the moments of a map.
 const MANY_PROFILES: u64 = 100;
 
-/// Least and largest factor by which adhesion near its boundary varies between single profiles, as `docs/surfaces.md` states.
+/// Smallest and largest factor by which adhesion near its boundary varies between single profiles; the same as in
+/// `docs/surfaces.md`.
 const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
-/// Rms gradient above which slopes are not small, and least ratio of the rms heights of two samples of one roughness: beyond both,
-/// a wrong unit is likely.
+/// Rms gradient above which slopes are not small, and smallest ratio of the rms heights of two samples of one roughness:
+/// beyond either a wrong unit is likely.
 const LARGEST_GRADIENT: f64 = 1.0;
 const FAR_APART: f64 = 30.0;
 
-/// A surface and its file. A profile has one number where a map has a number for each axis.
+/// Facts about a surface and its file. Lists have one number for a profile, and a number for each axis for a map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
     #[serde(rename = "file", serialize_with = "in_unicode")]
     pub path: PathBuf,
-    /// Name of the measurement in a container; empty for a file of its own.
+    /// Name of the measurement in a container; empty if the surface is from a file of its own.
     #[serde(rename = "measurement", skip_serializing_if = "String::is_empty")]
     pub name: String,
     pub format: &'static str,
-    /// Points of a row, and number of rows.
+    /// Number of points of a row, and number of rows.
     pub points: Vec<usize>,
-    /// Lengths along and between rows, m.
     pub lengths: Vec<f64>,
-    /// Columns and rows without measured points that are left out at the borders; points at the ends of a profile.
+    /// Numbers of columns and rows without measured points left out at the borders; for a profile a number of points at its
+    /// ends.
     pub cropped: Vec<usize>,
     pub interpolated: usize,
-    /// What is odd in the file.
+    /// Messages on oddities of the file.
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
-/// Writes a path with U+FFFD for what is no Unicode.
+/// Writes a path; what is not Unicode becomes U+FFFD.
 fn in_unicode<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&path.display())
 }
 
 impl SurfaceFile {
-    /// Facts of a surface with evenly spaced points; lengths of others are 0.
+    /// Collects the facts about a surface; the lengths are 0 if its points are not evenly spaced.
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
         let mut points = vec![surface.columns, surface.rows()];
         points.truncate(if surface.rows() > 1 { 2 } else { 1 });
@@ -65,7 +67,7 @@ impl SurfaceFile {
         }
     }
 
-    /// Name of the file, and of the measurement in a container.
+    /// Name of the file, with the name of the measurement in a container.
     fn name(&self) -> String {
         let name = if self.name.is_empty() { String::new() } else { format!(" {:?}", printable(&self.name)) };
         path_name(&self.path) + &name
@@ -98,15 +100,13 @@ impl SurfaceFile {
     }
 }
 
-/// Surfaces of one face: files that are samples of the same roughness, and their analysis.
+/// Measured surfaces of one face, with their common analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
     pub files: Vec<SurfaceFile>,
-    /// Common analysis of the files.
     pub analysis: Analysis,
 }
 
-/// Warning of an rms gradient that is not small.
 pub(super) fn steep(rms_gradient: f64) -> Option<String> {
     (rms_gradient > LARGEST_GRADIENT).then(|| {
         format!(
@@ -119,7 +119,7 @@ pub(super) fn steep(rms_gradient: f64) -> Option<String> {
 }
 
 impl MeasuredFace {
-    /// Warning of files whose rms heights are far apart, although they are samples of one roughness.
+    /// Warning for files whose rms heights differ much, although they are samples of one roughness.
     fn far_apart(&self) -> Option<String> {
         let MeasuredFace { files, analysis } = self;
         let heights = || analysis.rms_heights.iter().zip(files);
@@ -138,7 +138,7 @@ impl MeasuredFace {
         })
     }
 
-    /// What is odd in the files, and limits of their analysis that affect the user.
+    /// Messages on oddities of the files, and limits of their analysis that concern the user.
     pub fn warnings(&self) -> Vec<String> {
         let analysis = &self.analysis;
         let of_file = |file: &SurfaceFile| {

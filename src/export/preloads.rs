@@ -1,4 +1,4 @@
-//! Adhesion against preload as text, JSON, tables and a figure.
+//! Adhesion force against preload as text, JSON, tables and a figure.
 
 use super::report::{Json, Report};
 use super::sheet::{Sheet, thinned};
@@ -12,17 +12,16 @@ use asperity_study::{Results, Staircase, Statistics};
 use std::ops::Range;
 
 const MOST_ROWS: usize = 32;
-/// Heading of a column of confidence intervals.
+/// Heading of a column of confidence intervals of the mean.
 pub(super) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 
-/// Adhesion against preload on one or more profiles.
+/// Adhesion force against preload, on one or more profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
-    /// Title of the figure.
     pub title: &'a str,
-    /// Choice of springs for a tolerance, if one was given.
+    /// Choice of springs for a tolerance, if one was requested.
     pub choice: Option<&'a Choice>,
-    /// The records of [`Results::OF_PRELOADS`], as far as computed.
+    /// Records with the quantities [`Results::OF_PRELOADS`], as far as computed.
     pub results: &'a Results,
     /// The staircase of the first profile, for figures and tables of curves.
     pub staircase: Option<&'a Staircase>,
@@ -31,8 +30,8 @@ pub struct PreloadReport<'a> {
 }
 
 impl PreloadReport<'_> {
-    /// The adhesion force over the preload: of the first profile, and its spread over all of them, with the distribution
-    /// at the largest preload; as [`preload_chart`].
+    /// The figure: adhesion force against preload as in [`preload_chart`], and the distribution at the largest preload.
+    /// `None` without a staircase.
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
         let chart = preload_chart(staircase, &spread, has_values);
@@ -127,7 +126,7 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// A figure of adhesion against preload, with a distribution beside the chart.
+/// Figure of a chart of adhesion against preload, with a distribution `beside` it if there is one.
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else { return Figure::of_chart(title, chart) };
     let chart = Chart { heading: Label::quantity("adhesion force", "F_a"), ..chart };
@@ -135,7 +134,7 @@ pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figur
     Figure { title, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// The curves of [`preload_chart`]: one row for each preload of the staircase, with the spread where it is known.
+/// The curves of [`preload_chart`] as a table: one row for each preload of the staircase, with the spread where it is known.
 fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     let spread = results.spread_of_adhesion();
     let row = move |&(preload, force): &(f64, f64)| {
@@ -153,14 +152,14 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     table.done()
 }
 
-/// The warning of the mean over profiles to which one profile adds the largest share.
+/// The warning about the mean to which a single profile contributes most, over all preloads.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
     let (preload, most) = spread.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
     most.warning(&format!("F_a at F_n {}", format_quantity(*preload, "N")))
 }
 
-/// The unloadings from all preloads on these profiles, with the seeds if they are `seeded`.
+/// Table of the unloadings from all preloads on these profiles; with their seeds if they are `seeded`.
 pub(super) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) -> Table<'_> {
     let plan = results.plan();
     let rows = move || lines.clone().flat_map(move |line| (0..plan.cells()).map(move |cell| (cell, line)));
@@ -175,8 +174,8 @@ pub(super) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) 
     table.done()
 }
 
-/// Writes a table of unloadings: force and indentation of the turning point under these headings, adhesion force,
-/// indentation at pull-off, dissipated energy.
+/// Writes a table of unloadings with these headings for force and indentation at the turning point, then adhesion force,
+/// indentation at pull-off and dissipated energy.
 pub(super) fn unloadings(
     sheet: &mut Sheet,
     [force, at]: [&str; 2],
@@ -194,13 +193,13 @@ pub(super) fn unloadings(
     sheet.table(&std::iter::once(header).chain(rows.map(row)).collect::<Vec<_>>());
 }
 
-/// Smallest ratio of adhesion forces on a logarithmic scale.
+/// Ratio of adhesion forces from which on they are drawn on a logarithmic scale.
 const LOGARITHMIC_RATIO: f64 = 30.0;
 const MOST_DECADES: f64 = 6.0;
 
-/// A chart of the adhesion force, N, over the preload, N: the staircase of one profile, the spread over several, and the
-/// adhesion after both protocols of zero load, named with their forces or without. Under a logarithmic preload forces of
-/// several decades are logarithmic too.
+/// Chart of the adhesion force (N) over the preload (N): the staircase of one profile, the spread over several, and
+/// adhesion by both zero-load protocols, with their forces in the legend if `has_values`. If the preloads are logarithmic,
+/// forces over several decades are too.
 pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;
@@ -269,8 +268,8 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     )
 }
 
-/// Empirical distribution of the adhesion force over the profiles at the preload nearest to this one, N, on the vertical
-/// axis of a chart: each profile is a step of the share of profiles across. `None` for fewer than two profiles.
+/// Empirical distribution of the adhesion force over the profiles at the nearest computed preload (N), on the vertical axis
+/// of a chart: each profile adds a step to the share of profiles. `None` for fewer than two profiles.
 pub fn distribution(results: &Results, preload: f64, forces: &Axis) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

@@ -1,19 +1,19 @@
-//! Provenance of results: version, command, measured files and scene, written into their file.
+//! Provenance of results, written into their file: version, command, measured files and scene.
 //!
-//! In CSV the text fills the first lines, each after `# `; SVG has it as metadata, JSON its version and command in front.
+//! In CSV it is the first lines, each after `# `; SVG has it as metadata, and JSON begins with version and command.
 
 use asperity_data::sha256_of;
 use asperity_data::{path_name, printable};
 use asperity_scene::{Document, Scene, to_ron};
 use std::path::{Path, PathBuf};
 
-/// Prefix of the line of a measured file.
+/// Beginning of the line of a measured file.
 const HASH: &str = "sha256: ";
-/// Prefix of the line of the command.
+/// Beginning of the line of the command.
 const COMMAND: &str = "command: ";
 
-/// Provenance of a table of a scene. Files of the scene are relative to `folder`, and the table is written into
-/// `destination`.
+/// Provenance of a table of a scene. `folder` is the folder to which the scene's files are relative, `destination` the
+/// folder of the table.
 pub fn scene_provenance(
     command: &str,
     scene: &Scene,
@@ -29,7 +29,7 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-/// Provenance of a figure of several scenes with their names; a scene without a name is left out.
+/// Provenance of a figure of several named scenes; scenes without a name are left out.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     let named = scenes.iter().filter(|(name, _)| !name.is_empty());
     let texts = named.map(|(name, scene)| format!("scene {}:\n{}", printable(name), to_ron(scene)));
@@ -43,15 +43,15 @@ pub(super) fn entries(provenance: &str) -> Vec<(&str, &str)> {
     program.into_iter().chain(command.map(|command| ("command", command))).collect()
 }
 
-/// Provenance of a table of measured files without a scene, written into `destination`.
+/// Provenance of a table of measured files without a scene; `destination` is the folder of the table.
 pub fn files_provenance(command: &str, files: &[PathBuf], destination: &Path) -> Result<String, String> {
     let names: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
     let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
     head(command, &names, Path::new(""), destination)
 }
 
-/// Version, measured files with the SHA-256 of their contents, and command, one line each. The name of a file is a RON
-/// string, always on one line.
+/// Lines with version, measured files and the SHA-256 of their contents, and command. The name of a file is a RON string,
+/// which is always on one line.
 fn head(command: &str, files: &[&str], folder: &Path, destination: &Path) -> Result<String, String> {
     let mut hashes = String::new();
     for file in files {
@@ -66,7 +66,7 @@ fn version_and_command(command: &str, hashes: &str) -> String {
     format!("asperity {version}\n{hashes}{COMMAND}{}\n", printable(&command))
 }
 
-/// Checks that the measured files of a scene are those behind the table of results that it was read from.
+/// Checks that the measured files of a scene are still the files of the table of results from which the scene was read.
 pub fn check_measured_files(document: &Document) -> Result<(), String> {
     let files = document.scene().measured_files();
     let recorded = document.table_head().lines().filter_map(|line| {
@@ -92,8 +92,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Name of a file relative to `folder` in a table that is written into `destination`: unchanged in the same folder,
-/// else the absolute path.
+/// Name of a file, given relative to `folder`, in a table in the folder `destination`: unchanged if both folders are the
+/// same, otherwise the absolute path.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

@@ -1,4 +1,4 @@
-//! A result in up to four shapes, and the formats in which these are written.
+//! A result in up to four forms (text, JSON, table, figure), and the formats in which these are written.
 
 use super::provenance::entries;
 use asperity_data::{Kind, Table, write_json};
@@ -10,24 +10,21 @@ use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
-/// A result that has one or more of four shapes.
+/// A result that has one or more of four forms.
 pub trait Report {
-    /// Plain text of at most 80 columns.
+    /// The result as plain text of at most 80 columns.
     fn text(&self) -> Option<String> {
         None
     }
 
-    /// One JSON value in SI units.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         None
     }
 
-    /// Rows in SI units.
     fn table(&self) -> Option<Table<'_>> {
         None
     }
 
-    /// A picture.
     fn figure(&self) -> Option<Figure> {
         None
     }
@@ -35,7 +32,7 @@ pub trait Report {
 
 /// A value that is written as JSON without an intermediate copy.
 pub trait Json {
-    /// Writes it; an object begins with these entries.
+    /// Writes the value; if it is an object, the entries `head` come first.
     fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 
@@ -45,7 +42,7 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// A figure of one chart is also the table of its curves.
+/// A figure of one chart can also be written as the table of its curves.
 impl Report for Figure {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(self.table()?))
@@ -71,7 +68,7 @@ impl Report for Figure {
     }
 }
 
-/// Writes a report with its provenance, which text, arrays and pixels do without.
+/// Writes a report in a format, with its provenance, which text, arrays and pixels leave out.
 pub fn write(
     out: &mut dyn Write,
     report: &(impl Report + ?Sized),
@@ -97,49 +94,38 @@ pub fn write(
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, clap::ValueEnum)]
 #[strum(serialize_all = "lowercase")]
 pub enum Format {
-    /// Text for a reader.
     Text,
-    /// One object.
     Json,
-    /// Comma-separated values.
     Csv,
-    /// Structured array of NumPy.
     Npy,
-    /// Vector picture.
     Svg,
-    /// Raster picture.
     Png,
-    /// Vector picture on a page of its size.
+    /// Vector picture on a page of its own size.
     Pdf,
 }
 
 impl Format {
-    /// All formats.
     pub const ALL: [Format; 7] =
         [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
 
-    /// Name on the command line.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
-    /// Extension of files.
     pub fn extension(self) -> &'static str {
         if self == Format::Text { "txt" } else { self.name() }
     }
 
-    /// Returns true for the formats of a table.
     pub fn is_table(self) -> bool {
         matches!(self, Format::Csv | Format::Npy)
     }
 
-    /// Returns true for the formats of a picture.
     pub fn is_picture(self) -> bool {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
-    /// The format of a file by its extension; without an extension, or a file, the chosen format or the usual one. An
-    /// error for a format that is not one of `formats`, or an extension that contradicts the chosen one.
+    /// The format of a file by its extension; without an extension or a file, the chosen format or else the usual one. An
+    /// error for a format that is not one of `formats`, or an extension that contradicts the chosen format.
     pub fn of_file(
         file: Option<&Path>,
         chosen: Option<Format>,
@@ -167,7 +153,7 @@ impl Format {
     }
 }
 
-/// The place of a file's extension in a list; `None` for a name without an extension.
+/// Index in a list of the extension of a file; `None` for a name without an extension.
 pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
     let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
         return Ok(None);
@@ -179,7 +165,7 @@ pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, S
     })
 }
 
-/// A list such as `.txt, .json or .csv`.
+/// A list in words, such as `.txt, .json or .csv`.
 fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
     let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
     match words.split_last() {

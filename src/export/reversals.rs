@@ -12,20 +12,20 @@ use asperity_scene::Scene;
 use asperity_study::{Results, Staircase};
 
 const MOST_ROWS: usize = 16;
-/// Most cells of a map on either axis of a figure.
+/// Limit of the number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
-/// Reversals of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
     pub title: &'a str,
     pub scene: &'a Scene,
     pub map: &'a ReversalMap,
-    /// Adhesion against preload, with the records of [`Results::OF_PRELOADS`], if a preload presses the bodies together.
+    /// Adhesion force against preload, with the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
+    /// bodies together.
     pub preloads: Option<&'a Results>,
-    /// The same with the exact place of each step, for the figure.
+    /// Adhesion force against preload with the exact position of each step, for the figure.
     pub staircase: Option<&'a Staircase>,
-    /// True for a table with a row for each point of the map instead of each turning point.
+    /// True for a table with a row for each point of the map, false for a row for each turning point.
     pub map_table: bool,
 }
 
@@ -52,7 +52,7 @@ impl Report for ReversalReport<'_> {
         Some(sheet.into_text())
     }
 
-    /// For each turning point the forces and the Everett function at the indentations of the columns up to that point.
+    /// For each turning point, forces and Everett function at the indentations up to that point.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let ReversalReport { scene, map, preloads, .. } = *self;
         let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
@@ -77,7 +77,7 @@ impl Report for ReversalReport<'_> {
         Some(if self.map_table { points(self.map) } else { turning_points(self.map) })
     }
 
-    /// The adhesion force over the preload, and the Everett function.
+    /// The adhesion force against preload, and a map of the Everett function.
     fn figure(&self) -> Option<Figure> {
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),
@@ -99,7 +99,7 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
         .done()
 }
 
-/// One row for each turning point and each indentation up to that point.
+/// Table with one row for each turning point and each indentation up to it.
 fn points(map: &ReversalMap) -> Table<'_> {
     let points = || {
         let turns = 0..map.turns().len();

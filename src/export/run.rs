@@ -1,4 +1,4 @@
-//! A computed scene: one JSON object, the force curve as a table and as a figure; and the table of a profile.
+//! A computed scene as JSON, and its force curve as a table and a figure; and the table of a profile.
 
 use super::loop_chart::force_figure;
 use super::report::{Json, Report};
@@ -13,16 +13,12 @@ use asperity_scene::{Choice, Estimate};
 use asperity_scene::{Observer, Scene};
 use asperity_surface::Line;
 
-/// Result of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
-    /// Title of the figure.
     pub title: &'a str,
-    /// The computed scene.
     pub scene: &'a Scene,
-    /// Its outcome.
     pub outcome: &'a Outcome,
-    /// Choice of springs for a tolerance, if one was given.
+    /// Choice of springs for a tolerance, if one was requested.
     pub choice: Option<&'a Choice>,
     /// Estimated error of the adhesion force, if it is known.
     pub estimate: Option<&'a Estimate>,
@@ -107,14 +103,13 @@ impl Report for RunReport<'_> {
     }
 }
 
-/// The path of manual loading.
+/// The path of manual loading, as a result.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Its stages, from separation.
+    /// Loading stages of the path, from separation.
     pub loading: &'a [Move],
-    /// Points of its curve.
     pub path: &'a [CurvePoint],
-    /// Places of the stages of these points.
+    /// Index of the loading stage of each point.
     pub stages: &'a [usize],
 }
 
@@ -129,7 +124,7 @@ impl Report for PathReport<'_> {
     }
 }
 
-/// A force curve in SI units: its points with the numbers of their loading stages from 0, and the displacements of the
+/// Table of a force curve in SI units: its points with the indices of their loading stages, and the displacements of the
 /// instrument.
 fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, CurveRow<'a>> {
     Table::of(rows)
@@ -141,10 +136,10 @@ fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -
         .real("stored_energy", |(_, point, _)| point.stored_energy)
 }
 
-/// Number of the loading stage, a point of its curve, and the displacement of the instrument, m.
+/// Index of a loading stage, a point of its curve, and the displacement of the instrument, m.
 type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 
-/// Position x and height z of every spring under the body, m.
+/// The table has the position x and the height z of every spring under the body, m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
         let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));

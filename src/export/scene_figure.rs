@@ -1,4 +1,4 @@
-//! Figures of the contact: the profile with its contact, contact patches over the indentation.
+//! Figures of the contact: the profile with its contact, and contact patches over the indentation.
 
 use crate::export::section::{Contact, LineColumns, Part};
 use asperity_contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
@@ -9,14 +9,14 @@ use asperity_scene::preload_point;
 use asperity_surface::Line;
 use std::slice;
 
-/// Indentations of a loading stage at which contact patches are drawn.
+/// Number of indentations of a loading stage at which contact patches are drawn.
 const ROWS: usize = 160;
-/// Most loading stages with drawn contact patches.
+/// Limit of the number of loading stages whose contact patches are drawn.
 const MOST_STAGES: usize = 4;
-/// Contact patches are merged over gaps below this share of the profile.
+/// Share of the profile below which a gap between contact patches is drawn as closed.
 const LEAST_GAP: f64 = 5e-4;
 
-/// Frame of contact patches over the position, px.
+/// Size of the frame of a chart of contact patches, px.
 const PATCHES: (f64, f64) = (400.0, 300.0);
 
 /// Contact patches at an indentation, m.
@@ -25,24 +25,23 @@ struct Patches {
     patches: Vec<Patch>,
 }
 
-/// Contact patches of a run, gathered stage by stage: at the largest force, and over the indentation.
+/// Contact patches collected stage by stage during a run: at the largest force, and over the indentation if requested.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
-    /// Largest force of the loading stages so far, and the patches there.
+    /// Largest force of the loading stages so far, N, and the patches there.
     preload: Option<(f64, Patches)>,
     stages: Vec<(Direction, Vec<Patches>)>,
-    /// Loading stages with contact beyond [`MOST_STAGES`].
+    /// Number of loading stages with contact beyond [`MOST_STAGES`].
     left_out: usize,
 }
 
 impl ContactSets {
-    /// Gathers patches over the indentation too if requested.
+    /// Begins a collection; with `over_indentation` also of patches over the indentation.
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
 
-    /// Gathers the patches of one loading stage.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
@@ -65,7 +64,7 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// The rigid profile, the elastic surface and the contact at the largest force.
+    /// Figure of the rigid profile, the elastic surface and the contact at the largest force.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
@@ -81,7 +80,7 @@ impl ContactSets {
         Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
     }
 
-    /// Contact patches over position and indentation, one chart for each loading stage with contact.
+    /// Figure of contact patches over position and indentation, with one chart for each loading stage with contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;

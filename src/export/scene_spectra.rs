@@ -1,4 +1,4 @@
-//! Spectra of a computed scene: of its measured files, as expected of the line, and of the heights of the line.
+//! Spectra of a computed scene: of its measured files, of the line as intended, and of the heights of the line.
 
 use super::spectrum_figure::{Spectra, SpectrumPoint};
 use asperity_data::check_room;
@@ -10,28 +10,29 @@ use asperity_surface::{EquivalentLine, Line, read_faces};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// Modes of each decade at which the spectrum of the line is drawn.
+/// Number of modes per decade at which the spectrum of the line is drawn.
 const PER_DECADE: f64 = 20.0;
 
-/// Bytes of the transform for each spring.
+/// Bytes per spring of the Fourier transform.
 const BYTES: u64 = 40;
 
 /// Spectra of a scene, and the moments of its measured surface with their errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSpectra {
-    /// Measured spectra, and those of the line and of its heights.
+    /// Measured spectra, the intended spectrum of the line, and the spectrum of its heights.
     pub spectra: Spectra,
-    /// Moments of the equivalent line; `None` for a roughness that is not measured, or is the line itself.
+    /// Moments of the equivalent line; `None` for roughness that is not measured, and for a measured profile that is itself
+    /// the line.
     pub moments: Option<LineMoments>,
-    /// Reason why spectra are missing.
+    /// Reason why some spectra are missing.
     pub missing: Option<String>,
 }
 
 impl SceneSpectra {
-    /// Spectra of a scene whose files are named from the working folder.
+    /// Computes the spectra of a scene whose files are named from the working folder.
     ///
     /// # Errors
-    /// When the line of the scene cannot be made.
+    /// The line of the scene cannot be made.
     pub fn new(
         scene: &CheckedScene,
         outcome: &Outcome,
@@ -64,7 +65,7 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     analyses.map_err(|error| error.to_string())
 }
 
-/// Expected spectrum of the line, at some of its modes: A²L/4 of a mode with the amplitude A.
+/// Intended spectrum of the line at some of its modes: A²L/4 for a mode with the amplitude A.
 fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine>) -> Vec<SpectrumPoint> {
     let Some((first, last)) = outcome.line.modes else { return Vec::new() };
     let length = outcome.line.length;
@@ -82,7 +83,7 @@ fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine
     shown.into_iter().map(|mode| (TAU * mode as f64 / length, power(mode))).collect()
 }
 
-/// Spectrum of the heights of the line without its form. Measured profiles used as the line are not periodic.
+/// Spectrum of the heights of the line without its form. A measured profile that is itself the line is not periodic.
 fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());

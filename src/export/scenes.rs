@@ -1,4 +1,4 @@
-//! Several computed scenes: their differences and results in one table, their force curves in one figure.
+//! Several computed scenes: differences and results in one table, force curves in one figure.
 
 use super::loop_chart::{force_figure, force_panels};
 use super::report::Report;
@@ -9,11 +9,11 @@ use asperity_scene::Document;
 use asperity_scene::Outcome;
 use asperity_scene::Regime;
 
-/// Computed scenes with their documents, two at least.
+/// At least two computed scenes, with their documents.
 #[derive(Clone, Copy, Debug)]
 pub struct ScenesReport<'a> {
     pub scenes: &'a [(&'a Document, Outcome)],
-    /// True for a chart of each scene.
+    /// True for a separate chart of each scene.
     pub panels: bool,
 }
 
@@ -31,7 +31,7 @@ const ROWS: [Row; 8] = [
     ("dissipated energy", "J", |outcome| outcome.figures.dissipated_energy),
 ];
 
-/// Letter of a scene in the table and in the legend.
+/// Letter by which a scene is named in the table and the legend.
 fn letter(number: usize) -> String {
     char::from_u32('A' as u32 + number as u32)
         .filter(|_| number < 26)
@@ -39,7 +39,7 @@ fn letter(number: usize) -> String {
 }
 
 impl ScenesReport<'_> {
-    /// The force curves, in the legend with the letters of the table if there is one.
+    /// The figure of the force curves; with `has_letters` the legend names scenes as the table does.
     fn drawn(&self, has_letters: bool) -> Figure {
         let title = |(number, (document, _)): (usize, &(&Document, Outcome))| match has_letters {
             true => format!("{}: {}", letter(number), document.title()),
@@ -53,7 +53,7 @@ impl ScenesReport<'_> {
 }
 
 impl Report for ScenesReport<'_> {
-    /// Titles, the changes from the first scene to each other one, and the results with their ratios to those of the first scene.
+    /// Titles, the changes of each scene from the first one, and the results with their ratios to the results of the first scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let (first, _) = self.scenes.first()?;

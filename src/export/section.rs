@@ -9,7 +9,7 @@ use std::ops::Range;
 /// The rigid profile and its contact at one indentation.
 #[derive(Clone, Copy)]
 pub struct Contact<'a> {
-    /// Gaps below the summit, m.
+    /// Gaps below the highest point, m.
     pub gaps: &'a [f64],
     pub summit: f64,
     pub indentation: f64,
@@ -17,53 +17,50 @@ pub struct Contact<'a> {
     pub patches: &'a [Patch],
 }
 
-/// Springs of a chart, at least one, and its number of columns.
+/// Springs of the profile that a chart shows, at least one, and its number of columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
     pub first: usize,
     pub springs: usize,
-    /// Number of columns; with more columns than springs, a spring fills several.
+    /// Number of columns; if it exceeds the number of springs, a spring fills several columns.
     pub columns: usize,
 }
 
-/// Most columns of a profile in a picture.
+/// Largest number of columns of a profile in a picture.
 const DRAWN: usize = 1200;
 
-/// Lowest and highest point of the profile in each column of a part. Another profile needs another cache.
+/// Cache of the lowest and highest point of the profile in each column of a part, for one profile.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
     heights: Vec<(f64, f64)>,
 }
 
-/// A part of the profile and its contact in columns.
+/// A part of the profile and its contact, reduced to columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
-    /// First spring.
     pub first: usize,
-    /// Number of springs.
     pub springs: usize,
     /// Lowest and highest point of the profile, m.
     pub heights: (f64, f64),
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
-    /// Ranges of heights in each column.
     pub columns: Vec<Column>,
 }
 
-/// Lowest and highest points of the springs in one column.
+/// Ranges of heights of the springs in one column, m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Column {
-    /// Rigid profile, m.
+    /// Lowest and highest point of the rigid profile, m.
     pub line: (f64, f64),
-    /// Elastic surface, m: the profile in contact, else its own level.
+    /// Lowest and highest point of the elastic surface, m: of the profile in contact, otherwise the undeformed level.
     pub surface: (f64, f64),
-    /// Profile in contact, m.
+    /// Lowest and highest point of the profile in contact, m; `None` without contact.
     pub contact: Option<(f64, f64)>,
 }
 
 impl Section {
-    /// Returns the chart of the section over the position, heights within `z`.
+    /// Returns the chart of the section over the position; `z` is the range of heights, m.
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
         let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
         let x = (edge(self.first), edge(self.first + self.springs.max(1)));
@@ -83,13 +80,13 @@ impl Section {
 }
 
 impl Part {
-    /// Springs of a picture in a file, whatever the size of any window: columns of several springs only where a picture
-    /// does not resolve more.
+    /// Part of the profile for a picture in a file, whatever the size of a window: several springs share a column only if
+    /// the picture could not resolve them.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs.min(DRAWN) }
     }
 
-    /// Springs of a table, one column each.
+    /// Part of the profile for a table, with a column for each spring.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part { first, springs, columns: springs }
     }
@@ -104,24 +101,23 @@ impl Part {
 }
 
 impl Contact<'_> {
-    /// Returns the height of the profile at a spring, m.
+    /// Returns the height of the rigid profile at a spring, m.
     pub fn height(&self, spring: usize) -> f64 {
         self.summit - self.gaps[spring]
     }
 
-    /// Returns the height of the undeformed elastic surface, m.
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }
 
-    /// Returns the parts of the contact patches within some springs.
+    /// Returns the parts of the contact patches within a range of springs.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
         let begun = self.patches.partition_point(|patch| patch.last < springs.start);
         let touching = self.patches[begun..].iter().take_while(move |patch| patch.first < springs.end);
         touching.map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
-    /// Reduces a part of the profile to its columns.
+    /// Reduces a part of the profile to columns; `line` is the cache for this profile.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let Part { first, springs, columns } = part;
         if line.part != part {
@@ -136,7 +132,7 @@ impl Contact<'_> {
         Section { first, springs, heights, level: self.level(), columns }
     }
 
-    /// Returns the lowest and the highest point of some springs, m.
+    /// Returns the lowest and the highest point of a range of springs, m.
     fn heights(&self, springs: Range<usize>) -> (f64, f64) {
         let height = |gap: &f64| (self.summit - gap, self.summit - gap);
         self.gaps[springs].iter().map(height).fold((f64::INFINITY, f64::NEG_INFINITY), wider)

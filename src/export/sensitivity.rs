@@ -10,14 +10,13 @@ use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::Scene;
 use asperity_study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
 
-/// Changes from here on are stated as a factor.
+/// Relative change from which on a change is stated as a factor.
 const LARGE: f64 = 2.0;
-/// Smallest end of the axis of a chart, percent.
+/// Smallest range of the axis of a chart, per cent.
 const LEAST: f64 = 1.0;
-/// Half the height of a bar, in distances of bars.
+/// Half the height of a bar, over the distance of bars.
 const HALF: f64 = 0.35;
 
-/// Sensitivity of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     pub title: &'a str,
@@ -36,17 +35,17 @@ fn change_text(change: f64) -> String {
     }
 }
 
-/// Stands for the changes by a number that is not allowed.
+/// Text in place of changes for a number that the scene does not allow.
 pub const NOT_ALLOWED: &str = "not allowed";
 const OTHERS: &str = "other seeds";
 
-/// One change of a number, or one end of the range over the seeds.
+/// Changes of the results for one changed number, or at one end of the range over the seeds.
 struct Side<'a> {
-    /// The changed number; `None` for the seeds.
+    /// Influence of the changed number; `None` for the seeds.
     influence: Option<&'a Influence>,
-    /// 0 for the smaller number and the least result, else 1.
+    /// 0 for the smaller number or the smallest result, otherwise 1.
     side: usize,
-    /// Changes of the results; `None` for a number that is not allowed.
+    /// Relative changes of the results; `None` for a number that is not allowed.
     changes: Option<[Option<f64>; 3]>,
 }
 
@@ -55,7 +54,7 @@ impl Side<'_> {
         self.influence.map_or(OTHERS.into(), |one| Label::symbol_or_name(one.axis.symbol, &one.axis.name))
     }
 
-    /// The change of the number: in percent, for a whole number by how much.
+    /// The change of the number in words: in per cent, or for a whole number the difference.
     fn step(&self) -> String {
         match self.influence {
             None => ["least", "most"][self.side].to_owned(),
@@ -70,7 +69,7 @@ impl Side<'_> {
     }
 }
 
-/// Both changes of at most `most` numbers, of which the first has the largest influence on a result, and the seeds.
+/// Both changes of at most `most` numbers, the one with the largest influence on a result first; then the seeds.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
     let changes = |values: &Values| sensitivity.changes(values);
     let numbers = sensitivity.ordered(result).into_iter().take(most).flat_map(|influence| {
@@ -83,8 +82,9 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
     numbers.chain(seeds).collect()
 }
 
-/// The changes of the results in words, the largest influence on the adhesion force first: a heading, the results of the
-/// scene, then for each change of at most `most` numbers their name and value, the change, and one column for each result.
+/// The changes of the results in words: a heading, the results of the scene, then a row for each change of at most `most`
+/// numbers, the one with the largest influence on the adhesion force first. The columns are name, value, change, and each
+/// result.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 6]> {
     let row = |texts: [&str; 3], result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
@@ -109,7 +109,7 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// A bar for each change of a result in percent by at most `most` numbers, the largest at the top.
+/// Chart with a bar for each change of a result, in per cent, by at most `most` numbers; the largest is at the top.
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
@@ -139,7 +139,7 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
 }
 
 impl SensitivityReport<'_> {
-    /// Sentence on the quantities that stay while a number changes, and on the number of seeds.
+    /// Sentence on what stays constant while a number changes, and on the number of seeds.
     fn note(&self) -> String {
         if let Some(missing) = self.sensitivity.missing() {
             return missing.to_owned();
@@ -195,7 +195,7 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// One row for each side of each number, after a row for the scene.
+    /// A row for the scene, then a row for each change of each number.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();
@@ -229,7 +229,8 @@ mod tests {
         }
     }
 
-    /// A whole number changes by a whole step, what is not allowed is said, and a bar beyond the frame has an arrow.
+    /// Each change has a row and a bar: a whole number changes by a whole step, what is not allowed is stated, and a bar
+    /// beyond the frame has an arrow.
     #[test]
     fn each_change_has_a_row_and_a_bar_of_its_own() {
         let scene = asperity_scene::open("jkr-sphere").unwrap().scene().clone();

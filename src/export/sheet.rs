@@ -1,19 +1,19 @@
-//! Plain text in aligned columns that fits a terminal of 80 columns.
+//! Plain text with aligned columns, for a terminal of 80 columns.
 
 use asperity_data::format_quantity;
 use asperity_data::{printable, wrap};
 
-/// Characters on a line: those of the smallest usual terminal.
+/// Width of a line, characters: the width of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;
 
-/// Fewest characters of a last column, and the indentation of that column on a line of its own.
+/// Smallest width of a last column, and its indentation on a line of its own, characters.
 const FEWEST_IN_LAST: usize = 20;
 const INDENT: usize = 4;
 
-/// Characters before the values of rows.
+/// Width of the labels before the values of rows, characters.
 const LABEL: usize = 26;
 
-/// Text under headings: rows of a label and a value, and paragraphs.
+/// Text under construction: headings, rows of a label and a value, tables and paragraphs.
 #[derive(Default)]
 pub(crate) struct Sheet {
     text: String,
@@ -30,20 +30,20 @@ impl Sheet {
         self.text
     }
 
-    /// A heading, with an empty line between it and the text so far.
+    /// Adds a heading, after an empty line unless it is the first.
     pub(crate) fn heading(&mut self, heading: &str) {
         self.text.push_str(if self.text.is_empty() { "" } else { "\n" });
         self.paragraph(heading);
     }
 
-    /// Text wrapped into lines; none for an empty text.
+    /// Adds text, broken into lines; nothing for an empty text.
     pub(crate) fn paragraph(&mut self, text: &str) {
         for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
             self.line(&line);
         }
     }
 
-    /// A row; a value too long for one line continues below itself.
+    /// Adds a row; a value too long for one line continues below.
     pub(crate) fn row(&mut self, label: &str, value: impl AsRef<str>) {
         let mut label = label;
         for line in wrap(value.as_ref(), WIDTH - LABEL) {
@@ -52,7 +52,7 @@ impl Sheet {
         }
     }
 
-    /// A row with a number in this unit, if there is one.
+    /// Adds a row with a number in this unit; nothing for `None`.
     pub(crate) fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
         self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
     }
@@ -63,8 +63,8 @@ impl Sheet {
         }
     }
 
-    /// Lines of cells below each other. Columns beyond the width follow as a further table that begins with the first
-    /// column again. The last cell of a line continues below itself if it is too long.
+    /// Adds a table. Columns beyond the width follow as a further table that repeats the first column. The last cell of a
+    /// line continues below if it is too long.
     pub(crate) fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
         let length = |row: &R, column: usize| row.as_ref().get(column).map_or(0, |cell| cell.chars().count());
@@ -95,7 +95,8 @@ impl Sheet {
         }
     }
 
-    /// A line of cells with the widths of their columns; a last cell that has too little room begins on the next line.
+    /// Adds a line of cells, each with the width of its column; the last cell begins on the next line if it has too little
+    /// room.
     fn cells(&mut self, cells: &[(usize, &str)]) {
         let Some(((_, last), others)) = cells.split_last() else { return };
         let mut before: String = others.iter().map(|(width, cell)| padded(cell, width + 2)).collect();
@@ -118,7 +119,7 @@ impl Sheet {
     }
 }
 
-/// At most `most` evenly spaced rows of a table, including the last one.
+/// At most `most` evenly spaced rows of a table, always with the last one.
 pub(super) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
     let (last, stride) = (rows.len().saturating_sub(1), rows.len().div_ceil(most).max(1));
     rows.skip(last % stride).step_by(stride)

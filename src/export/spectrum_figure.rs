@@ -1,4 +1,4 @@
-//! Spectra over the wave number: measured, fitted, and those of the equivalent line.
+//! Spectra over the wave number: as measured, as fitted, and of the equivalent line.
 
 use asperity_data::AxisScale;
 use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke};
@@ -6,25 +6,25 @@ use asperity_surface::EquivalentLine;
 use asperity_surface::{Along, Analysis, Bin, End};
 use std::f64::consts::TAU;
 
-/// Points of a curve for each decade of wave numbers.
+/// Number of points of a curve per decade of wave numbers.
 const PER_DECADE: f64 = 20.0;
 
-/// Most decades of the vertical axis: powers far below the others are rounding errors.
+/// Limit of the decades of the vertical axis: powers far below the others are rounding errors.
 const MOST_DECADES: f64 = 12.0;
 
-/// Stroke of the self-affine fit, which does not decide on the axes.
+/// Stroke of the self-affine fit, which does not influence the range of the axes.
 const SELF_AFFINE: Stroke = Stroke::Dotted;
 
 /// Wave number, rad/m, and power spectral density, m³.
 pub type SpectrumPoint = (f64, f64);
 
-/// Spectra of measured surfaces, and of a line.
+/// Spectra of measured surfaces and of a line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,
     /// Intended spectrum of the equivalent line.
     pub line: Vec<SpectrumPoint>,
-    /// Spectrum of the heights of the computed line, in bins.
+    /// Spectrum of the heights of the computed line, averaged in bins.
     pub heights: Vec<SpectrumPoint>,
 }
 
@@ -39,7 +39,7 @@ pub(super) fn spectrum_name(face: usize, direction: Along) -> &'static str {
     }
 }
 
-/// Logarithmically spaced wave numbers, about `per_decade` in each decade.
+/// Logarithmically spaced wave numbers, about `per_decade` per decade.
 pub(super) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
     (0..=pieces as u32).map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
@@ -87,7 +87,7 @@ impl Spectra {
         Spectra { measured: layers, line: over(&|q| isotropic.line(q)), heights: Vec::new() }
     }
 
-    /// Spectra of the surfaces of one or both faces: one face with its fit, both with the line of their sum.
+    /// Spectra of the surfaces of one or two faces: of one face with its fit, of two with the equivalent line of their sum.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),

@@ -8,26 +8,26 @@ use asperity_plot::{
 use asperity_scene::{Regime, VANISHING_SHARE};
 use asperity_study::{Grid, Quantity, Statistics};
 
-/// Fewest decades of a quantity with a second, logarithmic chart.
+/// Number of decades from which on a quantity gets a second, logarithmic chart.
 const DECADES_FOR_SECOND: f64 = 1.5;
-/// Most decades of a logarithmic axis, and of the colour scale of a map.
+/// Limit of the decades of a logarithmic axis and of the colour scale of a map.
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
-/// Upper end of a confidence interval up to which it is drawn, in largest means: few profiles have wide intervals.
+/// Upper end, in units of the largest mean, above which a confidence interval is not drawn: few profiles have wide intervals.
 const MOST_OF_BAND: f64 = 2.0;
 
-/// Least share of the range of one sign in that of the other for colours of both signs.
+/// Smallest ratio of the ranges of both signs for colours that show both signs.
 const LEAST_OF_A_SIGN: f64 = 0.25;
 
-/// Regimes of a map: sign, letter, ink.
+/// Regimes on a map: sign in a picture, letter in a terminal, ink.
 const REGIMES: [(Regime, Sign, char, Ink); 3] = [
     (Regime::PressureInsensitive, Sign::Dot, 'i', Ink::Surface),
     (Regime::PressureSensitive, Sign::Up, 's', Ink::Manual),
     (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
 ];
 
-/// A figure of charts of a grid, with the values of fixed axes below its title.
+/// Figure of charts of a grid, with the values of the fixed axes below its title.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
     let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
@@ -35,8 +35,8 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     Figure { title, notes, charts, size: Figure::SMALL, ..Figure::default() }
 }
 
-/// A map of a quantity over the two axes of a grid, with the regimes and the line on which adhesion without a load
-/// vanishes; `whole` adds substitutes for cells that have not been computed yet. `None` for a grid along one axis.
+/// Map of a quantity over the two axes of a grid, with the regimes and the line on which adhesion without load vanishes;
+/// `whole` also shows other cells in place of cells not computed yet. `None` for a grid along one axis.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.statistics(quantity, whole));
@@ -85,8 +85,8 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Curves of a quantity over the axis across, one for each row of a grid; small values on a linear scale have a second
-/// chart on a logarithmic one.
+/// Curves of a quantity over the axis across, one for each row of a grid; if values are small on a linear scale, with a
+/// second, logarithmic chart.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);
@@ -132,15 +132,15 @@ fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> Axis {
     Axis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
-/// The share of F_a,max by one of the two protocols whose boundary a figure of a quantity shows: the quantity itself, or
-/// the first recorded one.
+/// The recorded F_a(0)/F_a,max whose vanishing is drawn in a figure of this quantity: the quantity itself, or the first
+/// recorded one.
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
     let own = shares.contains(&quantity).then_some(quantity);
     own.or_else(|| shares.into_iter().find(|share| grid.layer(*share).is_some()))
 }
 
-/// The boundary in the legend, by the name of its share: `F_a(F=0) = 0.05 F_a,max`.
+/// Name of the boundary in the legend: `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
     let (force, ideal) = share.symbol().split_once('/').unwrap_or((share.symbol(), ""));
     Label::symbol(&format!("{force} = {VANISHING_SHARE} {ideal}"))
@@ -168,7 +168,7 @@ fn range(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>], scal
     }
 }
 
-/// Returns true if a quantity falls too far for a linear scale.
+/// Returns true if a quantity falls over too many decades for a linear scale.
 fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     let means = || estimates.iter().flatten().map(|estimate| estimate.mean);
     let above = means().filter(|mean| *mean > 0.0);
@@ -177,8 +177,8 @@ fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_SECOND
 }
 
-/// Curves with their confidence, a single one with median and quartiles of the profiles, and upright lines where the
-/// adhesion force without a load vanishes.
+/// Layers of the curves with their confidence intervals; for a single curve also median and quartiles of the profiles.
+/// Vertical lines mark where adhesion without load vanishes.
 fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> Vec<Layer> {
     let places = &grid.across.values;
     let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();
@@ -228,7 +228,7 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
     layers
 }
 
-/// Coordinates on the axis across at which a share of F_a,max vanishes.
+/// Coordinates on the axis across at which F_a(0)/F_a,max vanishes.
 fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     let shares = means(&grid.statistics(share, false));
     let places = coordinates(&grid.across);
@@ -291,7 +291,6 @@ mod tests {
         }
     }
 
-    /// A cell of two quantities with a regime.
     fn cell(kappa: f64, hurst: f64) -> Cell {
         let values = [share(kappa, hurst), coefficient(kappa, hurst)];
         let regime = match values {

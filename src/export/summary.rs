@@ -14,11 +14,11 @@ use asperity_scene::{Outcome, Timings};
 use asperity_scene::{Scene, loading_text};
 use asperity_surface::Form;
 
-/// Largest number of loading stages, or runs of them, that are listed; further ones are counted.
+/// Number of loading stages, or of repeated groups of them, that are listed; further ones are counted.
 const MOST_STAGES: usize = 8;
 
-/// Result of a scene in plain text of at most 80 columns, with the estimated error of the adhesion force and the choice of
-/// springs for a tolerance if there are such.
+/// Results of a scene as plain text of at most 80 columns, with the estimated error of the adhesion force and the choice of
+/// springs for a tolerance, if these are given.
 pub(super) fn summary(
     scene: &Scene,
     outcome: &Outcome,
@@ -39,7 +39,7 @@ pub(super) fn summary(
     sheet.into_text()
 }
 
-/// The result of a scene in a few rows: title, κ, regime, forces and dissipated energy.
+/// Results of a scene in a few rows: title, κ, regime, forces and dissipated energy.
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
@@ -58,7 +58,7 @@ fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
     value.map(|value| format_quantity(value, unit))
 }
 
-/// Warning of a measured surface whose unit may be wrong.
+/// Warning for a measured surface whose unit may be wrong.
 pub(super) fn warning(scene: &Scene, outcome: &Outcome) -> Option<String> {
     scene.measured().and(outcome.governing.amplitude).and_then(|amplitude| steep(amplitude.rms_gradient))
 }
@@ -130,7 +130,6 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     }
 }
 
-/// The regimes by both protocols in one sentence.
 fn regime(outcome: &Outcome) -> String {
     let adhesive = outcome.governing.adhesive_work().is_some();
     let Some(regime) = outcome.regime else {
@@ -187,7 +186,8 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     share(sheet, "  F_a/F_n", adhesion, preload, NEGLIGIBLE_COEFFICIENT, says);
 }
 
-/// One share, its side of the threshold, and the conclusion: from the threshold on, below.
+/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion, which is `from_on` from the
+/// threshold on and `below` otherwise.
 fn share(
     sheet: &mut Sheet,
     label: &str,
@@ -204,7 +204,7 @@ fn share(
     sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
 }
 
-/// Dissipated energy, and the Tabor number as a measure of its validity.
+/// Adds rows with the dissipated energy and the Tabor number, which shows whether it is valid.
 fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     let energy = outcome.figures.dissipated_energy;
     sheet.quantity("dissipated energy", energy, "J");
@@ -230,7 +230,7 @@ fn steep_waves(waves: SteepWaves) -> String {
     )
 }
 
-/// Warning of an equivalent profile that falls from a distance from the axis on, m.
+/// Warning that the equivalent profile falls beyond a distance from the axis, m.
 fn falling(from: f64) -> String {
     format!(
         "falls at {} from the axis: by the rule of Hess inner springs detach first; by the theory of JKR the edge recedes",
@@ -388,7 +388,8 @@ mod tests {
         }
     }
 
-    /// A band of few long waves: next to nothing adheres at first touch, and where the force is back at zero all does.
+    /// With a band of few long waves the regimes differ and are named with their protocols: little adheres at first touch,
+    /// and everything where the force is back at zero.
     #[test]
     fn regimes_that_differ_name_their_protocols() {
         let scene = [

@@ -1,4 +1,4 @@
-//! Analysed surfaces: text for readers, JSON, and their spectra as a table and as a figure.
+//! Analysed surfaces: text for readers, JSON, and the spectra as a table and a figure.
 
 use super::measured_face::{MeasuredFace, SurfaceFile};
 use super::report::{Json, Report};
@@ -21,26 +21,24 @@ const LINE_PER_DECADE: f64 = 10.0;
 
 const LINE: &str = "equivalent line";
 
-/// Median, quartiles and range of the adhesion forces of the profiles, and the error by the fit; `None` for fewer than two.
+/// Median, quartiles and range of the adhesion forces of the profiles, and their error due to the fit, in words; `None` for
+/// fewer than two profiles.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
     let fit = computed.fit_interval().map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));
     Some(format!("{} profiles: {}{}", forces.count, forces.words("N"), fit.unwrap_or_default()))
 }
 
-/// Analysed surfaces of one or both faces, with the known values of their contact.
+/// Analysed surfaces of one or two faces, with what is known of their contact.
 #[derive(Clone, Debug)]
 pub struct SurfaceReport {
-    /// The face, and the opposite one if that is rough too.
+    /// The analysed face, and the opposite face if it was measured too.
     pub faces: Vec<MeasuredFace>,
-    /// Equivalent line of the faces.
     pub line: EquivalentLine,
-    /// Effective modulus E*, Pa.
     pub modulus: Option<f64>,
-    /// Work of adhesion γ, J/m².
     pub work: Option<f64>,
-    /// Scene of the equivalent line if its adhesion is asked for, and the random profiles that were solved: none on
-    /// many springs without a request.
+    /// Scene of the equivalent line, if its adhesion was requested, with the results on random profiles; without them if
+    /// the scene has many springs and they were not requested.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
@@ -87,7 +85,7 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// The opposite face is an object inside, without equivalent line and adhesion.
+    /// The opposite face is an object inside, without the equivalent line and adhesion.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = self.adhesion.as_ref().and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
@@ -112,7 +110,7 @@ impl Report for SurfaceReport {
         }))
     }
 
-    /// Spectra: kind, wave number in rad/m, power in m³, waves averaged (if any).
+    /// The spectra: kind, wave number in rad/m, power in m³, and number of averaged waves (if any).
     fn table(&self) -> Option<Table<'_>> {
         let names = || {
             self.faces.iter().enumerate().flat_map(|(face, MeasuredFace { analysis, .. })| {
@@ -140,7 +138,7 @@ impl Report for SurfaceReport {
 }
 
 impl SurfaceReport {
-    /// Moments of the equivalent line and what follows from them.
+    /// Moments of the equivalent line, and quantities that follow from them.
     fn moments(&self) -> [MomentRow; 6] {
         let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus } =
             self.line.moments();
@@ -160,17 +158,16 @@ impl SurfaceReport {
     }
 }
 
-/// A moment of the equivalent line, or what follows from one, if it is known.
+/// A moment of the equivalent line, or a quantity that follows from one; its value is `None` if it is unknown.
 #[derive(Clone, Copy)]
 struct MomentRow {
     label: &'static str,
-    /// Key in JSON.
     key: &'static str,
     unit: &'static str,
     value: Option<Moment>,
 }
 
-/// Preload of the scene of an equivalent line, N; `None` for touch alone.
+/// Preload of the scene of an equivalent line, N; `None` if it only touches.
 fn preload(scene: &Scene) -> Option<f64> {
     match scene.loading.first() {
         Some(Move::ToForce(force)) => Some(*force),
@@ -224,7 +221,7 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.quantity("reliability cut-off", analysis.reliability_cutoff, "m");
 }
 
-/// Moments with their errors, a column for each kind; without e_el/E* if e_el is known.
+/// Adds a table of the moments with a column for each kind of error; without e_el/E* if e_el is known.
 fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
     let mut rows = vec![["", "value", "statistical", "method", "missing short waves"].map(str::to_owned)];
     for MomentRow { label, key, unit, value } in report.moments() {
@@ -250,7 +247,7 @@ fn with_error(estimate: Estimate, unit: &str) -> String {
     format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
 
-/// JSON object of the surfaces of a face in SI units. That of the first face holds the results of both faces
+/// JSON object of the surfaces of one face, in SI units. The object of the first face also holds the results of both faces
 /// together, and the object of the opposite face.
 #[derive(Serialize)]
 struct FaceJson<'a> {
@@ -296,7 +293,7 @@ fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result
 }
 
 impl<'a> FaceJson<'a> {
-    /// The face alone.
+    /// The facts of one face alone.
     fn new(face: &'a MeasuredFace) -> Self {
         let MeasuredFace { files, analysis } = face;
         let spectrum = |(direction, bins): &'a (Along, Vec<Bin>)| SpectrumJson {

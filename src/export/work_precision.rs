@@ -4,8 +4,8 @@ use asperity_data::AxisScale;
 use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::{CostTable, Knob};
 
-/// Relative errors over the least time of a run, one curve for each setting: errors of the adhesion force, or of
-/// the force curve if there is no adhesion force.
+/// Figure of relative errors over the shortest time of a run, one curve for each setting: errors of the adhesion force, or
+/// of the force curve if there is no adhesion force.
 pub fn work_precision(title: &str, table: &CostTable) -> Figure {
     let points = |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).collect::<Vec<_>>();
     let series: Vec<_> = Knob::ALL.into_iter().map(|knob| (knob, points(knob))).collect();

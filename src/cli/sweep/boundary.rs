@@ -1,4 +1,4 @@
-//! `asperity sweep boundary`: the boundary of vanishing zero-load adhesion.
+//! `asperity sweep boundary`: finds the boundary of vanishing zero-load adhesion.
 
 use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};

@@ -1,4 +1,4 @@
-//! `asperity sweep merge`: the tables of a study.
+//! `asperity sweep merge`: writes the tables of a study.
 
 use crate::cli::error::CliError;
 use asperity_data::path_name;

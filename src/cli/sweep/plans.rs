@@ -1,4 +1,4 @@
-//! `asperity sweep plans`: the built-in plans.
+//! `asperity sweep plans`: lists and prints the built-in plans.
 
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;

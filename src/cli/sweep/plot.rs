@@ -1,4 +1,4 @@
-//! `asperity sweep plot`: figures of a merged study.
+//! `asperity sweep plot`: draws figures of a merged study.
 
 use crate::cli::error::CliError;
 use crate::cli::output::OutputArguments;

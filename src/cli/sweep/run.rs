@@ -1,4 +1,4 @@
-//! `asperity sweep PLAN`: computation of a study, or of its missing records.
+//! `asperity sweep PLAN`: computes a study, or its missing records.
 
 use super::merge::write_merged;
 use crate::cli::error::CliError;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Time between two lines of progress without a terminal.
+/// Time between two lines of progress if standard error is no terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
 #[derive(Args, Debug)]
@@ -125,7 +125,7 @@ fn duration(time: Duration) -> String {
     }
 }
 
-/// Number of the first signal to end, 0 until then; a second signal ends the process at once.
+/// Returns the number of the first signal that asks the process to end, 0 until then; a second signal ends it at once.
 fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
     let first = Arc::new(AtomicUsize::new(0));
     #[cfg(unix)]

@@ -1,4 +1,4 @@
-//! `asperity sweep status`: the progress of a study.
+//! `asperity sweep status`: shows the progress of a study.
 
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
@@ -14,7 +14,7 @@ Examples:
   asperity sweep status study
   asperity sweep status study --format json";
 
-/// Most characters of the name of a machine in the table.
+/// Number of characters from which on the name of a machine is shortened in the table.
 const LONGEST_HOST: usize = 20;
 
 #[derive(Args, Debug)]

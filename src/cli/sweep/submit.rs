@@ -1,9 +1,9 @@
-//! `asperity sweep submit`: a study as an array of jobs of a Slurm cluster, one task for each shard.
+//! `asperity sweep submit`: submits a study to a Slurm cluster as an array of jobs, one task for each shard.
 //!
-//! Slurm starts a task at least once: a task whose node is lost is started again, while the lost one may still be
-//! running. That does no harm, as each attempt writes a file of its own and the merge counts a cell once. Slurm
-//! is slow at restarts, so the script restarts a killed program at once, which continues where its results end. The task
-//! that completes the study merges it.
+//! Slurm starts a task at least once: if a node is lost its task is started again, while the lost one may still be running.
+//! That does no harm, as each attempt writes its own file and the merge counts a record once. Slurm restarts slowly, so the
+//! script itself restarts a killed program at once, which continues where its results end. The task that completes the
+//! study merges it.
 
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
@@ -33,7 +33,7 @@ folder; the same line goes on with what has failed:
   seq 8 | parallel --joblog shards.log --resume-failed --retries 3 \\
     asperity sweep my-plan.ron -o study --shard {}/8 --jobs 1";
 
-/// Most restarts of a killed program by a task.
+/// Number of times that a task restarts a killed program.
 const RETRIES: u32 = 3;
 
 #[derive(Args, Debug)]
@@ -74,8 +74,8 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     Ok(())
 }
 
-/// The script of the array, with absolute paths on its nodes. Its directives are defaults: variables `SBATCH_…` and
-/// options of sbatch override them.
+/// The job script, with absolute paths on the nodes. Its directives are defaults: variables `SBATCH_…` and options of
+/// sbatch override them.
 fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<String, CliError> {
     // Slurm ends directives at a backslash and reads double quotes.
     let allowed = "allowed: UTF-8 without backslashes, double quotes and control characters";
@@ -115,7 +115,7 @@ done
     ))
 }
 
-/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason of a refusal.
+/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason why it refused.
 fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String> {
     let not_run = |error: io::Error| {
         match error.kind() {

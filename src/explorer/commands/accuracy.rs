@@ -1,5 +1,5 @@
-//! Studies of the present scene: the error of its outcome, springs for a tolerance, data of the shown pane, and the curve
-//! of a typed value.
+//! Studies of the present scene: error of its outcome, springs for a tolerance, data of the shown pane, and the curve of a
+//! typed value.
 
 use super::{edit, measured};
 use crate::explorer::action::Task;
@@ -17,10 +17,10 @@ use asperity_scene::{Choice, ChoiceError, Estimate, choose, estimate, parse_tole
 use std::path::Path;
 use std::sync::Arc;
 
-/// Most springs for an estimate in a demo: above, viewers would have to wait.
+/// Largest number of springs for which a demo estimates the error: above, viewers would have to wait.
 const MOST_ESTIMATED: u64 = 1 << 17;
 
-/// Files of an explored scene are named by whole paths.
+/// Empty: the paths of an explored scene are absolute or relative to the working folder.
 const FOLDER: &str = "";
 
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub struct Choosing {
     pub found: Option<Result<Choice, ChoiceError>>,
 }
 
-/// The studies that the present state needs and that have not ended, in the order of their performance.
+/// The studies that the present state needs and that have not ended, in the order in which they are performed.
 pub fn studies(app: &mut App) -> Vec<Study> {
     let mut wanted: Vec<Study> = app.tried.as_ref().map(preview).into_iter().collect();
     if let Some(computed) = app.current().map(Arc::clone) {
@@ -53,7 +53,7 @@ pub fn studies(app: &mut App) -> Vec<Study> {
     app.studies.begin(wanted)
 }
 
-/// Computes the outcome of a scene that is tried.
+/// Computes the outcome of the scene with the value being typed.
 fn preview(document: &Document) -> Study {
     let (text, scene) = (document.text().to_owned(), scene_of(document));
     Study::new(document.text(), false, move |simulation, stop, _| {
@@ -66,7 +66,7 @@ fn preview(document: &Document) -> Study {
     })
 }
 
-/// Searches the fewest springs of a scene for a tolerance.
+/// Searches the smallest number of springs of a scene for a tolerance.
 fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     Study::new(generation, false, move |_, stop, report| {
         let found = choose(&scene, Path::new(FOLDER), tolerance, stop, &mut |points| {
@@ -86,7 +86,7 @@ pub fn type_tolerance(app: &mut App) {
     }
 }
 
-/// Searches springs for a typed tolerance.
+/// Begins the search of the number of springs that meets a typed tolerance.
 pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     let tolerance = parse_tolerance(typed)?;
     if !app.is_current() {
@@ -97,7 +97,7 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Takes over the outcome of a search.
+/// Applies the result of the search to the scene.
 pub fn found(app: &mut App) {
     if let Some(Choosing { found: Some(found), .. }) = app.studies.value::<Choosing>().cloned() {
         app.studies.forget::<Choosing>();

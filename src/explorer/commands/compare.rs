@@ -1,11 +1,11 @@
-//! Loops kept for comparison.
+//! Scenes kept for comparison.
 
 use super::edit;
 use crate::explorer::app::App;
 use crate::explorer::ghost::{Ghost, letter};
 use std::sync::Arc;
 
-/// Most kept curves: each has a colour of its own.
+/// Largest number of kept scenes: each has a colour of its own.
 const MOST_GHOSTS: usize = 4;
 
 pub fn clear(app: &mut App) {

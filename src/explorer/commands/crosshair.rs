@@ -1,4 +1,4 @@
-//! The crosshair of the selected pane, to be read: on profile and close-up at one position along the line, on other charts
+//! The crosshair of the selected pane, for readings: on profile and close-up at a position along the line, on other charts
 //! at a share of the horizontal axis.
 
 use crate::explorer::app::App;
@@ -6,10 +6,10 @@ use crate::explorer::keys::bindings::Context;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
 
-/// Small and large steps across a pane.
+/// Number of small and of large steps across a pane.
 const STEPS: (f64, f64) = (100.0, 10.0);
 
-/// Shows or hides the crosshair, which begins in the middle of the selected pane.
+/// Shows or hides the crosshair, which appears in the middle of the selected pane.
 pub fn toggle(app: &mut App) {
     if app.view.crosshair.take().is_some() {
         return;
@@ -23,7 +23,7 @@ pub fn toggle(app: &mut App) {
     app.view.crosshair = Some(0.5 * (low + high));
 }
 
-/// Moves the crosshair by steps, positive to the right.
+/// Moves the crosshair by a number of steps, positive to the right.
 pub fn move_by(app: &mut App, steps: i32, coarse: bool) {
     let (low, high) = ends(app);
     let step = (high - low) / if coarse { STEPS.1 } else { STEPS.0 };
@@ -50,7 +50,8 @@ pub fn point_at(app: &mut App, x: f64) {
     app.view.crosshair = Some(share.clamp(low, high));
 }
 
-/// Positions at the left and right end of the selected pane: of the profile, or of the curves of another chart.
+/// Positions, as shares, of the left and right end of the selected pane: of the part of the profile, or of the curves of
+/// another chart.
 fn ends(app: &App) -> (f64, f64) {
     let share = |spring: usize| (spring as f64 / springs(app)).min(1.0);
     if let Some(section) = app.section() {

@@ -1,4 +1,4 @@
-//! Prompts: what opens, edits, accepts and cancels them.
+//! Prompts: opening, editing, accepting and cancelling them.
 
 use super::{accuracy, edit, files, measured, movement};
 use crate::explorer::action::{OutputFile, Task};
@@ -12,10 +12,10 @@ use crate::explorer::prompt::{Prompt, Purpose, Topic};
 use asperity_scene::{Entry, typed_path};
 use tui_input::InputRequest;
 
-/// Name of the list that is read, whose entries are not chosen.
+/// Name of the help, a list that is only read: its entries cannot be chosen.
 const HELP: &str = "Help";
 
-/// Opens the search of the list of parameters, in its pane.
+/// Opens the search of the list of parameters, and its pane.
 pub fn find_parameter(app: &mut App) {
     app.ask(Purpose::Parameter { before: app.view.pane }, "");
     edit::show_parameters(app)
@@ -33,7 +33,7 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
     }
 }
 
-/// Opens the help: the notice of the scene, for which a small window has no room, contents of the panes, and all keys.
+/// Opens the help: the notice of the scene, for which a small window has no room, the contents of the panes, and all keys.
 pub fn open_help(app: &mut App) {
     let topic = |name: &str, text: &str| Topic {
         section: "What you see",
@@ -50,7 +50,6 @@ pub fn open_help(app: &mut App) {
     app.ask(Purpose::Topics { name: HELP, topics, is_typed: false }, "");
 }
 
-/// Opens the list of commands, to be searched.
 pub fn open_commands(app: &mut App) {
     let topics = app.config.bindings.listed().map(Topic::of).collect();
     app.ask(Purpose::Topics { name: "Commands", topics, is_typed: true }, "");
@@ -63,7 +62,7 @@ pub fn search_help(app: &mut App) {
     }
 }
 
-/// Moves the selection of the list by rows.
+/// Moves the selection of the list by a number of rows.
 pub fn select(app: &mut App, rows: i32) {
     if let Some(prompt) = &mut app.prompt {
         let last = prompt.found.len().saturating_sub(1);
@@ -71,14 +70,14 @@ pub fn select(app: &mut App, rows: i32) {
     }
 }
 
-/// Moves the selection of the list, or that of the parameters, by pages: half the rows of a window, since an entry may take
-/// two of them.
+/// Moves the selection of the list, or of the parameters, by pages: half the rows of a window each, since an entry may take
+/// two rows.
 pub fn page(app: &mut App, pages: i32) {
     let rows = pages * i32::from(Layout::of(app).body().height / 2).max(1);
     if app.prompt.is_some() { select(app, rows) } else { edit::move_selection(app, rows) }
 }
 
-/// Accepts the line, the selected row, or the question. A refused line stays, with the reason.
+/// Accepts the typed line, the selected row, or the question. A refused line stays in the prompt, with the reason.
 pub fn accept(app: &mut App) {
     let Some(mut prompt) = app.prompt.take() else { return };
     if let Purpose::Topics { name: HELP, is_typed: is_typed @ true, .. } = &mut prompt.purpose {
@@ -135,7 +134,7 @@ pub fn cancel(app: &mut App) {
     }
 }
 
-/// Chooses a command of the list, in a pane where its key is valid.
+/// Chooses a command of the list, to be run in a pane in which its key is valid.
 fn choose(app: &mut App, command: Command) {
     let is_valid = |context: Context| command.row.contexts.contains(&context);
     match app.keys() {
@@ -147,11 +146,11 @@ fn choose(app: &mut App, command: Command) {
     app.chosen = Some(command);
 }
 
-/// Parameters whose values have names of files.
+/// Paths of parameters whose values contain names of files.
 const WITH_FILES: [&str; 4] =
     ["roughness", "roughness.file", "roughness.further_files", "roughness.opposite"];
 
-/// The path being typed: the whole line or, in a value, what follows the last quote, in the folder of the scene.
+/// The path being typed: the whole line, or in a value what follows the last quote, relative to the folder of the scene.
 fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let text = prompt.line.text().trim_start();
@@ -169,14 +168,14 @@ pub fn can_complete(app: &App) -> bool {
     typed_in_line(app).is_some()
 }
 
-/// Requests the paths that begin as typed.
+/// Requests the paths that begin as the typed one.
 pub fn complete(app: &mut App) {
     if let Some(path) = typed_in_line(app) {
         app.effects.push(Task::Complete(path));
     }
 }
 
-/// Types the common start of the paths that begin as typed, and shows them if they are several.
+/// Completes the typed path by what all these paths begin with, and shows them if they are several.
 pub fn completed(app: &mut App, paths: Vec<String>) {
     let Some(typed) = typed_in_line(app) else { return };
     let common = common_start(&paths);

@@ -1,4 +1,4 @@
-//! Edits of the scene. Each results in a document of its own and can be undone.
+//! Edits of the scene. Each gives a new document and can be undone.
 
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget, Message};
@@ -18,13 +18,13 @@ use asperity_scene::{
     read_stage, ron_float,
 };
 
-/// Moves the selection in the list of parameters, as far as there are rows.
+/// Moves the selection in the list of parameters by a number of rows, up to its ends.
 pub fn move_selection(app: &mut App, rows: i32) {
     app.edit.move_selection(rows);
     show_parameters(app);
 }
 
-/// Explores a scene just read, or states the reason why it is not allowed.
+/// Explores a scene that was just read, or states why it cannot be.
 pub fn open_read(app: &mut App, read: Result<Document, SceneErrors>) {
     match read {
         Ok(document) => open(app, document),
@@ -48,7 +48,7 @@ pub fn open(app: &mut App, document: Document) {
     app.edit.set_saved();
 }
 
-/// Opens the editor on the selected value, which the first typed character replaces.
+/// Opens the editor of the selected value; `first` is a first typed character, which replaces the value.
 pub fn edit_value(app: &mut App, first: Option<char>) {
     let Some(parameter) = app.edit.parameter() else { return };
     match parameter.setting {
@@ -71,7 +71,7 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
     show_parameters(app);
 }
 
-/// Edits the line; the preview of the value, or the list, follows.
+/// Edits the typed line and updates its preview or its list.
 pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     let Some(prompt) = &mut app.prompt else { return };
     let before = prompt.line.text().to_owned();
@@ -86,7 +86,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     }
 }
 
-/// The way to change a parameter without a number.
+/// States how a parameter without a number is changed.
 fn way_of_changing(parameter: &Parameter) -> String {
     let way = match (parameter.setting, parameter.field.step) {
         (Setting::Heading, _) => "a group: its fields are in the rows below",
@@ -96,7 +96,7 @@ fn way_of_changing(parameter: &Parameter) -> String {
     format!("{} is {way}", parameter.name())
 }
 
-/// Chooses the list of parameters where a small window hides it: no value changes unseen.
+/// Selects the list of parameters if a small window hides it, so that no value changes unseen.
 pub fn show_parameters(app: &mut App) {
     if Layout::of(app).pane(Pane::Parameters).is_none() {
         app.show(Pane::Parameters);
@@ -131,7 +131,7 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
-/// The value of a parameter at the start of the editor: in the shown unit, to the last digit.
+/// The value of a parameter when its editor opens: in the shown unit, with all digits.
 fn editable(app: &App, parameter: &Parameter) -> String {
     let written = app.written(parameter).unwrap_or_default();
     match parameter.field.range {
@@ -145,7 +145,6 @@ fn editable(app: &App, parameter: &Parameter) -> String {
     }
 }
 
-/// Sets the selected parameter to the typed value.
 pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     let Some(parameter) = app.edit.parameter() else { return Ok(()) };
     if typed == editable(app, parameter) {
@@ -160,7 +159,7 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// The scene with a typed value of the selected parameter, or why there is none. A stage may be typed as any kind.
+/// The scene with a typed value of the selected parameter, or the reason why it is refused. A stage may be typed as any kind.
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
@@ -183,7 +182,7 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     }
 }
 
-/// A scene, unless it presses more than the present one and out of reach.
+/// Returns the scene unless it presses more than the present one and out of reach; otherwise the reason.
 fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     let force = pressing_force(&changed.scene().loading);
     let is_more = force > pressing_force(&app.edit.document.scene().loading);
@@ -199,7 +198,7 @@ fn set_selected(app: &mut App, written: &str) {
     }
 }
 
-/// The scene with another value of the selected parameter, in the notation of the scene; or why there is none.
+/// The scene with another value of the selected parameter, in the notation of the scene; or the reason why it is refused.
 fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
@@ -244,21 +243,21 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     changed.map_err(|errors| reasons(&errors)).and_then(|changed| within_reach(app, changed))
 }
 
-/// Errors of values, without their places.
+/// Errors of values in words, without their places.
 pub fn reasons(errors: &SceneErrors) -> String {
     errors.iter().map(|error| error.what()).collect::<Vec<_>>().join("; ")
 }
 
-/// Most springs for a preview while a value is typed: the next character stops the computation.
+/// Largest number of springs for a preview while a value is typed; the next character stops the computation.
 const MOST_SPRINGS_TRIED: u64 = 1 << 20;
 
-/// Returns true if a scene is small enough for a preview; the number of steps of the stepwise solver has no limit.
+/// Returns true if a scene is small enough for a preview, which the stepwise solver never is.
 fn is_previewed(document: &Document) -> bool {
     let numerics = document.scene().numerics;
     numerics.points <= MOST_SPRINGS_TRIED && numerics.solver == Solver::Exact
 }
 
-/// Requests the curve with the value typed so far, or none where that is not an allowed value.
+/// Requests the curve for the value typed so far; no curve if the value is not allowed.
 pub fn preview(app: &mut App) {
     let typed = app.prompt.as_ref().filter(|_| app.is_typing_value()).map(|prompt| prompt.line.text());
     let tried = typed.and_then(|typed| with_typed(app, typed).ok());
@@ -286,14 +285,14 @@ fn refuse(app: &mut App, why: String) {
     app.message = Some(Message::Refused(why));
 }
 
-/// Sets a field; an invalid value leaves the scene unchanged.
+/// Sets a field; for an invalid value the scene stays unchanged and the reason is stated.
 pub fn change(app: &mut App, path: &str, value: &str) {
     let changed = app.edit.document.set(path, value);
     apply(app, changed)
 }
 
-/// Draws another random profile, of a seed with at most six digits, which can be read out to a colleague. The seeds
-/// follow each other in an order of full length.
+/// Draws another random profile with a seed of at most six digits, which can be read out to a colleague. The seeds follow
+/// each other in a sequence that repeats none.
 pub fn draw_seed(app: &mut App) {
     match app.edit.document.scene().seed() {
         Some(seed) => {
@@ -304,7 +303,7 @@ pub fn draw_seed(app: &mut App) {
     }
 }
 
-/// Makes a changed document the explored one, or states the reason why it is not allowed.
+/// Makes a changed document the explored one, or states why it is not allowed.
 pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     match changed {
         Ok(document) => {
@@ -319,7 +318,7 @@ pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     }
 }
 
-/// Makes a document the explored one; undo returns to the former one.
+/// Makes a document the explored one; an undo returns to the former document.
 pub fn adopt(app: &mut App, document: Document) {
     app.edit.adopt(document);
     after_edit(app);
@@ -331,7 +330,7 @@ pub fn replace(app: &mut App, document: Document) {
     after_edit(app);
 }
 
-/// Undoes the last edit, or redoes the last edit that was undone, and states the change.
+/// Undoes the last edit or, unless `back`, redoes the last undone edit; states the change.
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
     let Some(what) = app.edit.undo(back) else { return app.set_done(format!("nothing to {name}")) };

@@ -1,4 +1,4 @@
-//! Output of the explorer: the scene, exports, the command to open the scene.
+//! Output of the explorer: the scene, exports, and the command that opens the scene.
 
 use super::edit;
 use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
@@ -30,7 +30,7 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     Ok(())
 }
 
-/// Asks for the file of the scene or, where that is saved, of one left with unsaved changes.
+/// Asks for the file of the scene or, if that is saved, of another scene with unsaved changes.
 pub fn save_before_leaving(app: &mut App) {
     let left = app.edit.unsaved().first().map(|document| Document::clone(document));
     if let Some(document) = left.filter(|_| !app.edit.is_unsaved()) {
@@ -45,7 +45,7 @@ pub fn ask_export(app: &mut App) {
     app.ask(Purpose::Export, &format!("{stem}.csv"));
 }
 
-/// Exports the selected pane to a file; the extension of its name chooses the format.
+/// Exports the selected pane to a file; the extension of the name chooses the format.
 pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     let extensions = EXPORTS.map(Format::extension);
     let place = check_extension(&path, &extensions)?.ok_or_else(|| {
@@ -55,7 +55,7 @@ pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     write(app, path, Content::Pane(EXPORTS[place]), false)
 }
 
-/// Handles the result of writing.
+/// Reports the result of writing a file, and what follows from it.
 pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
     match result {
@@ -83,7 +83,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
     }
 }
 
-/// Returns true for a changed built-in scene whose notice is still that of the built-in one.
+/// Returns true for a changed built-in scene that still has the notice of the built-in one.
 fn has_foreign_notice(edit: &Editor) -> bool {
     let notice = &edit.document.scene().notice;
     let preset = presets().iter().find(|preset| preset.name == edit.document.name());

@@ -1,4 +1,4 @@
-//! Commands of the map and of the scene as its mark.
+//! Commands of the map, on which the scene is a mark.
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
-/// Shows the map of the study, or the live map.
+/// Changes between the map of the study and the live map.
 pub fn toggle_study(app: &mut App) {
     if app.map.study.is_none() {
         app.set_error(NO_STUDY);
@@ -20,7 +20,7 @@ pub fn toggle_study(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// Shows another map of the study. A scene that belongs to the former map follows.
+/// Shows another map of the study. If the scene belongs to the former map, it is moved to the new one.
 pub fn step_slice(app: &mut App, steps: i32) {
     let Some(study) = app.map.shown_study() else {
         let why = if app.map.study.is_some() {
@@ -50,7 +50,7 @@ pub fn step_slice(app: &mut App, steps: i32) {
     }
 }
 
-/// Moves the mark by columns and rows of the map.
+/// Moves the mark, and with it the scene, by columns and rows of the map.
 pub fn step(app: &mut App, columns: i32, rows: i32) {
     let Some((at_across, at_up)) = app.place() else {
         let why = match live_plan(app.edit.document.scene(), RoughnessParameter::Kappa) {
@@ -79,10 +79,10 @@ pub fn step(app: &mut App, columns: i32, rows: i32) {
     }
 }
 
-/// Message for a scene that lacks a quantity of the axes.
+/// Message for a scene that lacks a quantity of the map's axes.
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
-/// Sets the scene to the values of a place on the map. Successive moves are one edit.
+/// Sets the scene to the values at a place on the map. Successive moves count as one edit.
 pub fn move_to(app: &mut App, place: Place) {
     let goes_on = app.map.moving;
     match moved_to(app, place) {
@@ -92,7 +92,7 @@ pub fn move_to(app: &mut App, place: Place) {
     app.map.moving = !app.is_refused();
 }
 
-/// The scene at a place on the map. A preload in units of E* h L may change with the place.
+/// The scene moved to a place on the map. A preload in units of E* h L may change with the place.
 fn moved_to(app: &App, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
     let axes = app.map_axes();
     let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));

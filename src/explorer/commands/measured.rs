@@ -1,4 +1,4 @@
-//! A measured force curve beside the scene: its first touch, the residual of the scene, and the fit of parameters.
+//! A measured force curve beside the scene: its first touch, the residual of the scene, and fits of parameters.
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -10,10 +10,10 @@ use asperity_data::{format_quantity, one_unit};
 use asperity_study::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
 use std::sync::Arc;
 
-/// Number of computed curves between two reports of a fit.
+/// Number of computed curves between two progress reports of a fit.
 const REPORTED: usize = 64;
 
-/// The study of the measured curve: the fit that was asked for, else the place of the curve and the residual.
+/// The study of the measured curve: the requested fit, or else the position of the curve and the residual.
 pub fn study(app: &App) -> Option<Study> {
     let (curve, document) = (Arc::clone(&app.measured.as_ref()?.curve), app.edit.document.clone());
     let options = |free| FitOptions { free, lines: 1, jobs: 1 };
@@ -48,7 +48,6 @@ pub fn ask_fit(app: &mut App) {
     }
 }
 
-/// Begins the search of the typed parameters.
 pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
     let free = typed.split(',').map(|one| one.trim().parse()).collect::<Result<Vec<Free>, String>>()?;
     if !app.is_current() {
@@ -59,7 +58,7 @@ pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Takes over what has been found: the place of the curve, and the scene of a fit.
+/// Applies what a study has found: the position of the curve, and the scene of a fit.
 pub fn found(app: &mut App) {
     if let Some(Fitting { found: Some(found), .. }) = app.studies.value::<Fitting>().cloned() {
         app.studies.forget::<Fitting>();
@@ -79,7 +78,7 @@ pub fn found(app: &mut App) {
     }
 }
 
-/// The parameters found, with their intervals; a scene that does not describe the curve is stated first.
+/// The fitted parameters with their intervals, in words; first of all whether the scene does not describe the curve.
 fn sentence(fit: &Fit) -> String {
     let found = |one: &FittedParameter| {
         let interval = one_unit([one.interval.0, one.interval.1].map(|end| one.text(end)));

@@ -1,4 +1,4 @@
-//! The table of keys, and one file for the verbs of each kind.
+//! The commands of the explorer: the table of keys, and one file for the functions of each kind.
 
 pub mod accuracy;
 mod compare;

@@ -1,4 +1,4 @@
-//! Movement of the body: animation of the scene's loading, or manual loading.
+//! Movement of the body: the animation of the scene's loading, or manual loading.
 
 use crate::explorer::app::{App, ManualState};
 use crate::explorer::player::{At, Player};
@@ -11,14 +11,14 @@ use asperity_scene::pull_off_point;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Time of the animation for one loading stage, at speed 1.
+/// Time that the animation takes for one loading stage at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
 const STEPS: f64 = 120.0;
-/// Share of a stage that counts as its start.
+/// Share of a loading stage that counts as its start.
 const NEAR_START: f64 = 0.05;
-/// Small and large steps of manual loading in the whole range of indentations.
+/// Number of small and of large steps of manual loading over the whole range of indentations.
 const HAND_STEPS: (f64, f64) = (400.0, 40.0);
-/// Most kept points of the path of manual loading.
+/// Largest number of points kept of the path of manual loading.
 const PATH_KEPT: usize = 20_000;
 
 pub fn toggle_manual(app: &mut App) {
@@ -27,7 +27,7 @@ pub fn toggle_manual(app: &mut App) {
     }
 }
 
-/// Presses (positive) or pulls the body by a number of steps of manual loading.
+/// Presses the body by a number of steps of manual loading, or pulls it if negative.
 pub fn push(app: &mut App, steps: i32, coarse: bool) {
     let (low, high) = app.indentations().unwrap_or_default();
     let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
@@ -38,8 +38,8 @@ pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
 
-/// Plays or pauses the animation; at its end it begins again. Like all movements of the animation this ends manual
-/// loading: the animation is the loading of the scene.
+/// Plays or pauses the animation; at its end it begins again. Like all movements of the animation this ends manual loading,
+/// since the animation shows the loading of the scene.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;
     let at_end = app.play.at == At::End && app.play.leg + 1 >= app.legs().len();
@@ -69,7 +69,7 @@ pub fn restart(app: &mut App) {
     app.play = Player::START;
 }
 
-/// Goes to the start of the leg `legs` after this one; back from inside a leg, to its own start first.
+/// Goes to the start of a loading stage, `legs` after the present one; back from inside a stage, first to its own start.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
     // A playing animation is past the start at once.
@@ -79,7 +79,7 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
     app.play.at = At::Start;
 }
 
-/// Goes to the pull-off, while the contact still holds.
+/// Goes to the state at the pull-off, just before the contact is lost.
 pub fn go_to_pull_off(app: &mut App) {
     let legs = app.legs();
     let Some((leg, point)) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0) else {
@@ -109,7 +109,6 @@ pub fn elapse(app: &mut App, time: Duration) {
     app.play = player;
 }
 
-/// Stores a snapshot from the worker.
 pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     // Another snapshot may have been on its way when the fragment was requested.
     if snapshot.focus == app.view.close_up.focus && app.view.close_up.focus.is_question() {
@@ -137,7 +136,7 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     app.snapshot = Some(snapshot);
 }
 
-/// Begins manual loading where it has not begun, and moves the body.
+/// Begins manual loading if it has not begun, and moves the body.
 pub fn take(app: &mut App, order: Option<ManualMove>) {
     if !app.is_current() || app.legs().is_empty() {
         return;
@@ -157,7 +156,6 @@ pub fn take(app: &mut App, order: Option<ManualMove>) {
     }
 }
 
-/// Moves the body to a typed force.
 pub fn accept_force(app: &mut App, typed: &str) -> Result<(), String> {
     let force = parse_quantity(&in_unit(typed, &unit_of_force(app)), "N");
     let force = force.map_err(|error| format!("{error}; for example 10 µN, or -2 µN to pull"))?;

@@ -1,4 +1,4 @@
-//! Scenes, studies and measured curves that are opened.
+//! Opening of scenes, studies and measured curves.
 
 use super::edit;
 use crate::explorer::app::App;
@@ -12,7 +12,7 @@ use crate::export::loop_chart::LoopQuantities;
 use asperity_study::StudyMap;
 use std::sync::Arc;
 
-/// The explorer in a window of this size, opened on the arguments of the program.
+/// Creates the state of an explorer in a window of this size, opened with the arguments of the program.
 pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config: Config) -> App {
     let Opening { document, study_map, ghost, measured } = opening;
     let mut app = App::new(document, size, appearance, config);
@@ -22,21 +22,20 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     app
 }
 
-/// Explores a scene or a study opened by its path.
+/// Explores a scene or a study that was opened by its path.
 pub fn open(app: &mut App, opening: Opening) {
     let Opening { document, study_map, .. } = opening;
     edit::open(app, document);
     study_map.into_iter().for_each(|study_map| show_study(app, study_map));
 }
 
-/// Shows the map of a study, the first of them.
 fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
     app.map.study = Some(OpenStudy::new(study_map, 0));
     app.map.of_study = true;
     app.show(Pane::Map);
 }
 
-/// Shows a measured curve. The scene takes its loading, as an edit that can be undone.
+/// Shows a measured curve. The scene gets the loading of the curve, as an edit that can be undone.
 fn show_measured(app: &mut App, measured: Measured) {
     match measured.curve.load(&app.edit.document, measured.offset) {
         Ok(loaded) => {

@@ -1,4 +1,4 @@
-//! Edits of the loading: its stages one by one, and the path of manual loading.
+//! Edits of the loading: of single stages, and by the path of manual loading.
 
 use super::edit;
 use crate::explorer::app::App;
@@ -7,10 +7,10 @@ use asperity_contact::Move;
 use asperity_data::round_to;
 use asperity_scene::{Document, STAGE_KINDS, SceneErrors, StageKind, kind_and_number};
 
-/// Stages, those of the present loading with their places in it.
+/// Loading stages; a stage of the present loading has its index in it.
 type Stages = Vec<(Option<usize>, Move)>;
 
-/// The selected stage, on the row of the loading the last one; states where there is none.
+/// Index of the selected stage, or on the row of the whole loading of the last one; states an error if neither is selected.
 fn selected(app: &mut App) -> Option<usize> {
     edit::show_parameters(app);
     let last = app.edit.document.scene().loading.len() - 1;
@@ -22,7 +22,7 @@ fn selected(app: &mut App) -> Option<usize> {
     stage
 }
 
-/// Changes the stages, given the selected one, and selects the stage that results.
+/// Changes the stages, given the index of the selected one; `change` returns the index of the stage to select.
 fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
     let Some(at) = selected(app) else { return };
     let mut stages = app.edit.document.stages();
@@ -33,7 +33,7 @@ fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
     }
 }
 
-/// Makes an allowed scene the explored one and selects a stage.
+/// Makes a scene the explored one, if it is allowed, and selects a stage.
 fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     let is_allowed = changed.is_ok();
     edit::apply(app, changed);
@@ -43,8 +43,8 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     }
 }
 
-/// Adds a stage after the selected one, and opens its editor: after a stage that presses a pull to zero force, at the end to
-/// separation; else a press.
+/// Adds a stage after the selected one and opens its editor: after a stage that presses, a stage to zero force, or at the
+/// end to separation; otherwise a stage that presses.
 pub fn add(app: &mut App) {
     let (force, before) = (pressing_force(app), app.edit.generation);
     change(app, |stages, at| {
@@ -58,7 +58,6 @@ pub fn add(app: &mut App) {
     }
 }
 
-/// Deletes the selected stage.
 pub fn delete(app: &mut App) {
     change(app, |stages, at| {
         stages.remove(at);
@@ -66,7 +65,7 @@ pub fn delete(app: &mut App) {
     })
 }
 
-/// Exchanges the selected stage with the one before or after it.
+/// Exchanges the selected stage with the previous or the next one.
 pub fn shift(app: &mut App, way: isize) {
     change(app, |stages, at| {
         let to = at.saturating_add_signed(way).min(stages.len() - 1);
@@ -75,7 +74,8 @@ pub fn shift(app: &mut App, way: isize) {
     })
 }
 
-/// Changes the selected stage to the next kind in this direction that the loading allows, with the state at its end.
+/// Changes the selected stage to the next kind, forwards or backwards, that the loading allows, with the value that it
+/// reaches now.
 pub fn change_kind(app: &mut App, forwards: bool) {
     let Some(at) = selected(app) else { return };
     let legs = app.current().map(|solved| &solved.outcome.history.legs);
@@ -102,7 +102,7 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     }
 }
 
-/// The largest force of the loading, or of the one before it; else one that suits the computed scene, N.
+/// Largest force of the loading or of the loading before the last edits, N; otherwise a force that suits the computed scene.
 fn pressing_force(app: &App) -> f64 {
     let name = app.edit.document.name();
     let before = app.edit.past.iter().rev().filter(|document| document.name() == name);
@@ -119,7 +119,7 @@ fn pressing_force(app: &App) -> f64 {
     given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
 }
 
-/// Steps the selected value; for a stage in words its kind.
+/// Steps the selected value; for a stage without a number its kind.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else { return };
     match parameter.leg {
@@ -128,20 +128,20 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
-/// Replaces the stages of a scene by a loading; a stage that does not change keeps its text.
+/// The stages of a loading that replaces the loading of a scene; an unchanged stage keeps its text.
 fn replaced(document: &Document, loading: impl IntoIterator<Item = Move>) -> Stages {
     let present = &document.scene().loading;
     let placed = |(at, stage)| ((present.get(at) == Some(&stage)).then_some(at), stage);
     loading.into_iter().enumerate().map(placed).collect()
 }
 
-/// The scene with the path of manual loading as its loading.
+/// The scene with the path of manual loading as its loading; `None` without manual loading.
 pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
     let loading = &app.manual.as_ref()?.loading;
     Some(app.edit.document.with_stages(&replaced(&app.edit.document, loading.iter().copied())))
 }
 
-/// Keeps the path of manual loading as the loading of the scene, with the body at its end.
+/// Makes the path of manual loading the loading of the scene, with the body at its end.
 pub fn keep_path(app: &mut App) {
     match with_path(app) {
         None => app.set_error("no manual loading; d begins it"),

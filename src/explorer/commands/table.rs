@@ -12,7 +12,7 @@ use crate::explorer::request::Focus;
 use Run::{Character, Do, Edit};
 use tui_input::InputRequest;
 
-/// A row of the table, its function, and the condition for the footer.
+/// A row of the table with its function and the condition for its place in the footer.
 pub struct Entry {
     row: Row,
     run: Run,
@@ -22,12 +22,12 @@ pub struct Entry {
 #[derive(Clone, Copy)]
 enum Run {
     Do(fn(&mut App)),
-    /// The same, with the character of the key.
+    /// Runs a function that also takes the character of the key.
     Character(fn(&mut App, char)),
     Edit(InputRequest),
 }
 
-/// Changes the state by a command.
+/// Runs a command, which changes the state.
 pub fn run(command: Command, app: &mut App) {
     let Some(entry) = TABLE.iter().find(|entry| std::ptr::eq(&entry.row, command.row)) else { return };
     match (entry.run, command.character) {
@@ -42,18 +42,18 @@ pub fn bindings() -> Bindings {
     Bindings::of(TABLE.iter().map(|entry| &entry.row))
 }
 
-/// Keys and rows of the footer, the most important first; adjacent rows with the same label are one item.
+/// Keys and rows for the footer, the most important first; neighbouring rows with the same label are one item.
 pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     let is_hidden =
         |row: &Row| TABLE.iter().any(|entry| std::ptr::eq(&entry.row, row) && !(entry.is_shown)(app));
     app.config.bindings.footer(app.keys(), app.manual.is_some(), is_hidden)
 }
 
-/// Without map and crosshair, where the arrows act on these.
+/// Contexts in which arrows select a parameter: not the map and the crosshair, where they move these.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
-/// Without the map.
+/// Contexts in which ↑ ↓ select a parameter: not the map.
 const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
-/// In the list of parameters these characters begin a value.
+/// Contexts except the list of parameters, in which these characters begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
 const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
 const VALUES: &[Context] = &[Context::Parameters];
@@ -63,7 +63,7 @@ const HELP: &[Context] = &[Context::Help];
 const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const LINE: &[Context] = &[Context::Line];
-/// Lists of a prompt, and the help.
+/// Contexts with a list: a prompt with a list, and the help.
 const LISTS: &[Context] = &[Context::List, Context::Help];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];

@@ -1,4 +1,4 @@
-//! Changes of the view: panes, close-up, parts of the line, quantities, colours.
+//! Changes of the view: panes, close-up, visible part of the line, quantities, colours.
 
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget};
@@ -9,16 +9,16 @@ use crate::explorer::theme::Cycle;
 use asperity_data::AxisScale;
 use std::sync::Arc;
 
-/// Fewest springs that fill a pane.
+/// Smallest number of springs in a section of the profile.
 const FEWEST_SPRINGS: usize = 8;
 
-/// Shows the fragment of a question, starting from the shown one.
+/// Shows the patch that answers a question; `question` receives the spring of the shown patch.
 pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     let fragment = app.snapshot.as_ref().and_then(|snapshot| snapshot.close_up.patch);
     app.view.close_up.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
-/// Shows the whole profile, and the close-up in its initial size.
+/// Shows the whole profile, and the close-up at its initial size.
 pub fn reset_zoom(app: &mut App) {
     app.view.profile = LineView::WHOLE;
     app.view.close_up.springs = CloseUpTarget::springs_shown(&app.edit.document);
@@ -42,7 +42,7 @@ pub fn next_marker(app: &mut App) {
     app.effects.push(Task::Redraw);
 }
 
-/// Changes between preloads at equal distances and at equal ratios.
+/// Changes between equal distances and equal ratios of the preloads.
 pub fn toggle_preload_scale(app: &mut App) {
     app.view.preloads = match app.view.preloads {
         AxisScale::Linear => AxisScale::Logarithmic,
@@ -55,7 +55,7 @@ fn springs(app: &App) -> usize {
     app.solved.as_ref().map_or(1, |computed| computed.outcome.line.points).max(1)
 }
 
-/// Zooms the profile where it is the selected pane, else the close-up; positive steps are closer.
+/// Zooms the profile if its pane is selected, otherwise the close-up; positive steps zoom in.
 pub fn zoom(app: &mut App, steps: i32) {
     let most = springs(app);
     if app.view.pane == Pane::Profile {
@@ -72,7 +72,7 @@ pub fn zoom(app: &mut App, steps: i32) {
     }
 }
 
-/// Zooms the selected section in or out such that a position, m, stays in its place.
+/// Zooms the section in the selected pane so that a position, m, stays at its place on the screen.
 pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     let share = |(position, snapshot): (f64, &Arc<ContactSnapshot>)| {
         let is_profile = app.view.pane == Pane::Profile;

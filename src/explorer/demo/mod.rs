@@ -1,4 +1,4 @@
-//! Demo of the explorer: always the same frames, for a terminal, a pipe or a recording.
+//! Demo of the explorer: the same frames in every run, for a terminal, a pipe or a recording.
 
 pub mod script;
 pub mod watch;
@@ -23,16 +23,16 @@ pub struct Demo {
     explorer: Runtime,
     cues: VecDeque<Cue>,
     typing: VecDeque<char>,
-    /// Seconds until the next cue.
+    /// Seconds until the next cue of the script.
     pause: f64,
-    /// Seconds since the demo began, and between frames.
+    /// Time since the demo began, and between frames, s.
     seconds: f64,
     frame: f64,
     begun: bool,
 }
 
 impl Demo {
-    /// A demo that begins on a scene and follows a script, at a number of frames per second.
+    /// Creates a demo that begins on a scene and follows a script, at a number of frames per second.
     pub fn new(
         document: Document,
         script: &[Cue],
@@ -91,7 +91,6 @@ impl Demo {
         self.explorer.act(Action::Resize(columns, rows));
     }
 
-    /// Shows a line in place of the keys.
     pub fn set_note(&mut self, note: &'static str) {
         self.explorer.app.view.demo = Some(note);
     }

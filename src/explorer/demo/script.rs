@@ -7,21 +7,19 @@ pub enum Cue {
     Wait(f64),
     /// Runs a command of the table of keys, by its name.
     Do(&'static str),
-    /// Runs a command a number of times, at intervals in seconds.
+    /// Runs a command a number of times, with this interval in seconds.
     Repeat(u32, f64, &'static str),
-    /// Opens a built-in scene.
     Open(&'static str),
-    /// Selects the parameter of a field.
     Select(&'static str),
     /// Types a value for the selected parameter, character by character.
     Enter(&'static str),
 }
 
-/// Seconds of a loop of two legs and of a pause at its end.
+/// Duration, s, of a loop of two loading stages and a pause at its end.
 const LOOP: f64 = 12.5;
 
-/// The tour over the built-in scenes: the three regimes, pressing harder, manual loading, fragments, a sphere
-/// with and without its roughness.
+/// The tour of the built-in scenes: the three regimes, pressing harder, manual loading, contact patches, a sphere with and
+/// without its roughness.
 pub const TOUR: &[Cue] = &[
     Open("ideal-adhesion"),
     Wait(LOOP),
@@ -61,7 +59,7 @@ pub const TOUR: &[Cue] = &[
     Wait(LOOP),
 ];
 
-/// One scene, pressed and pulled off, with its fragments.
+/// One scene that is pressed and pulled off, with its contact patches.
 pub const ONE_SCENE: &[Cue] = &[Wait(LOOP)];
 
 #[cfg(test)]

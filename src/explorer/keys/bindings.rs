@@ -1,50 +1,50 @@
-//! The rows of the table of keys, and the keys in use: those of the table, or of the configuration.
+//! The rows of the table of keys, and the keys in use, from the table or from the configuration.
 
 use super::key::Key;
 use asperity_scene::nearest;
 use crossterm::event::{KeyCode, KeyEvent};
 use std::fmt;
 
-/// Context of keys: the prompt chooses it or, without one, the selected pane.
+/// Context of keys: it depends on the prompt or, without a prompt, on the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
     Explore,
-    /// The same, with the map selected.
+    /// Exploring, with the map selected.
     Map,
-    /// The same, with the crosshair in the selected pane.
+    /// Exploring, with a crosshair in the selected pane.
     Crosshair,
-    /// The same, with the list of parameters selected.
+    /// Exploring, with the list of parameters selected.
     Parameters,
-    /// A line being typed, without a list.
+    /// A prompt with a line being typed, without a list.
     Line,
-    /// A line being typed, with a list.
+    /// A prompt with a line being typed, with a list.
     List,
     Overwrite,
     Help,
     Leave,
 }
 
-/// A row of the table: keys, and the contexts in which they are valid.
+/// A row of the table: keys of one function, and the contexts in which they are valid.
 pub struct Row {
-    /// Names of the keys, apart by blanks: `Shift+← H`, `1–9`.
+    /// Names of the keys, separated by blanks: `Shift+← H`, `1–9`.
     pub keys: &'static str,
     pub contexts: &'static [Context],
-    /// Name in the configuration and in scripts.
+    /// Name of the function in the configuration and in scripts.
     pub name: &'static str,
-    /// One word for the footer; empty for none.
+    /// Word for the footer; empty for a function that the footer leaves out.
     pub label: &'static str,
     pub help: &'static str,
     pub section: &'static str,
-    /// Place in the footer, the smallest first.
+    /// Rank in the footer; the smallest is first.
     pub rank: u8,
     pub is_listed: bool,
-    /// True if a successive command of the kind continues the same edit.
+    /// True if a further command of the kind continues the same edit.
     pub merges: bool,
-    /// True if the function depends on the character of the key.
+    /// True if the function receives the character of the key.
     pub takes_character: bool,
 }
 
-/// A row of the table, with the character of the key where it has one.
+/// A row of the table as a command, with the character of the key if its function receives one.
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
     pub row: &'static Row,
@@ -57,25 +57,24 @@ impl fmt::Debug for Row {
     }
 }
 
-/// Exploring, in any pane.
+/// Contexts of exploring, with any pane selected.
 pub const EXPLORE: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair, Context::Parameters];
 pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 pub const MANUAL: &str = "Manual loading";
 
 impl Row {
-    /// Returns true if the configuration may replace the keys of the row: keys for typing, lists and questions are
-    /// fixed, and so are digits.
+    /// Returns true if the configuration may replace the keys of the row. Digits and keys for prompts are fixed.
     fn is_rebindable(&self) -> bool {
         !self.takes_character && self.contexts.iter().all(|context| EXPLORE.contains(context))
     }
 
-    /// Returns true if the list of commands has the row: keys for texts and questions need their prompt.
+    /// Returns true if the list of commands has the row. Keys for texts and questions only work in a prompt.
     fn is_listed(&self) -> bool {
         self.is_listed && self.contexts.iter().any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
     }
 
-    /// Place in the footer: help and quit, which show in the smallest window; keys of the present context only; the
-    /// main keys; the rest.
+    /// Group in the footer: help and quit, which even the smallest window shows; keys of this context alone; main keys;
+    /// others.
     fn place(&self, is_manual: bool) -> u8 {
         let is_special = !self.contexts.contains(&Context::Explore);
         if is_special || is_manual && self.section == MANUAL { self.rank.min(1) } else { self.rank }
@@ -94,12 +93,12 @@ impl Binding {
     }
 }
 
-/// The keys in use: the table, with other keys where the configuration has them.
+/// The keys in use: the keys of the table, replaced where the configuration has others.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings(Vec<Binding>);
 
 impl Bindings {
-    /// These rows with their own keys.
+    /// Creates the bindings of these rows with the keys of the table.
     pub fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
         let keys = |row: &Row| row.keys.split(' ').filter_map(Key::named).collect();
         Bindings(rows.map(|row| Binding { row, keys: keys(row) }).collect())
@@ -119,12 +118,11 @@ impl Bindings {
         Some(Command { row: found.row, character })
     }
 
-    /// The rows of the list of commands.
     pub fn listed(&self) -> impl Iterator<Item = &Binding> {
         self.rows().filter(|binding| binding.row.is_listed())
     }
 
-    /// The command of a name in a context, with the character where the row takes one: `start-value 3`.
+    /// The command with a name in a context, with a character if the row takes one: `start-value 3`.
     pub fn named(&self, name: &str, context: Context) -> Option<Command> {
         let (name, character) =
             name.split_once(' ').map_or((name, None), |(name, rest)| (name, rest.parse().ok()));
@@ -132,7 +130,8 @@ impl Bindings {
         Some(Command { row: found.row, character })
     }
 
-    /// Keys and rows of the footer in a context, the most important first; adjacent rows with the same label are one item.
+    /// Keys and rows for the footer in a context, the most important first; neighbouring rows with the same label are one
+    /// item.
     pub fn footer(
         &self,
         context: Context,
@@ -147,7 +146,7 @@ impl Bindings {
         items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row)).collect()
     }
 
-    /// Replaces the keys of an action. Ctrl+C always quits.
+    /// Replaces the keys of the function with this name. Ctrl+C always quits.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
         let parsed = keys.iter().map(|name| {
             let allowed = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
@@ -171,7 +170,7 @@ impl Bindings {
         Ok(())
     }
 
-    /// The table as Markdown, for docs/keys.md: keys, their functions, and the names of the actions in the configuration.
+    /// The table as Markdown, for docs/keys.md: keys, functions, and the names of the functions in the configuration.
     pub fn markdown(&self) -> String {
         let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
         let mut section = "";
@@ -185,7 +184,7 @@ impl Bindings {
         text
     }
 
-    /// A key with two actions in one context, and their names.
+    /// A key that two functions of one context share, with the names of both; `None` if there is none.
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         ANY.iter().find_map(|context| {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();

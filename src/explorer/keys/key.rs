@@ -1,4 +1,4 @@
-//! A key with its modifiers, by its name.
+//! A key with its modifiers, identified by its name.
 
 use asperity_data::is_control;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
@@ -6,7 +6,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 /// A key with its modifiers, or a range of characters: `Ctrl+p`, `1–9`.
 #[derive(Clone, Debug)]
 pub struct Key {
-    /// Name, as the table of keys or the configuration has it.
+    /// Name, as in the table of keys or the configuration.
     pub name: String,
     first: KeyCode,
     last: KeyCode,
@@ -14,7 +14,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Returns true if a key event is this key. Shift is part of a character, not a modifier.
+    /// Returns true if an event is this key. Shift belongs to a character and is no modifier.
     pub fn matches(&self, event: &KeyEvent) -> bool {
         let modifiers = match event.code {
             KeyCode::Char(_) | KeyCode::BackTab => event.modifiers - KeyModifiers::SHIFT,
@@ -23,17 +23,17 @@ impl Key {
         self.modifiers == modifiers && (self.first..=self.last).contains(&event.code)
     }
 
-    /// Returns the event of the key; of a range that of its first character.
+    /// Returns the event of the key; for a range the event of its first character.
     pub fn event(&self) -> KeyEvent {
         KeyEvent::new(self.first, self.modifiers)
     }
 
-    /// Returns true if an event matches both keys.
+    /// Returns true if one event can match both keys.
     pub fn overlaps(&self, other: &Key) -> bool {
         self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last
     }
 
-    /// The key of a name: a character, or the words on a keyboard, with modifiers: `Up`, `Ctrl+p`, `Shift+Left`.
+    /// The key with this name: a character or the word on a keyboard, with modifiers: `Up`, `Ctrl+p`, `Shift+Left`.
     pub fn named(name: &str) -> Option<Key> {
         fn without<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
             let named = name.split_at_checked(modifier.len());

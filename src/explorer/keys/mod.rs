@@ -1,4 +1,4 @@
-//! Keys, rows of the table of keys, and the keys in use.
+//! Keys, the rows of the table of keys, and the keys in use.
 
 pub mod bindings;
 pub mod key;

@@ -1,4 +1,5 @@
-//! Cost of accuracy: errors over times, both logarithmic, requirements of a good accuracy, and the stages of the run.
+//! Cost of accuracy: errors over computing times, both logarithmic, what a good accuracy requires, and the computing stages
+//! of the scene.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -35,7 +36,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Time for a whole measurement: that of `asperity cost`.
+/// Time limit of the whole measurement, equal to the default of `asperity cost`.
 const BUDGET: Duration = Duration::from_secs(10);
 
 #[derive(Clone, Debug, Default)]
@@ -44,7 +45,7 @@ pub struct Costs {
     pub trying: Option<String>,
 }
 
-/// Measures the costs of a scene. Their times are measured together: an interrupted measurement begins anew.
+/// Measures the cost table of a scene. Its times belong together, so an interrupted measurement begins anew.
 fn study(computed: &SolvedScene) -> Study {
     let scene = Arc::clone(&computed.scene);
     Study::new(computed.generation, true, move |_, stop, report| {
@@ -65,10 +66,10 @@ fn report(app: &App) -> Exported<'_> {
     Some(("asperity cost".into(), Box::new(CostReport::new(document.title(), document.scene(), table))))
 }
 
-/// Relative errors whose requirements are stated, with lines in the plot.
+/// Relative errors that are drawn as lines, and whose requirements are stated.
 const TARGETS: [f64; 2] = [0.01, 0.001];
 
-/// Lower limit of the plot; errors below are in the lowest row.
+/// Lower end of the error axis; smaller errors are drawn in the lowest row.
 const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -99,7 +100,7 @@ fn nothing_yet(app: &App) -> String {
     }
 }
 
-/// The chart with the target errors and the scene itself, down to errors of interest.
+/// The chart with the target errors and the scene itself, and errors down to the smallest one of interest.
 fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     let Span { low, high } = chart.y.span;
     chart.y.span = Span { low: low.max(LOWEST.log10()).min(high - 1.0), high };
@@ -127,8 +128,8 @@ fn setting_of(numerics: &Numerics) -> (Knob, f64) {
     }
 }
 
-/// Place of the scene itself: at the row of its setting, or between its neighbours. `None` for an
-/// untried setting, and for steps tried on other springs only.
+/// Time and error of the scene itself: of the row with its setting, or between neighbouring rows. `None` for a setting that
+/// was not tried, and for steps that were tried with other numbers of springs only.
 fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     let (knob, setting) = setting_of(numerics);
     let mut rows: Vec<(f64, (f64, f64))> = table
@@ -151,7 +152,7 @@ fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     Some((between(before.0, there.0), between(before.1, there.1)))
 }
 
-/// Legend: sign of each knob, with its observed order.
+/// Legend: the sign of each knob, with its observed order of convergence.
 fn entries(table: &CostTable, chart: &Chart, width: u16, look: Appearance) -> Vec<Line<'static>> {
     let mut parts = names(chart, look);
     for part in &mut parts {
@@ -163,7 +164,7 @@ fn entries(table: &CostTable, chart: &Chart, width: u16, look: Appearance) -> Ve
     filled(parts, "  ", usize::from(width))
 }
 
-/// Error and time of the scene, springs and time of the fastest setting for each target, and the setting being tried.
+/// Error and time of the scene, springs and time of the fastest setting for each target, and the setting that is tried now.
 fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
     let theme = app.view.appearance.theme;
     let mut parts = Vec::new();
@@ -196,7 +197,7 @@ fn time_of(seconds: f64) -> String {
     format_rounded(seconds, 2, "s")
 }
 
-/// Springs and time of the fastest setting within a bound; `None` while there is none yet.
+/// Springs and time of the fastest setting with an error within a bound; `None` while there is none yet.
 fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
     let rows = [Knob::SubCellSprings, Knob::GridSprings].map(|knob| table.first_row_within(knob, bound));
     let timed = rows.into_iter().flatten().filter_map(|row| Some((row.seconds?.minimum, row)));
@@ -209,7 +210,7 @@ fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
     }
 }
 
-/// Names and times of the computing stages of the scene. Profile and curve always run.
+/// Names and times of the computing stages of the scene. Profile and curve are always computed.
 fn stages(app: &App) -> Option<Vec<Part>> {
     let computed = app.current()?;
     let (plan, timings, theme) =

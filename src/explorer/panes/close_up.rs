@@ -1,4 +1,4 @@
-//! The close-up of contact patches, with their boundary points as the paper's white circles, and a strip of the whole
+//! The close-up of contact patches, with their boundary points as white circles as in the paper, and a strip of the whole
 //! contact.
 
 use super::row::PaneRow;
@@ -27,7 +27,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Fewest rows with the strip of the whole contact.
+/// Smallest number of rows with the strip of the whole contact.
 const WITH_STRIP: u16 = 9;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -55,14 +55,14 @@ fn panel(app: &App, size: Size) -> Panel {
     panel
 }
 
-/// The ends of the patches, in contact.
+/// The signs at the ends of the contact patches.
 fn ends(snapshot: &ContactSnapshot) -> Layer {
     let ends = snapshot.close_up.boundaries.iter();
     let ends = ends.map(|&(spring, height)| (section::position(snapshot.line, spring), height)).collect();
     Layer::new("patch end".into(), Ink::Contact, Shape::signs(ends, Sign::Ring))
 }
 
-/// Chart of the springs of the pane, for a file.
+/// Chart of the springs in the pane, for a file.
 fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     let snapshot = app.snapshot.as_deref()?;
     let section = &snapshot.close_up.section;
@@ -71,14 +71,14 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     Some(chart)
 }
 
-/// The axis of heights: the profile, and the surface unless that is far above or below.
+/// Range of heights: the profile, and the surface unless it is far above or below.
 fn heights(section: &Section) -> Span {
     let (low, high) = section.heights;
     let room = 0.4 * (high - low);
     Span::around([low, high, section.level.clamp(low - room, high + room)].into_iter(), 0.05)
 }
 
-/// The whole contact in one row; the brackets enclose the close-up.
+/// The whole contact in one row; brackets enclose the part in the close-up.
 fn strip(strip: &str, section: &Section, springs: usize, theme: Theme) -> Line<'static> {
     let (count, springs) = (strip.chars().count(), springs.max(1));
     if count < 4 {
@@ -95,10 +95,10 @@ fn strip(strip: &str, section: &Section, springs: usize, theme: Theme) -> Line<'
     Line::from(vec![part(0, open), bracket("["), part(open + 1, close), bracket("]"), part(close + 1, count)])
 }
 
-/// Share of a stretch below which a difference is rounding.
+/// Share of a stretch below which a difference counts as rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The contact patch in words: its place and force, and the stretch of its most stretched spring.
+/// The contact patch in words: its number, position and force, and the stretch of its most stretched spring.
 fn describe(patch: Option<PatchFacts>, patches: u64) -> [String; 2] {
     let Some(PatchFacts { number, patch, state }) = patch else {
         return ["○ nothing is in contact".to_owned(), String::new()];

@@ -1,4 +1,4 @@
-//! The curve: the hysteresis loop with its two branches, curves compared with it, and manual loading.
+//! The force curve: the hysteresis loop with loading and unloading, curves compared with it, and manual loading.
 
 use super::row::{Exported, PaneRow, outcome};
 use crate::explorer::app::App;
@@ -34,13 +34,13 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// The measured curve, its model and the residuals, while there is a measured curve.
+/// The measured curve with the model and the residuals; `None` without a measured curve.
 fn fit_report(app: &App) -> Option<FitReport<'_>> {
     let Measured { name, curve, .. } = app.measured.as_ref()?;
     Some(FitReport { title: name, curve, fit: fitted(&app.studies).filter(|_| app.is_current())? })
 }
 
-/// The same with the command that computes the fit.
+/// The report of the measured curve, with the command that computes the fit.
 fn fit(app: &App) -> Exported<'_> {
     let (report, options) = (fit_report(app)?, &app.measured.as_ref()?.options);
     let names: Vec<_> = report.fit.parameters.iter().map(|one| one.parameter.name()).collect();
@@ -48,9 +48,9 @@ fn fit(app: &App) -> Exported<'_> {
     Some((command.into(), Box::new(report)))
 }
 
-/// Fewest rows of a pane whose label of the vertical axis is above the chart.
+/// Smallest number of rows of a pane with the label of the vertical axis above the chart.
 const WITH_HEAD: u16 = 7;
-/// Fewest rows of a pane that lists ghosts.
+/// Smallest number of rows of a pane that lists the kept scenes.
 const WITH_GHOSTS: u16 = 12;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -127,15 +127,15 @@ fn units(app: &App) -> LoopUnits {
     }
 }
 
-/// Indentation at a number on the horizontal axis, m; `None` where that axis shows the force.
+/// Indentation at a number on the horizontal axis, m; `None` if that axis does not determine it.
 pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
     app.indentations().and(units(app).indentation(x))
 }
 
-/// Name of the measured points.
+/// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
-/// The chart without names that the pane writes elsewhere: those of marks and ghosts, and those of the axes.
+/// The chart without the names that the pane writes elsewhere: of marks, kept scenes and axes.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
     for layer in chart.layers.iter_mut().filter(|layer| matches!(layer.ink, Ink::Text | Ink::Compared(_))) {
@@ -144,7 +144,7 @@ fn shown_chart(app: &App) -> Option<Chart> {
     Some(chart)
 }
 
-/// The curve, curves compared with it, the path of manual loading, and marks.
+/// The loop, curves compared with it, the path of manual loading, and marks.
 fn chart(app: &App) -> Option<Chart> {
     app.indentations()?;
     let units = units(app);
@@ -202,7 +202,7 @@ fn chart(app: &App) -> Option<Chart> {
     Some(chart)
 }
 
-/// The marked forces with their values, the most important first, in words if there is room for all.
+/// The marked forces with their values, the most important first; with names in words if there is room for all.
 fn values(app: &App, width: usize) -> Option<Line<'static>> {
     let mut marks = marks(app.legs());
     marks.sort_by_key(|(mark, _)| match mark {
@@ -224,19 +224,19 @@ fn values(app: &App, width: usize) -> Option<Line<'static>> {
     words.unwrap_or_else(|| lines(false)).into_iter().next()
 }
 
-/// Values of a ghost that differ from those of the present scene.
+/// Values of a kept scene that differ from the present scene, in words.
 fn differences(app: &App, ghost: &Ghost) -> String {
     ghost.changes(&app.edit.document, |change| format!("{} {}", change.name, change.from))
 }
 
-/// Point of the letter of a ghost: its pull-off, or its end.
+/// Point beside which the letter of a kept scene is drawn: its pull-off, or the end of its curve.
 fn marked(ghost: &Ghost) -> Option<CurvePoint> {
     let legs = &ghost.outcome.history.legs;
     let at = marks(legs).into_iter().rev().find(|(mark, _)| *mark != Mark::JumpOut).map(|(_, point)| point);
     at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
 }
 
-/// Adhesion force of a ghost, and its difference from that of the present scene: `F_a 12 µN (+3 µN)`.
+/// Adhesion force of a kept scene, and its difference from the present scene: `F_a 12 µN (+3 µN)`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let force = ghost.outcome.figures.adhesion_force?;
     let present = app.current().and_then(|one| one.outcome.figures.adhesion_force);

@@ -41,7 +41,7 @@ pub static ROW: PaneRow = PaneRow {
     ],
 };
 
-/// Most springs for the map of a demo, of hundreds of scenes.
+/// Largest number of springs for a map in a demo, since it takes hundreds of scenes.
 const MOST_SPRINGS: u64 = 1 << 12;
 
 /// Computes the missing cells of the live map; `None` for a scene without a map.
@@ -80,7 +80,7 @@ fn panel(app: &App, size: Size) -> Panel {
     Panel { head, foot, ..Panel::of_chart(title, chart) }
 }
 
-/// Map of the regimes or of a quantity over two axes; `None` for a grid with one axis.
+/// Map of the regimes or of a quantity over two axes; `None` for a grid along one axis.
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
     if let Some(map) = chart.map_mut() {
@@ -108,8 +108,8 @@ fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     curves.filter_map(chart).collect()
 }
 
-/// Figure of the pane: the map, with the quantities behind the regimes while these are mapped, or curves over the only
-/// axis.
+/// Figure of the pane: the map, together with the quantities that decide the regimes if these are shown; or curves over the
+/// only axis.
 fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
@@ -123,7 +123,7 @@ fn figure(app: &App, grid: &Grid) -> Figure {
     study_figure(title, grid, charts)
 }
 
-/// Title of the pane: the mapped quantity, the axes, and the number of profiles of the mean.
+/// Title of the pane: the quantity, the axes, and the number of profiles of the mean.
 fn title(app: &App) -> String {
     let Some((across, up)) = app.map_axes() else { return "Map".to_owned() };
     let over = [Some(&across), up.as_ref()].into_iter().flatten().map(Axis::symbol_or_name);
@@ -157,7 +157,7 @@ fn nothing_yet(app: &App) -> String {
     }
 }
 
-/// The name of a quantity: its symbol, where unique on the map.
+/// Short name of a quantity: its symbol, if no other quantity of the map has the same.
 fn name_of(grid: &Grid, quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime ({})", quantity.short_protocol());
@@ -167,7 +167,7 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
     if is_only && !symbol.is_empty() { symbol.to_owned() } else { quantity.name().replace('_', " ") }
 }
 
-/// Axis up, shades with their meaning, classes, and the slice of a study.
+/// Legend: label of the vertical axis, shades with their meaning, classes, and which map of the study is shown.
 fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     let (Some(grid), Some(map)) = (app.grid(), chart.map()) else { return Vec::new() };
     let look = app.view.appearance;
@@ -207,8 +207,8 @@ fn on_axes(grid: &Grid, (across, up): Place) -> String {
     parts.join(", ")
 }
 
-/// The place of the scene with the values of the nearest cell, and what keeps the map from being whole or from being that
-/// of the scene.
+/// Lines below the map: the position of the scene with the values of the nearest cell, and why the map is incomplete or not
+/// that of the scene.
 fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
     let study = app.map.shown_study();
     let is_of_scene = study.is_none_or(|study| study.study_map.is_of(study.slice, app.edit.document.scene()));
@@ -243,7 +243,7 @@ fn deciding(regime: Quantity) -> [Quantity; 2] {
     [Quantity::ADHESION_SHARES[after_zero_force], Quantity::AdhesionCoefficient]
 }
 
-/// Quantities shown together: with a regime those that decide the regime, if any.
+/// Quantities that are shown together: with a regime the quantities that decide it, if there are any.
 fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if !mapped.is_regime() {
         return vec![mapped];
@@ -253,7 +253,7 @@ fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if both.is_empty() { vec![first().unwrap_or(mapped)] } else { both }
 }
 
-/// Values of the cell nearest to the mark, with its place unless this is the mark.
+/// Values of the cell nearest to the mark, and its position unless the mark is there.
 fn cell_values(
     app: &App,
     grid: &Grid,
@@ -290,7 +290,7 @@ fn cell_values(
     format!("{at}{}", regime.into_iter().chain(values).collect::<Vec<_>>().join(", "))
 }
 
-/// A mean, with median and range of profiles that differ.
+/// A mean in words, with median and range if the profiles differ.
 fn value(all: Statistics, unit: &str) -> String {
     let [mean, median] = [all.mean, all.quartiles[1]].map(|value| format_rounded(value, 2, unit));
     match all.range {

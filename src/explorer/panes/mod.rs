@@ -1,4 +1,4 @@
-//! The table of panes: one row each. A pane is one file with one function of the app, which returns its panel.
+//! The table of panes, one row each. A pane is one file, with one function that makes its panel from the state.
 
 pub mod accuracy;
 mod close_up;
@@ -23,10 +23,9 @@ use crate::explorer::panel::{Panel, Under};
 use asperity_plot::Figure;
 use ratatui::layout::{Position, Size};
 
-/// Size within the frame of a pane that is exported.
+/// Size inside the frame of a pane that is exported, columns and rows.
 const EXPORTED: Size = Size { width: 120, height: 40 };
 
-/// Properties of a pane.
 pub fn row(pane: Pane) -> &'static PaneRow {
     match pane {
         Pane::Force => &force::ROW,
@@ -41,7 +40,7 @@ pub fn row(pane: Pane) -> &'static PaneRow {
     }
 }
 
-/// Content of a pane for an area of this size within the frame, with the crosshair.
+/// Panel of a pane, with the crosshair, for an area of this size inside the frame.
 pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     let mut panel = (row(pane).panel)(app, size);
     // The crosshair of profile and close-up is at a spring.
@@ -53,7 +52,7 @@ pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     panel
 }
 
-/// A pane as a figure for a file; `None` while it has no chart.
+/// Figure of a pane for a file; `None` if it has no chart.
 pub fn figure(app: &App, pane: Pane) -> Option<Figure> {
     (row(pane).figure)(app, &(row(pane).panel)(app, EXPORTED))
 }

@@ -25,12 +25,12 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Columns for a typed value beside its name.
+/// Smallest number of columns for a typed value beside its name.
 const TYPED_COLUMNS: usize = 12;
-/// Fewest letters of a shortened name.
+/// Smallest number of letters of a shortened name.
 const FEWEST_LETTERS: usize = 4;
 
-/// The list, and below it derived values and a few lines of explanation.
+/// The list of parameters, and below it derived values and some lines of explanation.
 fn panel(app: &App, size: Size) -> Panel {
     let quiet = app.view.appearance.theme.style(Meaning::Quiet);
     let (rows, selected) = shown(app);
@@ -56,7 +56,7 @@ fn panel(app: &App, size: Size) -> Panel {
     Panel { body, foot, ..Panel::of_text("Parameters".to_owned(), "") }
 }
 
-/// Indices of the parameters in the list, and the place of the selected one.
+/// Indices of the parameters in the list, and the row of the selected one.
 fn shown(app: &App) -> (Vec<usize>, usize) {
     if let Some(Prompt { purpose: Purpose::Parameter { .. }, found, selected, .. }) = &app.prompt {
         return (found.clone(), *selected);
@@ -102,7 +102,7 @@ fn has_focus(app: &App) -> bool {
     app.view.pane == Pane::Parameters || app.prompt.as_ref().is_some_and(is_searched)
 }
 
-/// Marks before a name: the first row of a group, an effect that is on or off; other rows are indented.
+/// Marks before a name: for the first row of a group, and for an effect that is on or off; other rows are indented.
 fn lead(app: &App, parameter: &Parameter) -> String {
     let is_head = parameter.is_head();
     let is_on = |effect: Effect| effect.is_on(app.edit.document.scene());
@@ -111,8 +111,8 @@ fn lead(app: &App, parameter: &Parameter) -> String {
     format!("{}{mark}", if is_head { "─" } else { " " })
 }
 
-/// The row of a value being typed: its name, symbol and the unit of a number alone, as far as there is room, the typed
-/// text, and what it will be.
+/// The row of a value being typed: name, symbol and unit of a number as far as there is room, the typed text, and how it
+/// will be read.
 fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: usize) -> Line<'static> {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     let unit = match (parameter.field.unit, unit_of(&typed::shown(app, parameter))) {
@@ -135,7 +135,7 @@ fn editor(app: &App, parameter: &Parameter, line: &TextLine, lead: &str, width: 
     Line::from_iter([label].into_iter().chain(line.spans(room, theme)).chain([reading]))
 }
 
-/// Name and symbol within a number of columns: the name is cut, or left out where little of the name would remain.
+/// Name and symbol within a number of columns: the name is shortened, or left out if little of it would remain.
 fn name_within(parameter: &Parameter, room: usize) -> String {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     if symbol.is_empty() {
@@ -153,12 +153,12 @@ fn columns(text: &str) -> usize {
     Span::raw(text).width()
 }
 
-/// A text within a number of columns, with `…` in place of the rest.
+/// A text within a number of columns; the rest is replaced by `…`.
 fn cut(text: &str, room: usize) -> String {
     fitted(Line::raw(text.to_owned()), room as u16).to_string()
 }
 
-/// Derived values, in as many lines as needed.
+/// Derived values of the scene, in as many lines as needed.
 fn derived(app: &App, width: u16) -> Vec<Line<'static>> {
     let style = app.view.appearance.theme.style(Meaning::Quiet);
     let part = |(name, value): (&str, String)| vec![Span::styled(format!("{name} = {value}"), style)];
@@ -191,7 +191,7 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     values
 }
 
-/// Reason why a value is refused.
+/// Reason why the typed value is refused, if it is.
 fn refusal(app: &App) -> Option<&String> {
     match &app.message {
         Some(Message::Refused(why)) => Some(why),
@@ -199,7 +199,7 @@ fn refusal(app: &App) -> Option<&String> {
     }
 }
 
-/// Error of a value, or its meaning and allowed range.
+/// Explanation of the selected parameter: why its value is refused, or its meaning and allowed range.
 fn explanation(app: &App, index: usize) -> Line<'static> {
     if let Some(error) = refusal(app) {
         return Line::styled(format!("! {error}"), app.view.appearance.theme.style(Meaning::Error));

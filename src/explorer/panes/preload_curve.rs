@@ -1,4 +1,4 @@
-//! Adhesion against preload of the scene: first the staircase of its own profile, then the spread over random profiles.
+//! Adhesion force of the scene against preload: first the staircase of its own profile, then the spread over random profiles.
 
 use crate::explorer::snapshot::SolvedScene;
 use asperity_contact::Move;
@@ -9,33 +9,32 @@ use asperity_scene::Simulation;
 use asperity_scene::Solver;
 use asperity_study::{Axis, Results, Staircase, Statistics};
 
-/// Number of preloads, and place of the preload of the scene among them: on a linear axis from the force at first touch to
-/// twice the preload, on a logarithmic one of six decades two decades below the end.
+/// Number of preloads, and index of the scene's own preload among them: a linear axis extends from the force at first touch
+/// to twice the preload, a logarithmic one over six decades, two of them above the preload.
 const PRELOADS: usize = 64;
 const PLACES: (f64, f64) = (31.0, 42.0);
 const DECADES: f64 = 6.0;
-/// Relative difference of preloads that are equal but for rounding.
+/// Relative difference of preloads that count as equal.
 const SAME: f64 = 1e-9;
-/// Random profiles.
 pub const PROFILES: usize = 16;
 
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
-    /// The preloads.
     pub axis: Axis,
-    /// The profile of the scene.
+    /// The staircase of the scene's own profile.
     pub staircase: Staircase,
-    /// Random profiles at these preloads, that of the scene the first; a single one of a scene with one profile.
+    /// Results on random profiles at these preloads, the scene's own profile first; one profile for a scene without random
+    /// phases.
     pub results: Results,
 }
 
 impl PreloadCurve {
-    /// Computes the curve of a computed scene, or the missing part of one that was begun. `report` receives the curve after
-    /// each addition.
+    /// Computes the curve of a computed scene, or the missing part of one that was begun before. `report` receives the
+    /// curve after each addition.
     ///
     /// # Errors
-    /// The reason why the scene has no such curve, a profile or contact that fails, or a stop.
+    /// The scene has no such curve, a profile or contact fails, or `stop` returned true.
     pub fn compute(
         computed: &SolvedScene,
         scale: AxisScale,
@@ -62,7 +61,7 @@ impl PreloadCurve {
         Ok(PreloadCurve { results, ..curve })
     }
 
-    /// The curve of a computed scene, still empty.
+    /// Begins the curve of a computed scene, without results.
     fn begin(
         computed: &SolvedScene,
         scale: AxisScale,
@@ -100,17 +99,16 @@ impl PreloadCurve {
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results })
     }
 
-    /// Returns true once all profiles are computed.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
 
-    /// Number of computed random profiles.
     pub fn profiles(&self) -> usize {
         self.results.records_of(0).count()
     }
 
-    /// The adhesion force over the computed profiles at a preload of the axis, N; `None` for fewer than two.
+    /// Statistics of the adhesion force, N, over the computed profiles at a preload of the axis (N); `None` for fewer than
+    /// two.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         let spread = self.results.spread_of_adhesion().into_iter();
         let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();

@@ -1,5 +1,5 @@
-//! Adhesion against preload: the staircase of the profile, the spread over random profiles, adhesion without load, and the
-//! preload of the scene.
+//! Adhesion force against preload: the staircase of the scene's profile, the spread over random profiles, adhesion without
+//! load, and the preload of the scene.
 
 use super::preload_curve::{PROFILES, PreloadCurve};
 use super::row::{Exported, PaneRow};
@@ -40,7 +40,7 @@ pub static ROW: PaneRow = PaneRow {
     )],
 };
 
-/// The drawn curves, with the command that computes the same table.
+/// The drawn curves, with the command that computes them as a table.
 fn report(app: &App) -> Exported<'_> {
     let curve = app.studies.value::<PreloadCurve>()?;
     let (axis, lines) = (&curve.axis, curve.results.plan().lines);
@@ -78,7 +78,8 @@ fn panel(app: &App, size: Size) -> Panel {
     panel
 }
 
-/// The curves with the present preload, and the distribution over the profiles at the crosshair or the present preload.
+/// The curves with the preload of the scene, and the distribution over the profiles at the crosshair or at the preload of
+/// the scene.
 fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
     let mut chart = preload_chart(&curve.staircase, &curve.results.spread_of_adhesion(), true);
     let figures = app.current().map(|one| one.outcome.figures);

@@ -33,7 +33,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Chart of the springs of the pane, for a file.
+/// Chart of the springs in the pane, for a file.
 fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     let snapshot = app.snapshot.as_deref()?;
     section::of_springs(snapshot, &snapshot.profile, section::heights(app, snapshot), part)
@@ -52,7 +52,7 @@ fn title(app: &App) -> String {
     format!("Profile z(x), x from {from} to {to} of {length}")
 }
 
-/// Profile and distribution of heights of a scene at one state, heights within `z`.
+/// Panel of the profile and the distribution of heights of a scene in one state; `z` is the range of heights, m.
 pub fn of_scene(
     title: String,
     snapshot: &ContactSnapshot,
@@ -74,7 +74,7 @@ pub fn of_scene(
 
 const POINTS: usize = 65;
 
-/// Density of heights in the bins of a histogram, and the normal distribution of the same mean and rms height.
+/// Density of heights in the bins of a histogram, and the normal distribution with the same mean and rms height.
 fn distribution(histogram: Option<&Histogram>, z: Axis) -> Chart {
     let Some(histogram) = histogram.filter(|histogram| histogram.high > histogram.low) else {
         return Chart::new(

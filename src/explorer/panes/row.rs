@@ -1,4 +1,4 @@
-//! Properties of one pane.
+//! The properties of a pane, as one row of the table of panes.
 
 use crate::explorer::app::{App, ManualState};
 use crate::explorer::panel::Panel;
@@ -11,25 +11,25 @@ use ratatui::layout::Size;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Command and result of an exported pane.
+/// Command that computes the result of a pane, and the result; `None` while it is missing.
 pub type Exported<'a> = Option<(Cow<'static, str>, Box<dyn Report + 'a>)>;
 
 pub struct PaneRow {
-    /// Content for an area of this size within the frame.
+    /// Content for an area of this size inside the frame.
     pub panel: fn(&App, Size) -> Panel,
-    /// Content as a figure for a file, where this is more than the chart of the panel.
+    /// Content as a figure for a file, which may have more than the chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
-    /// The command and the report that a table or a JSON file states, where this is more than the curves of the figure;
-    /// `None` while the result is missing.
+    /// Content as a table or JSON with the command that computes it, if that is more than the curves of the figure; `None`
+    /// while the result is missing.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
-    /// Studies of a computed scene whose values the shown pane needs.
+    /// Studies of a computed scene whose values the pane needs while it is shown.
     pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
-    /// Paragraphs of the help: a name and the meaning of the signs in the pane.
+    /// Paragraphs of the help: names, and the meanings of the signs in the pane.
     pub help: &'static [(&'static str, &'static str)],
 }
 
 impl PaneRow {
-    /// An empty pane.
+    /// Properties of a pane without content, as defaults.
     pub const EMPTY: PaneRow = PaneRow {
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| Some(Figure::of_chart(app.edit.document.title(), panel.chart()?.clone())),
@@ -39,11 +39,11 @@ impl PaneRow {
     };
 }
 
-/// Command of a result that no other command computes: the explorer opens on the scene, with the path of manual loading as
-/// its loading.
+/// Command for a result that no other command computes: the explorer opens on the scene, whose loading is the path of
+/// manual loading.
 pub const OPEN_COMMAND: &str = "asperity";
 
-/// The path of manual loading, else the outcome of the scene with its force curve.
+/// Report of the pane's result: the path of manual loading, or else the outcome of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     if let Some(ManualState { loading, path, stages, .. }) = &app.manual {
         return Some((OPEN_COMMAND.into(), Box::new(PathReport { loading, path, stages })));

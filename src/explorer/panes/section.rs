@@ -1,4 +1,4 @@
-//! Part of the profile on its axes: rigid profile, elastic surface and contact of the profile pane and the close-up.
+//! Part of the profile with its axes: rigid profile, elastic surface and contact, for the profile pane and the close-up.
 
 use super::row::{Exported, OPEN_COMMAND};
 use crate::explorer::app::App;
@@ -13,7 +13,8 @@ use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label}
 use asperity_scene::LineFacts;
 use ratatui::text::Span as Text;
 
-/// A section over the position, heights within `z`; on the lower edge the names of the lines, or readings of the crosshair.
+/// Panel of a section over the position; `z` is the range of heights, m. Its lower edge has the names of the lines, or the
+/// readings of the crosshair.
 pub fn panel(
     title: String,
     snapshot: &ContactSnapshot,
@@ -40,7 +41,8 @@ pub fn panel(
     Panel { edge, ..Panel::of_chart(title, chart) }
 }
 
-/// Chart of the springs of a section for a file, heights within `z`: the same for any size of the pane.
+/// Chart of the springs of a section for a file, with the range of heights `z` (m); it does not depend on the size of the
+/// pane.
 pub fn of_springs(
     snapshot: &ContactSnapshot,
     section: &Section,
@@ -50,7 +52,7 @@ pub fn of_springs(
     Some(snapshot.section(part(section.first, section.springs))?.chart(snapshot.line, z))
 }
 
-/// Figure of a chart of springs, with indentation and force.
+/// Figure of a chart of springs, with indentation and force as notes.
 pub fn figure(title: &str, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     let point = &snapshot.point;
     let force = value_label("", "F", "N", point.force).then(", ");
@@ -58,12 +60,12 @@ pub fn figure(title: &str, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
 }
 
-/// Table of the curves of a chart of springs.
+/// Table of the curves in a chart of springs; `None` while the scene is not computed.
 pub fn table(app: &App, chart: Chart) -> Exported<'static> {
     app.is_current().then(|| (OPEN_COMMAND.into(), Box::new(Figure::of_chart("", chart)) as Box<dyn Report>))
 }
 
-/// Axis of heights: the profile, and the surface over the whole loop unless far above.
+/// Range of heights, m: the profile, and over the whole loop the surface, unless it is far above.
 pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     let (low, high) = snapshot.profile.heights;
     let far = high + 0.5 * (high - low);
@@ -79,7 +81,7 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
     (line.first + spring) as f64 * line.spacing + 0.5 * line.spacing
 }
 
-/// Readings of the crosshair: position, height, and the gap or the stretch of the spring.
+/// Readings of the crosshair: position, height, and gap or stretch of the spring.
 fn reading(snapshot: &ContactSnapshot, look: Appearance) -> Vec<Part> {
     let Some(probe) = snapshot.probe else { return Vec::new() };
     let length = |value: f64| format_quantity(value, "m");

@@ -1,4 +1,4 @@
-//! Sensitivity of the results to the numbers of the scene: bars of the changes of the adhesion force, beside all changes.
+//! Sensitivity of the results to the numbers of the scene: all changes as a table, with bars for the adhesion force.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -12,7 +12,7 @@ use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 use std::sync::Arc;
 
-/// Rows beside those of the bars: results of the scene, heading, horizontal axis with its numbers and label.
+/// Number of rows besides the rows of the bars: results of the scene, heading, and horizontal axis with its numbers and label.
 const BESIDE: u16 = 5;
 
 pub static ROW: PaneRow = PaneRow {
@@ -68,7 +68,7 @@ fn panel(app: &App, size: Size) -> Panel {
     Panel { head, edge: edge.into_iter().collect(), ..Panel::of_chart(title, chart) }
 }
 
-/// Lines of names and changes of the numbers with the changes of the first results, all of one width.
+/// Rows of the table, padded to one width: name, change of the number, and changes of the first `results` results.
 fn labels(rows: &[[String; 6]], results: usize) -> Vec<String> {
     let length = |text: &String| text.chars().count();
     // Short names leave more room.

@@ -1,4 +1,4 @@
-//! Spectra over the wave number, both logarithmic: as measured, fitted, and of the line.
+//! Spectra over the wave number, both logarithmic: as measured, as fitted, and of the line.
 
 use super::row::PaneRow;
 use crate::explorer::app::App;
@@ -54,7 +54,7 @@ fn panel(app: &App, size: Size) -> Panel {
     Panel { head, foot: words, ..Panel::of_chart(title, chart) }
 }
 
-/// Text below the chart: moments with their errors, else the reason why there is no chart.
+/// Text below the chart: moments with their errors, or the reason why there is no chart.
 fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     let Some(shown) = shown else {
         let text = if app.is_current() { "the spectrum is being computed" } else { "no spectrum yet" };
@@ -88,7 +88,7 @@ fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     words
 }
 
-/// Adhesion force with its spread over random profiles beside that of the fit, as far as computed.
+/// Adhesion force with its spread over random profiles and with the spread due to the fit, as far as computed.
 fn adhesion(app: &App) -> Option<String> {
     if !is_sampled(&app.solved.as_ref()?.scene) {
         return None;
@@ -107,14 +107,14 @@ fn adhesion(app: &App) -> Option<String> {
 
 pub const PROFILES: usize = 16;
 
-/// Returns true if the profile of a scene is an equivalent line that adheres.
+/// Returns true if the profile of a scene is an equivalent line with adhesion.
 fn is_sampled(scene: &Scene) -> bool {
     let is_measured = matches!(scene.roughness, Some(Roughness::Measured { .. }));
     let adheres = scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact;
     is_measured && adheres && !scene.measured_as_line()
 }
 
-/// Computes the adhesion of random profiles that are missing.
+/// Computes the adhesion force of the random profiles that are not computed yet.
 fn profiles(app: &App, computed: &SolvedScene) -> Study {
     let mut found = app.studies.value::<MeasuredAdhesion>().cloned().unwrap_or_default();
     let scene = Arc::clone(&computed.scene);

@@ -1,4 +1,4 @@
-//! Screens in forms for use outside of the terminal: plain text, ASCII and an SVG document.
+//! Screens for use outside of the terminal: as plain text, in ASCII, and as an SVG document.
 
 pub mod ascii;
 pub mod svg;
@@ -7,28 +7,28 @@ use ratatui::buffer::{Buffer, Cell, CellWidth};
 use ratatui::layout::Rect;
 
 struct Glyph<'a> {
-    /// Column, from 0 at the left edge of the screen.
+    /// Column, counted from 0 at the left edge of the screen.
     column: u16,
-    /// Row, from 0 at the upper edge.
+    /// Row, counted from 0 at the upper edge.
     row: u16,
     width: u16,
     cell: &'a Cell,
 }
 
 impl<'a> Glyph<'a> {
-    /// The symbol; a blank for one without a width.
+    /// The symbol in the cell; a blank for a symbol without a width.
     fn symbol(&self) -> &'a str {
         if self.cell.symbol().cell_width() == 0 { " " } else { self.cell.symbol() }
     }
 
-    /// The character, if only one.
+    /// The character in the cell; `None` if the symbol consists of several.
     fn character(&self) -> Option<char> {
         let mut characters = self.symbol().chars();
         characters.next().filter(|_| characters.next().is_none())
     }
 }
 
-/// The symbols of a screen, row by row, without the cells behind wide characters.
+/// The symbols of a screen, row by row, without the cells covered by wide characters.
 fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
     let Rect { x, y, width, height } = buffer.area;
     (0..height).flat_map(move |row| {
@@ -43,7 +43,7 @@ fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
     })
 }
 
-/// The dots of a Braille pattern, two across and four down, bits row by row from the upper left.
+/// The dots of a Braille character, two across and four down, as bits row by row from the upper left; `None` for others.
 fn dots(character: char) -> Option<u8> {
     /// Braille numbers three dots down each side; the lowest row came later.
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
@@ -52,7 +52,7 @@ fn dots(character: char) -> Option<u8> {
     Some(dots.fold(0, |bits, (_, place)| bits | 1 << place))
 }
 
-/// The rows of a screen without the blanks at their ends, each closed by a line feed.
+/// The rows of a screen without the blanks at their ends, each with a line feed.
 pub fn text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {

@@ -1,7 +1,7 @@
 //! The screen as an SVG document, for slides and for pages on the web.
 //!
-//! Each letter has the place of its cell. Dots, blocks and lines of frames are drawn, so that they meet from cell to cell
-//! with any font.
+//! Each letter is placed in its cell. Dots, blocks and the lines of frames are drawn as shapes, so that they meet from cell
+//! to cell with any font.
 
 use super::{Glyph, dots, glyphs};
 use asperity_plot::{Palette, Rgb, Svg, escaped, hex};
@@ -9,19 +9,19 @@ use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
 
-/// Width and height of a cell, height of the base line of letters in it, and room around the screen, px.
+/// Width and height of a cell, height of the baseline in a cell, and margin around the screen, px.
 const WIDTH: u32 = 8;
 const HEIGHT: u32 = 16;
 const BASE: u32 = 12;
 const MARGIN: u32 = 8;
-/// Monospaced fonts of the common systems, with letters about 0.6 times as wide as their size.
+/// Monospaced fonts of the common systems, whose letters are about 0.6 times as wide as the font size.
 const FONTS: &str =
     "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
 const FONT_SIZE: f64 = 13.3;
-/// Remaining share of a dimmed colour, percent.
+/// Remaining share of a dimmed colour, per cent.
 const DIMMED: u8 = 60;
 
-/// Kind of a shape, in the order of drawing.
+/// Kind of a shape; shapes are drawn in this order.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Ground,
@@ -30,7 +30,7 @@ enum Kind {
     Dots,
 }
 
-/// The screen as a self-contained document, the same bytes for the same screen.
+/// The screen as a self-contained SVG document; equal screens give equal bytes.
 pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
@@ -62,7 +62,7 @@ pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     svg.finish()
 }
 
-/// Backgrounds and characters that are drawn, as data of paths.
+/// Backgrounds and drawn characters as path data, for each kind and colour.
 fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
@@ -78,13 +78,13 @@ fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     paths
 }
 
-/// Path around a width of the cells of a symbol.
+/// Path around the left `width` (px) of the cells of a symbol.
 fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
     let (x, y) = (u32::from(glyph.column) * WIDTH, u32::from(glyph.row) * HEIGHT);
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
 }
 
-/// Horizontal places and letters of the text on each row, by colour and weight, with blanks between the words.
+/// Positions and letters of the texts on each row, by colour and weight, with blanks between words.
 fn texts(buffer: &Buffer, palette: &Palette) -> BTreeMap<(u16, Rgb, bool), (String, String)> {
     let mut texts = BTreeMap::<_, (String, String)>::new();
     let mut ends = BTreeMap::new();
@@ -117,7 +117,7 @@ fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
     (ink, ground)
 }
 
-/// Colour of the palette; `reset` where the terminal chooses. The explorer has the sixteen colours of ANSI.
+/// RGB of a terminal colour in a palette; `reset` for the default colour. The explorer uses the sixteen ANSI colours.
 fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen LightYellow \
                         LightBlue LightMagenta LightCyan White";
@@ -125,7 +125,7 @@ fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     ANSI.split(' ').position(|one| one == name).map_or(reset, |index| palette.ansi[index])
 }
 
-/// A colour between two others: a share in percent of the first.
+/// A mixture of two colours; `percent` is the share of the first.
 fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
     std::array::from_fn(|channel| {
         let part = |colour: Rgb, percent: u8| u32::from(colour[channel]) * u32::from(percent);
@@ -133,7 +133,7 @@ fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
     })
 }
 
-/// Kind and path of a character other than a letter.
+/// Kind and path of a character that is drawn as a shape; `None` for a letter.
 fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
     /// Lines from the middle of the cell to the left, right, upper and lower edge, and the characters with each.
     const ENDS: [(&str, &str); 4] =
@@ -216,7 +216,6 @@ mod tests {
         }
     }
 
-    /// Contrast ratio of WCAG 2.
     fn contrast(one: Rgb, other: Rgb) -> f64 {
         let light = |channel: u8| {
             let share = f64::from(channel) / 255.0;

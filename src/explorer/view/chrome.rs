@@ -1,4 +1,4 @@
-//! The lines around the panes: title, status, footer.
+//! The lines above and below the panes: title, status, footer.
 
 use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
@@ -24,7 +24,7 @@ use ratatui::text::{Line, Span};
 use std::f64::consts::PI;
 use std::path::is_separator;
 
-/// Name of the scene, a sign of unsaved changes, and the notice, which may no longer hold for a changed scene.
+/// Title lines: name of the scene, a sign for unsaved changes, and the notice, which may no longer hold for a changed scene.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let (scene, theme) = (app.edit.document.scene(), app.view.appearance.theme);
     let name = if scene.title.is_empty() { app.edit.document.name() } else { &scene.title };
@@ -40,7 +40,7 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     wrapped_within(&Line::from(spans), width, rows)
 }
 
-/// The headline figures, or a question, an error, or the typed text, in at most this number of rows.
+/// Status lines: the headline figures, a question, an error, or the typed text, in at most this number of rows.
 pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let theme = app.view.appearance.theme;
     let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
@@ -86,7 +86,7 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     vec![line]
 }
 
-/// A line being typed, behind its label and before what it will be.
+/// A line being typed, after its label and before what it will be read as.
 fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     let theme = app.view.appearance.theme;
     let label = Span::raw(label(app, prompt, width));
@@ -96,7 +96,7 @@ fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     Line::from_iter([label].into_iter().chain(prompt.line.spans(room, theme)).chain([reading]))
 }
 
-/// Label of a prompt; a short one where the typed text would be out of sight.
+/// Label of a prompt; shortened if the typed text would otherwise be out of sight.
 fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
@@ -116,18 +116,19 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     }
 }
 
-/// Least columns of a status line with the error of F_a and the kind of loading, and of one with whole names of regimes.
+/// Smallest width, columns, of a status line with the error of F_a and the kind of loading; and of one with the full names
+/// of regimes.
 const WITH_ERROR: usize = 48;
 const WITH_NAMES: usize = 100;
 
-/// A fact in the status line: of the whole loop, or of the shown state.
+/// A fact in the status line, about the whole loop or about the shown state.
 struct Fact {
     is_of_loop: bool,
     text: String,
     meaning: Meaning,
 }
 
-/// As many facts as there is room for, of the loop and of the shown state the most important ones.
+/// As many facts as there is room for, the most important ones about loop and state.
 fn headline(app: &App, width: usize) -> Line<'static> {
     if app.solved.is_none() {
         return Line::raw("computing…");
@@ -160,7 +161,7 @@ fn headline(app: &App, width: usize) -> Line<'static> {
     line(&known)
 }
 
-/// Facts about loop and state for a line of a width, the most important first.
+/// Facts about loop and state for a line of this width, the most important first.
 fn facts(app: &App, width: usize) -> Vec<Fact> {
     let is_wide = width >= WITH_ERROR;
     let Some(outcome) = app.solved.as_ref().map(|solved| &solved.outcome) else { return Vec::new() };
@@ -247,7 +248,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
     facts
 }
 
-/// The adhesion force over random profiles, where these have been computed at the preload of the scene.
+/// Statistics of the adhesion force over random profiles, if these are computed at the preload of the scene.
 fn profiles(app: &App) -> Option<Statistics> {
     let preload = app.current()?.outcome.figures.preload;
     let at = |preload| app.studies.value::<PreloadCurve>()?.at(preload);
@@ -255,8 +256,8 @@ fn profiles(app: &App) -> Option<Statistics> {
     preload.and_then(at).or_else(measured).filter(|forces| forces.count >= 2)
 }
 
-/// Stiffness E* l of the present contact with its edges in place (Popov and Filippov 2012, eq. (1)), and the mean pressure
-/// on a circle of its radius.
+/// Stiffness E* l of the present contact with fixed edges (Popov and Filippov 2012, eq. (1)), and the mean pressure on a
+/// circle of its radius, in words.
 fn response(app: &App, snapshot: &ContactSnapshot) -> Vec<String> {
     let Some(computed) = &app.solved else { return Vec::new() };
     let stiffness = computed.outcome.governing.effective_modulus * snapshot.point.contact_length;
@@ -269,7 +270,7 @@ fn response(app: &App, snapshot: &ContactSnapshot) -> Vec<String> {
     parts
 }
 
-/// The estimated error of the headline: `…` while awaited, `None` without an estimate.
+/// Estimated error of the headline figure in words: `…` while it is awaited, `None` without an estimate.
 fn error(app: &App) -> Option<String> {
     match app.studies.value::<Estimate>() {
         Some(estimate) => Some(estimate.words()),
@@ -281,7 +282,7 @@ fn error(app: &App) -> Option<String> {
     }
 }
 
-/// Progress of a search of springs for a tolerance, or of parameters for the measured curve.
+/// Progress of the search of springs for a tolerance, or of parameters for the measured curve; `None` without a search.
 fn searching(app: &App) -> Option<String> {
     if let Some(Choosing { tolerance, tried, .. }) = app.studies.value() {
         let tried = tried.map_or_else(String::new, |points| format!(": {} springs", grouped(points)));
@@ -304,7 +305,7 @@ fn counted(number: u64, thing: &str) -> String {
     format!("{} {thing}{plural}", grouped(number))
 }
 
-/// The valid keys.
+/// The valid keys, as a line.
 pub fn footer(app: &App, width: u16) -> Line<'static> {
     let theme = app.view.appearance.theme;
     if let Some(note) = app.view.demo {
@@ -320,7 +321,7 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     filled(items, "  ", width.into()).into_iter().next().unwrap_or_default()
 }
 
-/// Names of paths, without their folders.
+/// Names of paths, without their folders, as a line.
 fn candidates(paths: &[String], width: u16, theme: Theme) -> Line<'static> {
     let name = |path: &String| {
         let from = path.trim_end_matches(is_separator).rfind(is_separator).map_or(0, |at| at + 1);

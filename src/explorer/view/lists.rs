@@ -1,4 +1,4 @@
-//! Lists of a prompt in place of the panes: help and commands in sections; scenes, with the selected one on the right.
+//! Lists of a prompt in place of the panes: help and commands in sections, or scenes with the selected one on the right.
 
 use crate::explorer::layout::inside;
 use crate::explorer::panel;
@@ -11,15 +11,15 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-/// Columns of names beside their texts in windows from a width on; in narrower ones names are above the texts.
+/// Width of the names beside their texts, columns, and the width of a window from which on names are beside and not above.
 const NAMES: usize = 20;
 const BESIDE_FROM: u16 = 56;
-/// Columns before a text below its name.
+/// Indentation of a text below its name, columns.
 const INDENT: usize = 4;
-/// Least columns with the selected scene beside the list.
+/// Smallest width with the selected scene beside the list, columns.
 const WITH_SCENE: u16 = 62;
 
-/// A list of this name and length with these rows.
+/// Panel of a list of this name and length with these rows; `none` is its text without rows.
 fn list(prompt: &Prompt, (name, length, none): (&str, usize, &str), (rows, selected): Rows) -> Panel {
     let title = format!("{name}, {} of {length}", prompt.found.len());
     if rows.is_empty() {
@@ -28,10 +28,10 @@ fn list(prompt: &Prompt, (name, length, none): (&str, usize, &str), (rows, selec
     Panel { body: Body::Rows { rows, selected }, ..Panel::of_text(title, "") }
 }
 
-/// Rows of a list, and the place of the selected one.
+/// Lines of a list, and the index of the selected line.
 type Rows = (Vec<Line<'static>>, usize);
 
-/// The help or the list of commands: names and texts that fit what is typed, in sections while nothing is typed.
+/// Draws the help or the list of commands: the topics that match what is typed, in sections while nothing is typed.
 pub fn draw_topics(
     area: Rect,
     look: Appearance,
