@@ -1,6 +1,6 @@
 //! State of the shown map, over H and κ or over the axes of a study.
 
-use asperity_scene::{RoughnessParameter, Scene};
+use asperity_scene::Scene;
 use asperity_study::{Grid, LiveMap, Plan, Quantity, StudyMap, live_plan};
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ impl MapState {
     }
 
     pub(super) fn plan(&self, scene: &Scene) -> Option<Plan> {
-        live_plan(scene, RoughnessParameter::Kappa).ok()
+        live_plan(scene).ok()
     }
 
     /// Key of the live map of a scene; it stays the same while only κ and H change.

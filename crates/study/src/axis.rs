@@ -380,8 +380,7 @@ mod tests {
     #[test]
     fn steps_go_to_the_next_value_of_the_axis_and_end_with_it() {
         let scene = open("pressure-sensitive").unwrap().scene().clone();
-        let axes =
-            crate::live_plan::live_plan(&scene, asperity_scene::RoughnessParameter::Kappa).unwrap().axes;
+        let axes = crate::live_plan::live_plan(&scene).unwrap().axes;
         let to = |value, steps| axes[0].next_beyond(value, steps);
         assert_eq!((to(6.0, 1), to(6.0, -1), to(6.0, 4)), (Some(6.73), Some(5.66), Some(11.3)));
         // A value of the axis but for rounding.

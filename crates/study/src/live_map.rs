@@ -180,22 +180,18 @@ mod tests {
     use crate::study_map::StudyMap;
     use crate::tables::merge;
     use asperity_scene::Regime;
-    use asperity_scene::{RoughnessParameter, open, to_ron};
+    use asperity_scene::{open, to_ron};
     use std::cell::Cell;
 
     const HURSTS: usize = 19;
     const KAPPAS: usize = 33;
 
     fn map() -> LiveMap {
-        map_over(RoughnessParameter::Kappa)
-    }
-
-    fn map_over(parameter: RoughnessParameter) -> LiveMap {
         let document = open("pressure-sensitive").unwrap();
         let small = [("numerics.points", "128"), ("roughness.modes", "(1, 32)")];
         let small = small.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = document.set_all(&small).unwrap();
-        LiveMap::new(live_plan(document.scene(), parameter).unwrap()).unwrap()
+        LiveMap::new(live_plan(document.scene()).unwrap()).unwrap()
     }
 
     #[test]
@@ -246,42 +242,39 @@ mod tests {
 
     #[test]
     fn the_map_of_a_study_of_the_same_cells_is_the_same() {
-        for parameter in RoughnessParameter::ALL {
-            let (mut live, rows) = (map_over(parameter), Cell::new(0));
-            live.compute(&|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
-            let [up, across] = [0, 1].map(|axis| Level::Coarse.places(&live.plan().axes[axis]));
-            let list = |axis: usize, places: &[usize]| {
-                let value = |&place: &usize| format!("{:?}", live.plan().axes[axis].values[place]);
-                places.iter().map(value).collect::<Vec<_>>().join(", ")
-            };
-            let text = format!(
-                "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
-                 adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force], axes: [List(path: \"{}\", values: [{}]), \
-                 List(path: \"roughness.hurst\", values: [{}])])",
-                to_ron(&live.plan().scene),
-                live.plan().lines,
-                parameter.path(),
-                list(0, &up),
-                list(1, &across),
-            );
-            let plan = Plan::parse(&text, "map", &Changes::default()).unwrap();
-            let place = tempfile::tempdir().unwrap();
-            let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
-            run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
-            merge(&folder, false).unwrap();
-            let study = StudyMap::open(folder.path()).unwrap().grid(0);
-            let (live, mut disagreeing) = (live.grid(), 0);
-            for (row, &kappa) in up.iter().enumerate() {
-                for (column, &hurst) in across.iter().enumerate() {
-                    let [mut studied, shown] = [study.shown(column, row), live.shown(hurst, kappa)]
-                        .map(|place| place.unwrap().0.clone().unwrap());
-                    studied.statistics.iter_mut().flatten().for_each(|all| all.spread = None);
-                    assert_eq!(studied, shown, "{parameter:?}, {column} {row}");
-                    disagreeing += u64::from(studied.regimes[0].most().unwrap().1 < 4);
-                }
+        let (mut live, rows) = (map(), Cell::new(0));
+        live.compute(&|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+        let [up, across] = [0, 1].map(|axis| Level::Coarse.places(&live.plan().axes[axis]));
+        let list = |axis: usize, places: &[usize]| {
+            let value = |&place: &usize| format!("{:?}", live.plan().axes[axis].values[place]);
+            places.iter().map(value).collect::<Vec<_>>().join(", ")
+        };
+        let text = format!(
+            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
+             adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force], axes: [List(path: \"adhesion.kappa\", values: [{}]), \
+             List(path: \"roughness.hurst\", values: [{}])])",
+            to_ron(&live.plan().scene),
+            live.plan().lines,
+            list(0, &up),
+            list(1, &across),
+        );
+        let plan = Plan::parse(&text, "map", &Changes::default()).unwrap();
+        let place = tempfile::tempdir().unwrap();
+        let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
+        run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+        merge(&folder, false).unwrap();
+        let study = StudyMap::open(folder.path()).unwrap().grid(0);
+        let (live, mut disagreeing) = (live.grid(), 0);
+        for (row, &kappa) in up.iter().enumerate() {
+            for (column, &hurst) in across.iter().enumerate() {
+                let [mut studied, shown] = [study.shown(column, row), live.shown(hurst, kappa)]
+                    .map(|place| place.unwrap().0.clone().unwrap());
+                studied.statistics.iter_mut().flatten().for_each(|all| all.spread = None);
+                assert_eq!(studied, shown, "{column} {row}");
+                disagreeing += u64::from(studied.regimes[0].most().unwrap().1 < 4);
             }
-            assert!(disagreeing > 0, "no cell in which profiles differ");
         }
+        assert!(disagreeing > 0, "no cell in which profiles differ");
     }
 
     #[test]
@@ -317,7 +310,7 @@ mod tests {
     fn a_cell_that_cannot_be_computed_keeps_the_reason() {
         let document = open("pressure-sensitive").unwrap();
         let never = document.set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]").unwrap();
-        let mut map = LiveMap::new(live_plan(never.scene(), RoughnessParameter::Kappa).unwrap()).unwrap();
+        let mut map = LiveMap::new(live_plan(never.scene()).unwrap()).unwrap();
         let reported = Cell::new(false);
         map.compute(&|| reported.get(), &mut |_| reported.set(true));
         assert!(

@@ -6,7 +6,8 @@ use super::quantity::Quantity;
 use asperity_contact::Edges;
 use asperity_data::round_to;
 use asperity_scene::FEW_SAMPLES;
-use asperity_scene::{Adhesion, Numerics, Roughness, RoughnessParameter, SPRINGS_PER_WAVE, Scene, Solver};
+use asperity_scene::RoughnessParameter::Kappa;
+use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 
 /// Number of random profiles of each cell.
 pub const MAP_LINES: u64 = 4;
@@ -20,31 +21,26 @@ pub const MAP_RECORD: [Quantity; 5] = [
 ];
 /// Smallest and largest usual number of springs of a map. A scene with fewer keeps its own number; short waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
-/// Values that represent any κ or e_el/γ and any H.
+/// Representatives of all κ and all H.
 const ANY: (f64, f64) = (1.0, 0.5);
 
-/// Number of values of κ, quarters of octaves from 1/8 to 32, or of e_el/γ, which grows with κ², half octaves from 1/64 to
-/// 1024.
-const PARAMETERS: u32 = 33;
-/// Number of values of H, from 0.05 to 0.95.
+/// Values of κ: quarters of octaves from 1/8 to 32.
+const KAPPAS: u32 = 33;
+/// Values of H, from 0.05 to 0.95.
 const HURSTS: u32 = 19;
 
-/// Values of κ or e_el/γ rounded to three digits, so that a scene set to a shown value is the scene of the cell.
-fn parameters(parameter: RoughnessParameter) -> Vec<f64> {
-    let per_octave = match parameter {
-        RoughnessParameter::Kappa => 4.0,
-        RoughnessParameter::ElasticEnergyRatio => 2.0,
-    };
-    let exact = |index: u32| ((f64::from(index) - 12.0) / per_octave).exp2();
-    (0..PARAMETERS).map(|index| round_to(exact(index), 3)).collect()
+/// Values of κ to three digits, so that a scene set to a shown value is that of the cell.
+fn kappas() -> Vec<f64> {
+    let exact = |index: u32| ((f64::from(index) - 12.0) / 4.0).exp2();
+    (0..KAPPAS).map(|index| round_to(exact(index), 3)).collect()
 }
 
-/// The plan of the live map of a checked scene: cells over κ or e_el/γ and, if the roughness has one, H. Scenes that differ
-/// only in these or in the number of samples have the same plan.
+/// The study of all cells of the live map of a checked scene: κ and, if its roughness has one, H. Scenes that
+/// differ only in these or in the resolution of their curve have the same.
 ///
 /// # Errors
 /// The reason why the scene has no map.
-pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &'static str> {
+pub fn live_plan(scene: &Scene) -> Result<Plan, &'static str> {
     let adhesion = scene
         .adhesion
         .ok_or("no map: the scene has no adhesion, so no κ; switch adhesion on with t in its row")?;
@@ -52,7 +48,7 @@ pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &
         return Err("no map: κ is defined by one work of adhesion; leave adhesion.closing_work out");
     }
     // The range of the attraction changes no map.
-    let adhesion = Adhesion { range: None, ..adhesion.with_parameter(parameter, ANY.0) };
+    let adhesion = Adhesion { range: None, ..adhesion.with_parameter(Kappa, ANY.0) };
     let mut scene = scene.clone();
     let last = scene.spectrum().map_or(0, |spectrum| spectrum.last);
     let (points, has_hurst) = match &mut scene.roughness {
@@ -73,8 +69,8 @@ pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &
     scene.numerics = Numerics { points, solver: Solver::Exact, edges: Edges::SubCell, ..scene.numerics };
     let hursts = || (1..=HURSTS).map(|index| f64::from(index) * 5.0 / 100.0).collect();
     let hursts = has_hurst.then(|| ("roughness.hurst", Spacing::Linear, hursts()));
-    let parameters = (parameter.path(), Spacing::Logarithmic, parameters(parameter));
-    let axes = [parameters].into_iter().chain(hursts);
+    let kappas = (Kappa.path(), Spacing::Logarithmic, kappas());
+    let axes = [kappas].into_iter().chain(hursts);
     // Both are quantities of a scene.
     let axes = axes.filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());
     let lines = if has_hurst { MAP_LINES } else { 1 };
@@ -85,7 +81,6 @@ pub fn live_plan(scene: &Scene, parameter: RoughnessParameter) -> Result<Plan, &
 mod tests {
     use super::*;
     use crate::place::governing;
-    use asperity_scene::RoughnessParameter::Kappa;
     use asperity_scene::{Document, open};
 
     fn document() -> Document {
@@ -95,7 +90,7 @@ mod tests {
     #[test]
     fn a_map_is_that_of_all_kappa_and_hurst() {
         let document = document();
-        let of = |document: &Document| live_plan(document.scene(), Kappa);
+        let of = |document: &Document| live_plan(document.scene());
         let plan = of(&document).unwrap();
         assert_eq!((plan.scene.numerics.points, plan.axes.len(), plan.lines), (2048, 2, MAP_LINES));
         for (path, value) in [
@@ -129,25 +124,21 @@ mod tests {
 
     #[test]
     fn the_scenes_of_all_cells_are_sound() {
-        for parameter in RoughnessParameter::ALL {
-            let plan = live_plan(document().scene(), parameter).unwrap();
-            assert_eq!(plan.check_cells(), Ok(()));
-            for cell in 0..plan.cells() {
-                let scene = plan.scene_of(cell).unwrap();
-                let known = governing(&scene).unwrap().parameter(parameter);
-                assert_eq!(known, Some(plan.value(cell, 0)));
-            }
-            assert_eq!((plan.cells(), plan.seed_of(3)), (u64::from(HURSTS * PARAMETERS), 8));
-            assert!([0.05, 0.5, 0.7, 0.95].iter().all(|hurst| plan.axes[1].values.contains(hurst)));
+        let plan = live_plan(document().scene()).unwrap();
+        assert_eq!(plan.check_cells(), Ok(()));
+        for cell in 0..plan.cells() {
+            let known = governing(&plan.scene_of(cell).unwrap()).unwrap().kappa;
+            assert_eq!(known, Some(plan.value(cell, 0)));
         }
+        assert_eq!((plan.cells(), plan.seed_of(3)), (u64::from(HURSTS * KAPPAS), 8));
+        assert!([0.05, 0.5, 0.7, 0.95].iter().all(|hurst| plan.axes[1].values.contains(hurst)));
     }
 
     #[test]
     fn the_values_are_round() {
-        let [kappa, ratio] = RoughnessParameter::ALL.map(parameters);
-        assert_eq!([0, 4, 8, 12, 16, 24, 32].map(|at| kappa[at]), [0.125, 0.25, 0.5, 1.0, 2.0, 8.0, 32.0]);
-        assert_eq!([0, 8, 12, 14, 32].map(|at| ratio[at]), [0.0156, 0.25, 1.0, 2.0, 1020.0]);
-        assert_eq!((kappa[13], ratio[13]), (1.19, 1.41));
-        assert!([kappa, ratio].iter().all(|values| values.windows(2).all(|pair| pair[0] < pair[1])));
+        let kappas = kappas();
+        assert_eq!([0, 4, 8, 12, 16, 24, 32].map(|at| kappas[at]), [0.125, 0.25, 0.5, 1.0, 2.0, 8.0, 32.0]);
+        assert_eq!(kappas[13], 1.19);
+        assert!(kappas.is_sorted_by(|one, next| one < next));
     }
 }

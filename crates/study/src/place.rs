@@ -226,7 +226,7 @@ mod tests {
     fn a_document_is_moved_in_its_own_terms() {
         let by_kappa = open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap();
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();
-        let axes = live_plan(by_kappa.scene(), RoughnessParameter::Kappa).unwrap().axes;
+        let axes = live_plan(by_kappa.scene()).unwrap().axes;
         for document in [by_kappa.clone(), by_work] {
             let moved = moved(&document, &[(&axes[1], 0.4), (&axes[0], 3.0)]).unwrap();
             let (before, after) = (document.scene().adhesion.unwrap(), moved.scene().adhesion.unwrap());

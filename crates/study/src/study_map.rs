@@ -132,7 +132,7 @@ impl StudyMap {
             self.over().filter_map(|axis| Some((axis, axis.value_in(scene, None)?))).collect();
         let Ok(mut of_map) = self.scene(slice, &known) else { return false };
         let mut scene = scene.clone();
-        match [&of_map, &scene].map(|scene| live_plan(scene, RoughnessParameter::Kappa)) {
+        match [&of_map, &scene].map(live_plan) {
             [Ok(one), Ok(other)] => one == other && is_close(place(&of_map), place(&scene)),
             _ => {
                 of_map.strip(FEW_SAMPLES);

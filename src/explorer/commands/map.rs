@@ -4,7 +4,7 @@ use super::edit;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::map::OpenStudy;
-use asperity_scene::{Document, RoughnessParameter, SceneErrors};
+use asperity_scene::{Document, SceneErrors};
 use asperity_study::{Axis, Place, live_plan, moved};
 use std::sync::Arc;
 
@@ -53,7 +53,7 @@ pub fn step_slice(app: &mut App, steps: i32) {
 /// Moves the mark, and with it the scene, by columns and rows of the map.
 pub fn step(app: &mut App, columns: i32, rows: i32) {
     let Some((at_across, at_up)) = app.place() else {
-        let why = match live_plan(app.edit.document.scene(), RoughnessParameter::Kappa) {
+        let why = match live_plan(app.edit.document.scene()) {
             Err(why) => why.to_owned(),
             Ok(_) if app.map.shown_study().is_some() => NO_PLACE.to_owned(),
             Ok(_) => "the scene is still being computed: its κ follows from its profile".to_owned(),

@@ -12,7 +12,6 @@ use crate::export::study_figure::{study_curves, study_figure, study_map};
 use asperity_data::grouped;
 use asperity_data::{format_range, format_rounded};
 use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
-use asperity_scene::RoughnessParameter;
 use asperity_study::{Axis, Cell, Grid, LiveMap, MAP_LINES, Place, Quantity, Statistics, live_plan};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -143,7 +142,7 @@ fn title(app: &App) -> String {
 }
 
 fn nothing_yet(app: &App) -> String {
-    if let Err(why) = live_plan(app.edit.document.scene(), RoughnessParameter::Kappa) {
+    if let Err(why) = live_plan(app.edit.document.scene()) {
         return why.to_owned();
     }
     match app.studies.failure::<Live>() {

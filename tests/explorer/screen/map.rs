@@ -3,7 +3,6 @@
 use super::*;
 use asperity::explorer::commands::accuracy::studies;
 use asperity::explorer::map::Live;
-use asperity::scene::RoughnessParameter;
 use asperity::study::{LiveMap, MAP_LINES, live_plan};
 
 /// A map of a cell on each of four profiles: adhesion falls with κ, and with it the regime.
@@ -32,7 +31,7 @@ pub fn mapped(document: Document) -> Driver {
     let mut driver = Driver::start(document);
     driver.press("Space");
     let scene = driver.document().scene();
-    if let Ok(plan) = live_plan(scene, RoughnessParameter::Kappa) {
+    if let Ok(plan) = live_plan(scene) {
         let key = driver.app.map.key(scene).unwrap();
         let mut map = LiveMap::new(plan).unwrap();
         (0..map.plan().cells()).for_each(|cell| set(&mut map, cell));
