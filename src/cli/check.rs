@@ -3,6 +3,7 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
+use super::removed;
 use crate::export::report::Format;
 use asperity_scene::{Case, Check, Verdict, catalogue, checks, judge};
 use clap::Args;
@@ -31,6 +32,9 @@ impl CheckArguments {
         let has = |case: &Case, word: &String| case.name.contains(word.as_str());
         for word in &self.words {
             if !catalogue().iter().any(|case| has(case, word)) {
+                if let Some(why) = removed::instead_of_case(word) {
+                    return Err(CliError::message(why));
+                }
                 let allowed: Vec<&str> = catalogue().into_iter().map(|case| case.name).collect();
                 let none = format!("no case has this in its name; allowed: parts of {}", allowed.join(", "));
                 return Err(CliError::named(word, none));

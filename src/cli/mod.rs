@@ -30,13 +30,14 @@ use arguments::{Arguments, Command};
 use error::CliError;
 
 use asperity_data::{printable, printable_lines};
-use asperity_scene::did_you_mean;
+use asperity_scene::{did_you_mean, find, presets, quoted};
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Parser};
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io;
 use std::io::{BufWriter, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Size in bytes of the buffer before standard output.
@@ -99,27 +100,41 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let words: Vec<_> = typed.iter().skip(1).map(|word| word.to_string_lossy()).collect();
     let refused = error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::UnknownArgument);
     let refused = refused.map(ToString::to_string);
+    // Also for the help of a removed command.
     let candidates = words.first().map(AsRef::as_ref).into_iter().chain(refused.as_deref());
-    if let Some(message) = removed::instead(candidates).filter(|_| error.use_stderr()) {
+    if let Some(message) = removed::instead(candidates) {
         return clap::Error::raw(ErrorKind::InvalidSubcommand, message + "\n");
     }
     let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
-    let (Some(first), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument) =
-        (words.first(), error.kind())
-    else {
-        return error;
-    };
-    let message = match words.iter().find(is_command) {
-        Some(misplaced) if misplaced != first => {
+    let Some(first) = words.first() else { return error };
+    // A second word without a dash, which the parser takes for a command.
+    let second = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
+    let is_scene = || find(first).is_some() || Path::new(&**first).exists();
+    let message = match (words.iter().find(is_command), &refused, &second) {
+        (Some(misplaced), ..)
+            if misplaced != first
+                && matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::UnknownArgument) =>
+        {
             format!("the command '{misplaced}' comes first, its scene and options follow")
         }
-        None if !first.starts_with('-') => {
-            let unknown =
-                error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::UnknownArgument);
-            let unknown =
-                unknown.map_or(String::new(), |unknown| format!("unexpected argument '{unknown}': "));
-            let near = did_you_mean(first, names.iter().map(String::as_str));
-            format!("{unknown}'{first}' is not a command{near} (commands: {})", names.join(", "))
+        (None, Some(option), _) if is_scene() => {
+            format!(
+                "unexpected argument '{option}'; a command comes first, such as asperity run {}",
+                quoted(&**first)
+            )
+        }
+        (None, None, Some(second)) if is_scene() => {
+            let [first, second] = [&**first, second.as_str()].map(quoted);
+            format!(
+                "the explorer opens one scene; asperity {first} --compare {second} adds the curve of another"
+            )
+        }
+        (None, ..) if !first.starts_with('-') && (refused.is_some() || second.is_some()) => {
+            let unexpected =
+                refused.map_or_else(String::new, |option| format!("unexpected argument '{option}': "));
+            let scenes = presets().iter().map(|preset| preset.name);
+            let near = did_you_mean(first, names.iter().map(String::as_str).chain(scenes));
+            format!("{unexpected}'{first}' is not a command{near} (commands: {})", names.join(", "))
         }
         _ => return error,
     };

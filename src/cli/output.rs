@@ -81,8 +81,16 @@ impl OutputArguments {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// The format of the results: by the extension of the file, else the chosen format, else the usual one. Also checks,
-    /// before any computation, that the file can be written. A terminal gets text only.
+    /// Returns true if the file, the format or the look is that of a picture.
+    pub(super) fn asks_for_picture(&self) -> bool {
+        let extensions: Vec<_> = PICTURES.iter().map(|format| format.extension()).collect();
+        let by_file =
+            self.file().is_some_and(|path| check_extension(path, &extensions).is_ok_and(|of| of.is_some()));
+        by_file || self.format.is_some_and(Format::is_picture) || self.width.is_some() || self.parameters
+    }
+
+    /// The format of the results: that of the extension of FILE, else the chosen one, else the usual one. Before any
+    /// computation, checks also that FILE can be written. A terminal gets text only.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
         if (self.width.is_some() || self.parameters) && !format.is_picture() {

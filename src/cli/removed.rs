@@ -1,4 +1,7 @@
-//! Commands and options that the program no longer has.
+//! Commands, options and cases that the program no longer has.
+
+/// A figure of a command that has had one.
+pub(super) const FIGURE_OF_SENSITIVITY: &str = "figure of asperity sensitivity";
 
 /// Names of removed commands and options, each with what to use instead.
 const REMOVED: &[(&str, &str)] = &[
@@ -10,11 +13,22 @@ const REMOVED: &[(&str, &str)] = &[
     ("--smoothing", "reversals have no density, and --map writes their forces and Everett function"),
     ("--loops", "asperity run computes minor loops as stages of the loading"),
     ("--memory", "--jobs keeps the memory of a study down, and --check states it"),
+    (FIGURE_OF_SENSITIVITY, "its table has the same changes, and the explorer draws them as bars (Y)"),
 ];
 
-/// Returns what to use instead of the first of these words that is a removed command or option.
+/// Cases of `asperity check` that the tests of the crates judge.
+const CASES: &[&str] =
+    &["jkr-energy", "seventh-power", "mirror", "everything-sticks", "equal-teeth", "springs-2^24"];
+
+/// Returns what serves in place of the first removed command or option among these words.
 pub(super) fn instead<'a>(words: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let name = |word: &'a str| word.split('=').next().unwrap_or(word);
     let row = |word| REMOVED.iter().find(|(removed, _)| *removed == name(word));
     words.into_iter().find_map(row).map(|(name, instead)| format!("there is no {name} any more: {instead}"))
+}
+
+/// Returns what serves in place of a removed case of `asperity check`.
+pub(super) fn instead_of_case(word: &str) -> Option<String> {
+    let serves = "cargo test in the source of the program judges more of the same";
+    CASES.contains(&word).then(|| format!("there is no case {word} any more: {serves}"))
 }

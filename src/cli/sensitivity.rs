@@ -2,6 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
+use super::removed;
 use super::scene::{SceneArguments, simulation_of};
 use crate::export::report::Format;
 use crate::export::sensitivity::SensitivityReport;
@@ -27,6 +28,11 @@ pub struct SensitivityArguments {
 }
 
 pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    if arguments.output.asks_for_picture()
+        && let Some(why) = removed::instead([removed::FIGURE_OF_SENSITIVITY])
+    {
+        return Err(CliError::message(why));
+    }
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();

@@ -13,11 +13,12 @@ use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
+use super::read::reason_of_version;
 use super::text::index::is_within;
 use super::text::{ron_float, ron_string};
 use super::tree::{Tree, in_ron, written};
 use asperity_contact::{Edges, Move};
-use asperity_data::is_control;
+use asperity_data::{is_control, round_to};
 use asperity_surface::Form;
 use asperity_surface::{Unit, UnitError};
 
@@ -58,6 +59,22 @@ fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     }
 }
 
+/// Digits of a stated limit that follows from other values.
+const LIMIT_DIGITS: usize = 8;
+
+/// The largest allowed number, rounded down.
+fn largest(value: f64) -> String {
+    let near = round_to(value, LIMIT_DIGITS);
+    ron_float(if near > value { round_to(value * (1.0 - 1e-7), LIMIT_DIGITS) } else { near })
+}
+
+/// The smallest allowed number, rounded up.
+fn smallest(value: f64) -> String {
+    let near = round_to(value, LIMIT_DIGITS);
+    ron_float(if near < value { round_to(value * (1.0 + 1e-7), LIMIT_DIGITS) } else { near })
+}
+
+/// The errors found so far in a scene.
 struct Found<'s> {
     scene: &'s Scene,
     tree: Tree,
@@ -122,7 +139,8 @@ impl Found<'_> {
         };
         let wrong_texts: Vec<_> = texts.iter().filter_map(|text| wrong_text(field, text.as_str()?)).collect();
         for (value, allowed) in wrong.map(|value| (value, field.allowed())).into_iter().chain(wrong_texts) {
-            self.refuse(field.path, value, &allowed, field.name);
+            let reason = if field.path == "version" { reason_of_version(&value) } else { field.name };
+            self.refuse(field.path, value, &allowed, reason);
         }
     }
 
@@ -163,12 +181,11 @@ impl Found<'_> {
         let (Some(form), half) = (&scene.form, scene.length / 2.0) else { return };
         let (body, grid) = (["form", "length"], ["form", "length", "numerics.points"]);
         if let Some(radius) = form.flat_end() {
-            let reason =
-                format!("a punch is not wider than the line: at most length/2 = {}", ron_float(half));
+            let reason = format!("a punch is not wider than the line: at most length/2 = {}", largest(half));
             self.require(radius <= half, &body, "form.radius", "", &reason);
             let reason = format!(
                 "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
-                ron_float(spacing)
+                ron_float(round_to(spacing, LIMIT_DIGITS))
             );
             let has_springs = !scene.springs_under_body().is_empty();
             return self.require(has_springs, &grid, "form.radius", "", &reason);
@@ -179,7 +196,7 @@ impl Found<'_> {
         }
         if let &Form::WavySphere { wavelength, .. } = form {
             let shortest = SPRINGS_PER_WAVE as f64 * spacing;
-            let allowed = format!("at least {} m", ron_float(shortest));
+            let allowed = format!("at least {} m", smallest(shortest));
             let reason =
                 format!("a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves");
             self.require(wavelength >= shortest, &grid, "form.wavelength", &allowed, &reason);
@@ -260,7 +277,7 @@ impl Found<'_> {
         let (path, allowed) = match modes {
             Some(_) => ("roughness.modes", format!("last mode at most points/2 = {most}")),
             None => {
-                let shortest = ron_float(length / most as f64);
+                let shortest = smallest(length / most as f64);
                 ("roughness.wavelengths", format!("shortest at least two springs = {shortest} m"))
             }
         };
@@ -268,10 +285,10 @@ impl Found<'_> {
         self.require(spectrum.last <= most, &of, path, &allowed, &reason);
         let mode = |mode: u64| length / mode as f64;
         let (longest, shortest) = wavelengths.unwrap_or((mode(spectrum.first), mode(spectrum.last)));
-        let allowed = format!("longest at most length = {} m", ron_float(length));
+        let allowed = format!("longest at most length = {} m", largest(length));
         let reason = "a longer wave does not fit the profile";
         self.require(longest <= length, &[path, "length"], path, &allowed, reason);
-        let allowed = format!("from {} to {} m", ron_float(shortest), ron_float(longest));
+        let allowed = format!("from {} to {} m", smallest(shortest), largest(longest));
         let is_met = roll_off.is_none_or(|wavelength| (shortest..=longest).contains(&wavelength));
         let (of, roll_off) = ([path, "roughness.roll_off", "length"], "roughness.roll_off");
         self.require(is_met, &of, roll_off, &allowed, "a roll-off lies within the waves of the profile");
@@ -283,7 +300,7 @@ impl Found<'_> {
         match strength {
             // A spring that attaches with more energy than it detaches with would detach at once.
             Strength::Work { opening, closing } => {
-                let (path, allowed) = ("adhesion.closing_work", format!("0 to {} J/m²", ron_float(opening)));
+                let (path, allowed) = ("adhesion.closing_work", format!("0 to {} J/m²", largest(opening)));
                 let is_met = closing.is_none_or(|closing| closing <= opening);
                 self.require(is_met, &["adhesion"], path, &allowed, "at most adhesion.work");
             }
@@ -378,6 +395,10 @@ mod tests {
             (no_amplitude, "roughness: the amplitude is missing"),
             ("adhesion.closing_work=0.05", ""),
             ("adhesion.closing_work=0.0500001", "allowed: 0 to 0.05 J/m² (at most adhesion.work)"),
+            (
+                "adhesion.work=0.061234567890123; adhesion.closing_work=0.07",
+                "allowed: 0 to 0.061234562 J/m² (at most",
+            ),
             ("adhesion=(kappa: 2.0, closing_work: 0.0)", "closing_work requires adhesion.work"),
             ("numerics.points=1024", ""),
             ("numerics.points=1023", "roughness.modes = (1, 512): allowed: last mode at most points/2 = 511"),

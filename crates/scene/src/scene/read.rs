@@ -18,6 +18,14 @@ const MOST_REPEATED: usize = 60;
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
+/// The reason why a version is refused; the fields of the former version 2 are those of version 1.
+pub(super) fn reason_of_version(version: &str) -> &'static str {
+    match version {
+        "2" => "there is no version 2 any more: write version: 1, all other fields stay",
+        _ => "version",
+    }
+}
+
 /// Reads a scene; its values are not checked. An error has the origin of the byte at which reading failed.
 pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
     read_ron(text).map_err(|error| {
@@ -38,7 +46,7 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     if value.parse().is_ok_and(|version| field.range.contains_whole(version)) {
         return None;
     }
-    let error = SceneError::of(field.path, value, field.allowed(), field.name);
+    let error = SceneError::of(field.path, value, field.allowed(), reason_of_version(value));
     Some((text.nearest_value("version"), error))
 }
 
