@@ -1,8 +1,9 @@
 //! Differences between two scenes, in words.
 
 use super::document::Document;
-use super::field::{Field, target_field};
+use super::field::{Field, choice_in_words, target_field};
 use super::model::Scene;
+use super::range::Range;
 use super::stages::loading_text;
 use super::tree::{Tree, differing};
 use asperity_contact::Move;
@@ -30,23 +31,33 @@ fn symbol_or_name(field: &Field) -> &'static str {
     if field.symbol.is_empty() { field.name } else { field.symbol }
 }
 
-fn with_unit(field: &Field, value: &str) -> String {
+/// The value of a field without fields inside, with its unit, and choices in words: `50 mJ/m²`, `sub-cell`, `none`.
+fn value_in_words(field: &Field, value: &str) -> String {
     let words = || value.split_whitespace().collect::<Vec<_>>().join(" ");
-    field.quantities(value, format_quantity).unwrap_or_else(words)
+    match field.range {
+        _ if ["None", "[]"].contains(&value) => "none".to_owned(),
+        Range::Choice(_) => choice_in_words(value),
+        Range::Band(..) => value.trim_matches(['(', ')']).replace(", ", " to "),
+        _ => field.quantities(value, format_quantity).unwrap_or_else(words),
+    }
 }
 
-/// A field by its value, and a group by its choice and the values in it: `SelfAffine(H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
+/// A field by its value, a group by its choice and the values given in it: `self-affine (H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
 fn in_words(tree: &Tree, field: &Field) -> String {
     let value = tree.written(field).unwrap_or_default();
     let inside = tree.inside(field);
     if inside.is_empty() {
-        return with_unit(field, &value);
+        return value_in_words(field, &value);
     }
     let given = inside.into_iter().filter(|field| tree.value(field).is_some());
     let given: Vec<String> =
         given.map(|field| format!("{} {}", symbol_or_name(field), in_words(tree, field))).collect();
     let (choice, given) = (value.split('(').next().unwrap_or_default(), given.join(", "));
-    if choice.is_empty() { given } else { format!("{choice}({given})") }
+    match (choice_in_words(choice), given) {
+        (choice, given) if choice.is_empty() => given,
+        (choice, given) if given.is_empty() => choice,
+        (choice, given) => format!("{choice} ({given})"),
+    }
 }
 
 impl Document {
@@ -125,6 +136,13 @@ mod tests {
         let other = scene.set("adhesion", "(work: 0.03)").unwrap();
         assert_eq!(changes(&scene, &other), ["adhesion κ 6 → γ 30 mJ/m²"]);
         let other = scene.set("form", "Paraboloid(radius: 1e-3)").unwrap();
-        assert_eq!(changes(&scene, &other), ["form None → Paraboloid(R 1 mm)"]);
+        assert_eq!(changes(&scene, &other), ["form none → paraboloid (R 1 mm)"]);
+        let smooth = scene.set_all(
+            &[("roughness", "None"), ("adhesion", "None")].map(|(path, value)| (path.into(), value.into())),
+        );
+        let rough = "roughness none → self-affine (H 0.7, h 200 nm, k 4 to 512, seed 5)";
+        assert_eq!(changes(&smooth.unwrap(), &scene), [rough, "adhesion none → κ 6"]);
+        let other = scene.set("numerics.edges", "Grid").unwrap();
+        assert_eq!(changes(&scene, &other), ["edges sub-cell → grid"]);
     }
 }
