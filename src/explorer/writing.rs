@@ -11,10 +11,10 @@ use super::picture::text;
 use super::theme::Theme;
 use super::view;
 use crate::export::provenance::scene_provenance;
-use crate::export::report::{Format, Report};
-use asperity_data::{WriteError, write_new_file};
+use crate::export::report::{Format, Json, Report};
+use asperity_data::{WriteError, object, write_new_file};
 use asperity_plot::{Figure, Palette};
-use asperity_scene::command_line;
+use asperity_scene::{Scene, command_line};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -63,12 +63,27 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
             let (folder, destination) = (document.resolve(""), path.parent().unwrap_or(Path::new("")));
             let provenance = scene_provenance(&command, document.scene(), &folder, destination);
             let provenance = provenance.map_err(io::Error::other)?;
-            crate::export::report::write(out, &*report, format, &provenance)
+            let beside_scene = SceneTable { scene: document.scene(), table: &*report };
+            let is_table_alone = format == Format::Json && report.json().is_none();
+            let report: &dyn Report = if is_table_alone { &beside_scene } else { &*report };
+            crate::export::report::write(out, report, format, &provenance)
         }
     }
 }
 
-/// The selected pane as a figure; the force curve if the parameters are selected.
+/// The table of a pane beside its scene, as JSON of a result that has no other.
+struct SceneTable<'a> {
+    scene: &'a Scene,
+    table: &'a dyn Report,
+}
+
+impl Report for SceneTable<'_> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(object! { "scene": self.scene, "rows": self.table.table()? }))
+    }
+}
+
+/// The selected pane as a figure; the force curve while the parameters are selected.
 fn figure(app: &App) -> Option<Figure> {
     let pane = if app.view.pane == Pane::Parameters { Pane::Force } else { app.view.pane };
     panes::figure(app, pane)

@@ -44,10 +44,6 @@ impl<T: Serialize> Json for T {
 
 /// A figure of one chart can also be written as the table of its curves.
 impl Report for Figure {
-    fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(self.table()?))
-    }
-
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());

@@ -132,6 +132,15 @@ fn the_text_is_the_screen_without_the_prompt() {
     }
 }
 
+/// Each result is an object that begins with the version, the command and the scene.
+fn is_exported_as_json(driver: &mut Driver) {
+    let json: serde_json::Value = serde_json::from_str(&exported(driver, "a.json")).unwrap();
+    for entry in ["program", "command", "scene"] {
+        assert!(json.get(entry).is_some(), "{:?}: {entry}: {json}", driver.app.view.pane);
+    }
+    assert_eq!(json["scene"]["version"], 1, "{:?}", driver.app.view.pane);
+}
+
 #[test]
 fn every_pane_is_exported_as_a_figure() {
     for (keys, pane, expected) in [
@@ -166,6 +175,12 @@ fn every_pane_is_exported_as_a_figure() {
         driver.app.view.pane = pane;
         let table = exported(&mut driver, "a.csv");
         assert!(table.contains(command) && table.contains(column), "{pane:?}: {table}");
+        is_exported_as_json(&mut driver);
+    }
+    for pane in [Pane::Force, Pane::Parameters, Pane::Profile, Pane::CloseUp, Pane::Spectrum] {
+        let mut driver = pressed(if pane == Pane::Spectrum { "Q" } else { "" });
+        driver.app.view.pane = pane;
+        is_exported_as_json(&mut driver);
     }
     let mut driver = pressed("");
     driver.app.view.pane = Pane::Spectrum;
