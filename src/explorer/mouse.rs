@@ -56,7 +56,8 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
             app.edit.select(row);
         }
         (_, Under::Data(x, _)) if app.view.crosshair.is_some() => crosshair::point_at(app, x),
-        (Pane::Force, Under::Data(x, _)) => drag(app, here, x),
+        // A click alone selects the pane; manual loading begins with a drag.
+        (Pane::Force, Under::Data(x, _)) if !is_press || app.manual.is_some() => drag(app, here, x),
         _ => {}
     }
 }

@@ -53,7 +53,7 @@ fn presses_and_drags_have_their_effects() {
         quantity(&row, "d", "m")
     };
     let (column, row) = place_of(&terminal, "Force F(d)");
-    terminal.send(&report(LEFT, column + 20, row + 8));
+    terminal.send(&(report(LEFT, column + 20, row + 8) + &report(DRAGGED, column + 20, row + 8)));
     terminal.wait("manual loading", |rows| indentation(rows).is_some());
     let start = indentation(&terminal.rows());
     terminal.send(&report(DRAGGED, column + 30, row + 8));

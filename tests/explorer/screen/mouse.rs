@@ -54,9 +54,11 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
         driver.press(keys);
         driver.resize(size);
         let area = driver.area(Pane::Force);
+        driver.mouse(area.x + 21, area.y + 5, Gesture::Press);
+        assert!(driver.app.manual.is_none(), "a click alone moves nothing");
         for (number, column) in [21, 25, 18, 23].into_iter().enumerate() {
             let (column, row) = (area.x + column, area.y + 5);
-            driver.mouse(column, row, if number == 0 { Gesture::Press } else { Gesture::Drag });
+            driver.mouse(column, row, if number == 2 { Gesture::Press } else { Gesture::Drag });
             let [wanted, next] = [column, column + 1]
                 .map(|column| indentation_at(&driver.app, axis_number(&driver, column, row)).unwrap());
             let found = driver.point().indentation;
@@ -69,6 +71,7 @@ fn a_drag_takes_the_body_to_where_the_mouse_is() {
     let mut driver = pressed("v");
     let area = driver.area(Pane::Force);
     driver.mouse(area.x + 20, area.y + 5, Gesture::Press);
+    driver.mouse(area.x + 21, area.y + 5, Gesture::Drag);
     assert!(driver.app.manual.is_none() && driver.app.view.pane == Pane::Force);
 }
 
