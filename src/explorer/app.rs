@@ -177,6 +177,23 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
+    /// States what is known at the start beside the notice of the opened scene: warnings and errors come first.
+    pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
+        let (error, done) = match self.message.take() {
+            Some(Message::Done(text)) => (None, Some(text)),
+            Some(Message::Error(text) | Message::Refused(text)) => (Some(text), None),
+            None => (None, None),
+        };
+        let is_error = warning.is_some() || error.is_some();
+        let notices: Vec<String> = [warning, error, done, offer].into_iter().flatten().collect();
+        let text = notices.join(" · ");
+        match (is_error, text.is_empty()) {
+            (_, true) => {}
+            (true, _) => self.set_error(text),
+            (false, _) => self.set_done(text),
+        }
+    }
+
     pub fn is_refused(&self) -> bool {
         matches!(self.message, Some(Message::Refused(_)))
     }
@@ -389,7 +406,15 @@ impl App {
         match parameter.setting {
             Setting::RoughnessParameter(parameter) => governing.parameter(parameter).map(ron_float),
             Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
-            Setting::Field | Setting::Heading => None,
+            Setting::Field => {
+                let amplitude = governing.amplitude?;
+                match parameter.path.as_str() {
+                    "roughness.rms_height" => Some(ron_float(amplitude.rms_height)),
+                    "roughness.rms_gradient" => Some(ron_float(amplitude.rms_gradient)),
+                    _ => None,
+                }
+            }
+            Setting::Heading => None,
         }
     }
 

@@ -18,16 +18,12 @@ const HIDDEN: [&str; 5] = ["version", "observe", "numerics.samples", "numerics.e
 /// Three ways to give the adhesion; each determines the others.
 const ADHESION: [&str; 3] = ["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"];
 
-/// Order within a group: the first row, these fields, then the others as in the scene file.
-const FIRST: [&str; 7] = [
-    ADHESION[0],
-    ADHESION[1],
-    ADHESION[2],
-    "roughness.rms_height",
-    "roughness.rms_gradient",
-    "roughness.hurst",
-    "roughness.seed",
-];
+/// Two ways to give the amplitude of the roughness, of which the other follows.
+const AMPLITUDE: [&str; 2] = ["roughness.rms_height", "roughness.rms_gradient"];
+
+/// Order in a group: the first row, these fields, and the others as in the scene file.
+const FIRST: [&str; 7] =
+    [ADHESION[0], ADHESION[1], ADHESION[2], AMPLITUDE[0], AMPLITUDE[1], "roughness.hurst", "roughness.seed"];
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
@@ -96,6 +92,10 @@ impl Parameter {
             }
             (Setting::Field, "roughness.modes") if is_computed => Some("the wavelengths"),
             (Setting::Field, "roughness.wavelengths") if is_computed => Some("the modes"),
+            (Setting::Field, path) if is_computed => {
+                let given = field(replaced_by(path)?, None)?;
+                Some(given.symbol)
+            }
             _ => None,
         }
     }
@@ -105,11 +105,12 @@ impl Parameter {
         self.path == self.group
     }
 
-    /// Texts that a search compares: symbol, as written and in Latin letters, name, path and meaning.
+    /// Texts of a search: symbol, in Greek and spelled, path, name and meaning. The path of the length L is a whole word
+    /// of other names.
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         let words = self.path.replace(['.', '_'], " ");
-        vec![symbol.to_owned(), spelled(symbol), self.name(), words, self.field.meaning.to_owned()]
+        vec![symbol.to_owned(), spelled(symbol), words, self.name(), self.field.meaning.to_owned()]
     }
 }
 
@@ -130,6 +131,16 @@ fn group_of(path: &str) -> &'static str {
         _ => path.split('.').next().unwrap_or(path),
     };
     GROUPS.into_iter().find(|group| *group == first).unwrap_or("form")
+}
+
+/// Path of the field that a field replaces where it gets a value: modes and wavelengths, rms height and rms gradient.
+pub fn replaced_by(path: &str) -> Option<&'static str> {
+    let pairs = [["roughness.modes", "roughness.wavelengths"], AMPLITUDE];
+    pairs.into_iter().find_map(|[one, other]| match path {
+        _ if path == one => Some(other),
+        _ if path == other => Some(one),
+        _ => None,
+    })
 }
 
 pub fn parameters(document: &Document) -> Vec<Parameter> {
@@ -154,6 +165,10 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         }
         let is_given = written != "None" || field.parent().is_empty();
         // Other fields without a value are equivalent to those in use.
+        if !is_given && AMPLITUDE.contains(&field.path) {
+            parameters.push(Parameter::new(field, field.path));
+            continue;
+        }
         let written = if is_given { Some(written.to_owned()) } else { waves(document, field) };
         let Some(written) = written else { continue };
         let shown = match field.path {

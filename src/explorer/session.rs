@@ -122,14 +122,14 @@ pub fn open(
     let mut app = begin(opening.into(), (size.width, size.height), appearance, options.config);
     let remote = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| std::env::var_os(name).is_some());
     let frame_rate = app.config.frame_rate;
-    if let Some(warning) = options.warning {
-        app.set_error(warning);
-    }
-    if let Some(kept) = &options.restored {
-        app.edit.restore(&kept.documents);
-    } else if let Some(offer) = options.unsaved.as_deref().and_then(autosave::offer) {
-        app.set_done(offer);
-    }
+    let offer = match &options.restored {
+        Some(kept) => {
+            app.edit.restore(&kept.documents);
+            None
+        }
+        None => options.unsaved.as_deref().and_then(autosave::offer),
+    };
+    app.state_beside(options.warning, offer);
     let mut session = Session {
         runtime: Runtime { app, engine: Engine::threads(solver, studies), asked: 0, folder: PathBuf::new() },
         terminal: &mut terminal,

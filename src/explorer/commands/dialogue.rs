@@ -102,7 +102,10 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         Purpose::Save { then_quit } => return files::save(app, typed_path(typed), *then_quit),
         Purpose::Export => return files::export(app, typed_path(typed)),
         Purpose::Scene(_) => match prompt.scene() {
-            Some(entry) => edit::open_read(app, entry.document.clone()),
+            Some(entry) => {
+                let document = entry.document.clone().map_err(|errors| errors.to_string())?;
+                edit::open(app, document);
+            }
             None if typed.trim().is_empty() => return Err("type a name or a path".to_owned()),
             // The path of a scene, or of a study.
             None => {

@@ -4,7 +4,7 @@ use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget, Message};
 use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
-use crate::explorer::parameters::{Parameter, Setting, text_of};
+use crate::explorer::parameters::{Parameter, Setting, replaced_by, text_of};
 use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, LineView};
@@ -14,22 +14,14 @@ use crate::explorer::typed;
 use asperity_contact::Move;
 use asperity_data::{exact_quantity, parse_quantity};
 use asperity_scene::{
-    Adhesion, Document, Range, SceneErrors, Solver, Step, kind_and_number, loading_text, pressing_force,
-    read_stage, ron_float,
+    Adhesion, Document, Range, RoughnessParameter, SceneErrors, Solver, Step, kind_and_number, loading_text,
+    pressing_force, read_stage, ron_float,
 };
 
 /// Moves the selection in the list of parameters by a number of rows, up to its ends.
 pub fn move_selection(app: &mut App, rows: i32) {
     app.edit.move_selection(rows);
     show_parameters(app);
-}
-
-/// Explores a scene that was just read, or states why it cannot be.
-pub fn open_read(app: &mut App, read: Result<Document, SceneErrors>) {
-    match read {
-        Ok(document) => open(app, document),
-        Err(errors) => app.set_error(errors.to_string()),
-    }
 }
 
 /// Explores another scene from its beginning.
@@ -110,9 +102,14 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     if parameter.setting == Setting::Heading || is_text {
         return refuse(app, way_of_changing(parameter));
     }
+    if let Setting::RoughnessParameter(of) = parameter.setting
+        && app.governing().is_some_and(|governing| governing.amplitude.is_none())
+    {
+        return refuse(app, undefined(of));
+    }
     if let Some(given) = parameter.follows_from(app.edit.document.scene()) {
         let name = parameter.name();
-        return refuse(app, format!("{name} is computed; Enter fixes it in place of {given}"));
+        return refuse(app, format!("{name} follows from {given}; Enter types a value of its own"));
     }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
     if parameter.field.step == Step::Choice {
@@ -200,23 +197,17 @@ fn set_selected(app: &mut App, written: &str) {
 
 /// The scene with another value of the selected parameter, in the notation of the scene; or the reason why it is refused.
 fn with_selected(app: &App, written: &str) -> Result<Document, String> {
-    let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
+    let selected = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
-    let number = || parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string());
+    let number = || parse_quantity(written, selected.field.unit).map_err(|error| error.to_string());
     let adhesion = document.scene().adhesion;
-    let changed = match parameter.setting {
+    let changed = match selected.setting {
         Setting::Field | Setting::Heading => {
-            // Modes and wavelengths replace each other.
-            let other = match parameter.path.as_str() {
-                "roughness.modes" => Some("roughness.wavelengths"),
-                "roughness.wavelengths" => Some("roughness.modes"),
-                _ => None,
-            };
+            let other = replaced_by(&selected.path);
             let other = other.filter(|path| document.value(path).is_some_and(|value| value != "None"));
             let pair = |path: &str, value: &str| (path.to_owned(), value.to_owned());
             let replaced = other.map(|path| pair(path, "None"));
-            document
-                .set_all(&replaced.into_iter().chain([pair(&parameter.path, written)]).collect::<Vec<_>>())
+            document.set_all(&replaced.into_iter().chain([pair(&selected.path, written)]).collect::<Vec<_>>())
         }
         Setting::WorkOfAdhesion => {
             let work = number()?;
@@ -224,11 +215,19 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
         }
         Setting::RoughnessParameter(parameter) => {
             let value = number()?;
+            if !selected.field.range.contains(value) {
+                let (field, allowed) = (selected.field, selected.field.allowed());
+                return Err(format!(
+                    "{} = {}: allowed: {allowed} ({})",
+                    field.path,
+                    ron_float(value),
+                    field.name
+                ));
+            }
             match (adhesion.filter(|adhesion| adhesion.work().is_some()), app.governing()) {
                 // The scene has γ, which follows from the parameter.
                 (Some(adhesion), Some(governing)) => {
-                    let undefined = || format!("{} is not defined without roughness", parameter.symbol());
-                    let work = governing.work_for(parameter, value).ok_or_else(undefined)?;
+                    let work = governing.work_for(parameter, value).ok_or_else(|| undefined(parameter))?;
                     document.with_adhesion(adhesion.with_work(work))
                 }
                 (Some(_), None) => return Err("the scene is still being computed".to_owned()),
@@ -243,7 +242,11 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     changed.map_err(|errors| reasons(&errors)).and_then(|changed| within_reach(app, changed))
 }
 
-/// Errors of values in words, without their places.
+fn undefined(parameter: RoughnessParameter) -> String {
+    format!("{} is not defined without roughness", parameter.symbol())
+}
+
+/// Errors of values, without their places.
 pub fn reasons(errors: &SceneErrors) -> String {
     errors.iter().map(|error| error.what()).collect::<Vec<_>>().join("; ")
 }

@@ -11,7 +11,7 @@ use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
 use asperity_data::{format_quantity, unit_of};
-use asperity_scene::Effect;
+use asperity_scene::{Effect, Roughness};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
@@ -170,7 +170,9 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     let outcome = &computed.outcome;
     let governing = app.governing().unwrap_or(outcome.governing);
     let mut values = vec![("E*", format_quantity(governing.effective_modulus, "Pa"))];
-    if let Some(amplitude) = governing.amplitude {
+    // The amplitude of random roughness has rows of its own.
+    let is_measured = matches!(app.edit.document.scene().roughness, Some(Roughness::Measured(_)));
+    if let Some(amplitude) = governing.amplitude.filter(|_| is_measured) {
         values.push(("h", format_quantity(amplitude.rms_height, "m")));
         values.push(("⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1")));
     }

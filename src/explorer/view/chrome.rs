@@ -174,7 +174,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
         of_loop(regimes, Meaning::Title)
     });
     let force = |value| format_quantity(value, "N");
-    let error = error(app).filter(|_| is_wide).map_or_else(String::new, |error| format!(" {error}"));
+    let error = error(app).filter(|_| is_wide).map_or_else(String::new, |error| format!(" ({error})"));
     let mut facts = Vec::new();
     if let Some(tried) = app.tried_outcome().filter(|_| app.is_typing_value()) {
         let shown = match tried.figures.adhesion_force {
@@ -191,8 +191,8 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
     }
     if let Some(adhesion) = figures.adhesion_force.filter(|force| *force != 0.0) {
         let profiles = profiles(app).filter(|_| is_wide);
-        let whose = if profiles.is_some() { " this profile" } else { "" };
-        facts.push(of_loop(format!("F_a {}{whose}{error}", force(adhesion)), Meaning::Title));
+        let whose = if profiles.is_some() { " of this profile" } else { "" };
+        facts.push(of_loop(format!("F_a{whose} {}{error}", force(adhesion)), Meaning::Title));
         facts.extend(profiles.map(|Statistics { count, quartiles: [lower, median, upper], .. }| {
             let (median, quartiles) = (format_rounded(median, 2, "N"), format_range((lower, upper), 2, "N"));
             of_loop(format!("{count} profiles: median {median} ({quartiles})"), Meaning::Title)
@@ -264,7 +264,7 @@ fn response(app: &App, snapshot: &ContactSnapshot) -> Vec<String> {
     let mut parts = vec![format!("E*l {}", format_rounded(stiffness, 2, "N/m"))];
     let radius = snapshot.contact_radius;
     if radius > 0.0 {
-        let pressure = snapshot.point.force / (PI * radius * radius);
+        let pressure = app.without_rounding(snapshot.point.force) / (PI * radius * radius);
         parts.push(format!("p_m {}", format_rounded(pressure, 2, "Pa")));
     }
     parts

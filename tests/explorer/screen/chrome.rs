@@ -30,7 +30,28 @@ fn a_rounding_error_is_a_force_of_zero() {
     let mut driver = Driver::start(changed(&rough(), &[("loading", "[ToForce(1e-5), ToForce(0), ToTouch]")]));
     driver.press("> >");
     let force = driver.point().force;
+    driver.resize((240, 40));
     assert!(force != 0.0 && driver.status().contains(" F 0 N"), "{force:e}: {}", driver.status());
+    driver.states("p_m 0 Pa");
+}
+
+/// A mistake in the configuration file is stated before what the session found, and neither hides the other.
+#[test]
+fn notices_at_the_start_stand_beside_each_other() {
+    let [warning, offer] =
+        ["config.ron:3:1: speed", "unsaved changes are kept"].map(|text| Some(text.to_owned()));
+    for (notice, warning, offer, shown) in [
+        (None, &None, &None, ""),
+        (None, &None, &offer, "unsaved changes are kept"),
+        (Some("loaded"), &warning, &offer, "! config.ron:3:1: speed · loaded · unsaved changes are kept"),
+        (None, &warning, &None, "! config.ron:3:1: speed"),
+    ] {
+        let mut driver = mid_retraction(rough());
+        driver.app.message = notice.map(|notice| Message::Done(notice.to_owned()));
+        driver.app.state_beside(warning.clone(), offer.clone());
+        assert_eq!(driver.app.message.is_some(), !shown.is_empty());
+        driver.states(shown);
+    }
 }
 
 #[test]

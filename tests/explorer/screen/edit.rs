@@ -62,6 +62,45 @@ fn waves_are_typed_and_stepped_in_metres_or_as_modes() {
 }
 
 #[test]
+fn an_amplitude_is_typed_as_a_height_or_as_a_gradient() {
+    let mut driver = pressed("");
+    let before = driver.document().scene().clone();
+    driver.set("roughness.rms_gradient", "0.25");
+    let amplitude = driver.outcome().governing.amplitude.unwrap();
+    assert_eq!(amplitude.rms_gradient, 0.25);
+    driver.shows(format!("= {}", format_quantity(amplitude.rms_height, "m")));
+    driver.set("roughness.rms_height", &format!("{:e} m", amplitude.rms_height));
+    let again = driver.outcome().governing.amplitude.unwrap();
+    assert!((again.rms_gradient / 0.25 - 1.0).abs() < 1e-12, "{again:?}");
+    driver.press("u u");
+    assert_eq!(*driver.document().scene(), before);
+}
+
+/// Whatever changes the works of adhesion: γ, a parameter of the roughness from which γ follows, or keys.
+#[test]
+fn the_work_on_closing_never_exceeds_that_on_opening() {
+    let works = "(work: 4.0e-3, closing_work: 3.0e-3)";
+    for (path, typed, why) in [
+        ("adhesion.work", "2", "adhesion.closing_work = 0.003: allowed: 0 to 0.002 J/m²"),
+        ("adhesion.closing_work", "5", "adhesion.closing_work = 0.005: allowed: 0 to 0.004 J/m²"),
+        ("adhesion.kappa", "1e5", "adhesion.closing_work = 0.003: allowed: 0 to "),
+        ("adhesion.kappa", "-1", "adhesion.kappa = -1.0: allowed: from 1e-6 to 1e6"),
+        ("adhesion.elastic_energy_ratio", "-1", "adhesion.elastic_energy_ratio = -1.0: allowed: "),
+    ] {
+        let mut driver = mid_retraction(changed(&rough(), &[("adhesion", works)]));
+        driver.set(path, typed);
+        let refusal = driver.refusal().unwrap_or_default().to_owned();
+        assert!(refusal.starts_with(why), "{path}: {refusal}");
+        driver.press("Esc");
+        for key in ["H", "L"] {
+            driver.press(&format!("{key} ").repeat(9));
+            let adhesion = driver.document().scene().adhesion.unwrap();
+            assert!(adhesion.closing_work() <= adhesion.work(), "{path}: {adhesion:?}");
+        }
+    }
+}
+
+#[test]
 fn the_selection_stays_on_its_field_when_rows_come_and_go() {
     let mut driver = pressed("");
     driver.select("numerics.points");

@@ -72,9 +72,10 @@ fn a_key_that_cannot_do_anything_says_why() {
         (rough(), "material", "2", "material is not a number: Enter types it"),
         (rough(), "loading", "L", "loading is not a number: Enter types it"),
         (rough(), "numerics", "3", "numerics is a group: its fields are in the rows below"),
-        (rough(), "roughness.modes", "Right", "is computed; Enter fixes it in place of the wavelengths"),
-        (rough(), "adhesion.work", "L", "is computed; Enter fixes it in place of κ"),
-        (rough(), "adhesion.elastic_energy_ratio", "h", "is computed; Enter fixes it in place of κ"),
+        (rough(), "roughness.modes", "Right", "follows from the wavelengths; Enter types a value"),
+        (rough(), "adhesion.work", "L", "follows from κ; Enter types a value of its own"),
+        (rough(), "adhesion.elastic_energy_ratio", "h", "follows from κ; Enter types a value of its own"),
+        (smooth(), "adhesion.kappa", "l", "κ is not defined without roughness"),
         (rough(), "loading.1", "K", "cannot pull before contact"),
     ] {
         let document = if path == "roughness.modes" {

@@ -94,5 +94,9 @@ fn a_broken_file_is_listed_with_its_error_and_not_opened() {
     let error = library(&driver).scene().unwrap().error().expect("it is no scene");
     driver.shows(error.chars().take(30).collect::<String>());
     driver.answers("Enter", "broken.ron");
-    assert_eq!(*driver.document(), before);
+    assert_eq!(
+        (driver.document(), found(&driver)),
+        (&before, vec!["broken.ron".to_owned()]),
+        "the list stays"
+    );
 }

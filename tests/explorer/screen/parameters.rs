@@ -56,6 +56,8 @@ fn a_parameter_is_found_by_words_of_its_name_or_symbol() {
         ("springs", "numerics.points"),
         ("nu", "material.poisson_ratio"),
         ("force stage", "loading.0.0"),
+        ("length", "length"),
+        ("gradient", "roughness.rms_gradient"),
     ] {
         let mut driver = pressed("/");
         driver.type_text(typed);

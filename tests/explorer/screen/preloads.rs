@@ -48,7 +48,7 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
             driver.press("*");
         }
         driver.resize((200, 40));
-        driver.shows_all([&*format!(" · {profiles} profiles: median "), " this profile ± …"]);
+        driver.shows_all([&*format!(" · {profiles} profiles: median "), "F_a of this profile "]);
     }
 }
 
