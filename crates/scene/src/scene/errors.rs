@@ -33,6 +33,7 @@ impl fmt::Display for Origin {
             Origin::File { name, place: Some((line, column)) } => {
                 write!(f, "{}:{line}:{column}: ", shown(name))
             }
+            Origin::File { name, place: None } if name.is_empty() => f.write_str("\"\": "),
             Origin::File { name, place: None } => write!(f, "{}: ", shown(name)),
             Origin::Overrides(overrides) => {
                 let all: Vec<_> = overrides.iter().map(|one| format!("--set {}", shown(one))).collect();

@@ -116,7 +116,12 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
     (offset, error)
 }
 
-/// Message of the RON reader in plain words.
+/// Returns true for a field of the plan of a study in place of one of a scene, which are the expected ones.
+fn is_of_plan(found: &str, expected: &[&str]) -> bool {
+    ["scene", "axes", "preloads", "lines", "record"].contains(&found) && expected.contains(&"material")
+}
+
+/// Message of the reader in plain words.
 fn plain(error: &Error) -> String {
     let text = match error {
         Error::Eof => "the text ends too early",
@@ -130,6 +135,9 @@ fn plain(error: &Error) -> String {
         Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => "a closing ) is expected here",
         Error::ExpectedDifferentStructName { .. } => "a group of fields in ( ) is expected here",
         Error::DuplicateStructField { .. } => "given twice",
+        Error::NoSuchStructField { expected, found, .. } if is_of_plan(found, expected) => {
+            return "a scene has no such field; asperity sweep PLAN computes the plan of a study".to_owned();
+        }
         Error::NoSuchStructField { expected, found, .. } => {
             let near = did_you_mean(found, expected.iter().copied());
             return format!("no such field{near} (fields here: {})", expected.join(", "));
@@ -170,6 +178,7 @@ mod tests {
         for row in [
             "lenght: 1,|5|lenght||did you mean length?",
             "length: 1.0,|5|length||given twice",
+            "axes: [],|5|axes||asperity sweep PLAN computes the plan",
             "form: Cube(radius: 1.0),|11|form|Cube|Cone, Power, WavySphere, Punch",
             "form: Cone(angel: 1.0),|16|form.angel||did you mean angle?",
             "loading: [ToTouch, ToFroce(1.0)],|24|loading.1|ToFroce|mean ToForce?",
