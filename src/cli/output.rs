@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use crate::export::parameters::parameter_lines;
-use crate::export::provenance::{files_provenance, scene_provenance, scenes_provenance};
+use crate::export::provenance::{entries, files_provenance, scene_provenance, scenes_provenance};
 use crate::export::report::{Format, Report, check_extension};
 use asperity_data::parse_quantity;
 use asperity_data::path_name;
@@ -189,6 +189,7 @@ pub struct AnswerFormat {
 }
 
 impl AnswerFormat {
+    /// Writes the answer: the text, or the object with version and command in front.
     pub(super) fn write(
         self,
         stdout: &mut dyn Write,
@@ -197,7 +198,11 @@ impl AnswerFormat {
     ) -> Result<(), CliError> {
         let format = Format::of_file(None, Some(self.format), TEXT_OR_JSON, Format::Text);
         match format.map_err(CliError::message)? {
-            Format::Json => asperity_data::write_json(stdout, answer, &[])?,
+            Format::Json => {
+                let provenance =
+                    files_provenance(&command(), &[], Path::new("")).map_err(CliError::message)?;
+                asperity_data::write_json(stdout, answer, &entries(&provenance))?
+            }
             _ => stdout.write_all(text().as_bytes())?,
         }
         Ok(())

@@ -5,8 +5,9 @@ use super::output::AnswerFormat;
 use super::scene::SceneArguments;
 use crate::export::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
-use asperity_scene::{PlannedStage, Workload};
+use asperity_scene::{PlannedStage, Scene, Workload};
 use clap::Args;
+use serde::Serialize;
 use std::io::Write;
 
 const EXAMPLES: &str = "\
@@ -29,8 +30,16 @@ pub struct PlanArguments {
 
 pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
-    let plan = Workload::of(document.scene());
-    arguments.format.write(stdout, || text(&plan), &plan)
+    let (scene, plan) = (document.scene(), Workload::of(document.scene()));
+    arguments.format.write(stdout, || text(&plan), &PlanJson { scene, plan: &plan })
+}
+
+/// The stages of a scene, with the scene.
+#[derive(Serialize)]
+struct PlanJson<'a> {
+    scene: &'a Scene,
+    #[serde(flatten)]
+    plan: &'a Workload,
 }
 
 fn text(plan: &Workload) -> String {

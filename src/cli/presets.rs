@@ -74,7 +74,7 @@ fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
             "error"?: entry.error(),
         }
     });
-    format.write(stdout, text, &objects.collect::<Vec<_>>())
+    format.write(stdout, text, &object! { "scenes": objects.collect::<Vec<_>>() })
 }
 
 fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {

@@ -37,7 +37,7 @@ pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
 }
 
 /// Version and command of a provenance, as entries of a JSON object.
-pub(super) fn entries(provenance: &str) -> Vec<(&str, &str)> {
+pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     let command = provenance.lines().find_map(|line| line.strip_prefix(COMMAND));
     let program = provenance.lines().next().map(|program| ("program", program));
     program.into_iter().chain(command.map(|command| ("command", command))).collect()

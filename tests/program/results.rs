@@ -17,7 +17,7 @@ fn array(value: &Value) -> &Vec<Value> {
 
 fn presets() -> Vec<String> {
     let listed = json(&["presets", "list", "--format", "json"]);
-    array(&listed).iter().map(|preset| preset["name"].as_str().unwrap().to_owned()).collect()
+    array(&listed["scenes"]).iter().map(|preset| preset["name"].as_str().unwrap().to_owned()).collect()
 }
 
 #[test]

@@ -43,5 +43,5 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
             "lines": plan.lines,
         }
     });
-    arguments.format.write(stdout, text, &objects.collect::<Vec<_>>())
+    arguments.format.write(stdout, text, &object! { "plans": objects.collect::<Vec<_>>() })
 }
