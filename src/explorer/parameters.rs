@@ -263,6 +263,7 @@ fn shown(field: &Field, written: &str) -> String {
                 (name, _) => choice_in_words(name),
             }
         }
+        Range::Band(..) => written.trim_matches(['(', ')']).to_owned(),
         Range::Whole(..) if field.path != "roughness.seed" => {
             written.parse().map_or(written.to_owned(), grouped)
         }

@@ -106,7 +106,9 @@ impl Report for RunReport<'_> {
 /// The path of manual loading, as a result.
 #[derive(Clone, Copy, Debug)]
 pub struct PathReport<'a> {
-    /// Loading stages of the path, from separation.
+    /// Scene with another loading.
+    pub scene: &'a Scene,
+    /// Its stages, from separation.
     pub loading: &'a [Move],
     pub path: &'a [CurvePoint],
     /// Index of the loading stage of each point.
@@ -115,7 +117,8 @@ pub struct PathReport<'a> {
 
 impl Report for PathReport<'_> {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(object! { "loading": self.loading, "curve": self.table() }))
+        let scene = Scene { loading: self.loading.to_vec(), ..self.scene.clone() };
+        Some(Box::new(object! { "scene": scene, "loading": self.loading, "curve": self.table() }))
     }
 
     fn table(&self) -> Option<Table<'_>> {

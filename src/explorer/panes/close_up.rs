@@ -17,7 +17,7 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| {
         let chart = of_springs(app, LinePart::drawn)?;
-        Some(section::figure(app.edit.document.title(), app.snapshot.as_deref()?, chart))
+        Some(section::figure(app, app.snapshot.as_deref()?, chart))
     },
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(
@@ -51,7 +51,7 @@ fn panel(app: &App, size: Size) -> Panel {
         let springs = app.solved.as_ref().map_or(1, |computed| computed.outcome.history.work.springs);
         panel.foot.push(strip(&snapshot.strip, section, springs as usize, theme));
     }
-    panel.foot.extend(describe(snapshot.close_up.patch, snapshot.point.fragments).map(Line::raw));
+    panel.foot.extend(describe(app, snapshot.close_up.patch, snapshot.point.fragments).map(Line::raw));
     panel
 }
 
@@ -98,14 +98,15 @@ fn strip(strip: &str, section: &Section, springs: usize, theme: Theme) -> Line<'
 /// Share of a stretch below which a difference counts as rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The contact patch in words: its number, position and force, and the stretch of its most stretched spring.
-fn describe(patch: Option<PatchFacts>, patches: u64) -> [String; 2] {
+/// The contact patch in words: its place and force, and the stretch of its most stretched spring.
+fn describe(app: &App, patch: Option<PatchFacts>, patches: u64) -> [String; 2] {
     let Some(PatchFacts { number, patch, state }) = patch else {
         return ["○ nothing is in contact".to_owned(), String::new()];
     };
     let springs = patch.springs().len();
     let plural = if springs == 1 { "" } else { "s" };
-    let (length, force) = (format_quantity(state.length, "m"), format_quantity(state.force, "N"));
+    let (length, force) = (state.length, app.without_rounding(state.force));
+    let (length, force) = (format_quantity(length, "m"), format_quantity(force, "N"));
     let number = number + 1;
     let first = format!("○ patch {number} of {patches}: {springs} spring{plural}, δx {length}, F {force}");
     let (largest, stretch) = (state.largest_stretch, state.most_stretched.max(0.0));

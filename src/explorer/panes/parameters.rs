@@ -6,12 +6,13 @@ use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::{Prompt, Purpose};
+use crate::explorer::search::find;
 use crate::explorer::text::{filled, fitted, wrapped_within};
 use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
 use asperity_data::{format_quantity, unit_of};
-use asperity_scene::{Effect, Roughness};
+use asperity_scene::{Effect, FIELDS, Field, Roughness};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
@@ -36,7 +37,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let (rows, selected) = shown(app);
     let explained = match rows.get(selected) {
         Some(index) => explanation(app, *index),
-        None => Line::styled("no parameter of this scene fits", quiet),
+        None => Line::styled(not_listed(app), quiet),
     };
     let help_rows = if size.height >= 9 { 3 } else { u16::from(size.height >= 3) };
     // The list makes room for the whole reason of a refusal.
@@ -62,6 +63,19 @@ fn shown(app: &App) -> (Vec<usize>, usize) {
         return (found.clone(), *selected);
     }
     ((0..app.edit.parameters.len()).collect(), app.edit.selected)
+}
+
+/// What fits the search among the fields of the scene file, which has more of them than the list has rows.
+fn not_listed(app: &App) -> String {
+    let none = "no parameter of this scene fits".to_owned();
+    let typed = app.prompt.as_ref().map_or("", |prompt| prompt.line.text());
+    let texts = |field: &Field| {
+        vec![field.symbol.to_owned(), field.path.replace(['.', '_'], " "), field.name.to_owned()]
+    };
+    let found = find(FIELDS.iter().map(texts), typed).first().map(|index| &FIELDS[*index]);
+    found.map_or(none.clone(), |field| {
+        format!("{none}; the scene file may have {}: {}", field.path, field.meaning)
+    })
 }
 
 fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line<'static> {

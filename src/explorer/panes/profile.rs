@@ -22,7 +22,7 @@ pub static ROW: PaneRow = PaneRow {
     },
     figure: |app, _| {
         let chart = of_springs(app, LinePart::drawn)?;
-        Some(section::figure(app.edit.document.title(), app.snapshot.as_deref()?, chart))
+        Some(section::figure(app, app.snapshot.as_deref()?, chart))
     },
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(

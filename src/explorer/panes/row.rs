@@ -45,11 +45,11 @@ pub const OPEN_COMMAND: &str = "asperity";
 
 /// Report of the pane's result: the path of manual loading, or else the outcome of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
+    let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
     if let Some(ManualState { loading, path, stages, .. }) = &app.manual {
-        return Some((OPEN_COMMAND.into(), Box::new(PathReport { loading, path, stages })));
+        return Some((OPEN_COMMAND.into(), Box::new(PathReport { scene, loading, path, stages })));
     }
-    let (title, scene, outcome) =
-        (app.edit.document.title(), app.edit.document.scene(), &app.current()?.outcome);
+    let outcome = &app.current()?.outcome;
     let report = RunReport { title, scene, outcome, choice: None, estimate: app.studies.value() };
     Some(("asperity run".into(), Box::new(report)))
 }

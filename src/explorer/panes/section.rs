@@ -52,12 +52,12 @@ pub fn of_springs(
     Some(snapshot.section(part(section.first, section.springs))?.chart(snapshot.line, z))
 }
 
-/// Figure of a chart of springs, with indentation and force as notes.
-pub fn figure(title: &str, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
+/// Figure of a chart of springs, with indentation and force.
+pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     let point = &snapshot.point;
-    let force = value_label("", "F", "N", point.force).then(", ");
+    let force = value_label("", "F", "N", app.without_rounding(point.force)).then(", ");
     let notes = vec![force.join(&value_label("", "d", "m", point.indentation))];
-    Figure { notes, size: Figure::LOW, ..Figure::of_chart(title, chart) }
+    Figure { notes, size: Figure::LOW, ..Figure::of_chart(app.edit.document.title(), chart) }
 }
 
 /// Table of the curves in a chart of springs; `None` while the scene is not computed.

@@ -182,6 +182,7 @@ fn every_pane_is_exported_as_a_figure() {
         driver.app.view.pane = pane;
         is_exported_as_json(&mut driver);
     }
+    is_exported_as_json(&mut pressed("d {"));
     let mut driver = pressed("");
     driver.app.view.pane = Pane::Spectrum;
     export(&mut driver, Path::new("a.svg"));

@@ -88,6 +88,8 @@ fn a_search_is_moved_through_and_left() {
     let mut driver = pressed("/ q q q Enter");
     assert_eq!(driver.app.keys(), Context::List);
     driver.shows("no parameter");
+    // The scene file has fields without a row.
+    driver.sees("Ctrl+u `samples`", "numerics.samples");
     driver.press("Backspace Ctrl+u Down Up Down Enter");
     assert_eq!(driver.app.edit.selected, 1);
 }
