@@ -1,6 +1,6 @@
 //! One field of a scene: path, symbol, unit, range, step, default and meaning.
 
-use super::range::Range;
+use super::range::{Range, choice_name};
 use super::stages::{STAGES, read_loading, stage_in_ron};
 use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
@@ -196,15 +196,19 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// Converts a typed value to RON. A number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
-    /// needs no quotes; the name of a file as a roughness becomes a measured surface with its equivalent line; a work with
-    /// its unit becomes an adhesion; and a loading may be a list of stages, as
-    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text only loses the blanks around it.
+    /// The value in RON: a number may have an SI prefix and the unit of the field, `50 mJ/m²` or `16k`. A text
+    /// needs no quotes, the name of a file as a roughness becomes a measured surface with its equivalent line, a work with
+    /// its unit is an adhesion, `none` leaves an optional part out, and a loading may be a list of stages, as
+    /// [`loading_text`](crate::scene::stages::loading_text) writes it. Any other text is unchanged but for surrounding blanks.
     ///
     /// # Errors
     /// Text that begins as a number and continues as another unit, or a number that is too large.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
-        (self.read)(self, typed.trim())
+        match typed.trim() {
+            // As an omitted part is shown.
+            "none" if self.default == "None" => Ok(self.default.to_owned()),
+            typed => (self.read)(self, typed),
+        }
     }
 }
 
@@ -258,8 +262,14 @@ fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
 /// Reads a choice in RON or in words.
 fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let Range::Choice(choices) = field.range else { return Ok(typed.to_owned()) };
-    let in_words = choices.iter().find(|choice| choice_in_words(choice) == typed);
-    Ok(in_words.map_or(typed, |choice| choice).to_owned())
+    let is_meant = |name: &str| name == typed || choice_in_words(name) == typed;
+    match choices.iter().find(|choice| is_meant(choice_name(choice))) {
+        Some(choice) if choice_name(choice).len() < choice.len() => {
+            Err(QuantityError(format!("its numbers are missing: give them as in {choice}")))
+        }
+        Some(choice) => Ok((*choice).to_owned()),
+        None => Ok(typed.to_owned()),
+    }
 }
 
 /// Reads a form, or the name of the file of a table.
@@ -326,6 +336,8 @@ mod tests {
     fn numbers_may_have_prefix_and_unit() {
         for row in [
             "adhesion.work|50mJ/m2|0.05",
+            "adhesion|none|None",
+            "title|none|\"none\"",
             "loading|10 µN,0 N, -5 nm, separation|[ToForce(1.0e-5), ToForce(0.0), ToIndentation(-5.0e-9), ToSeparation]",
             "loading_stiffness|40 mN/m|0.04",
             "adhesion.work| 50 mN/m |0.05",
