@@ -80,10 +80,12 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
 
 /// States how a parameter without a number is changed.
 fn way_of_changing(parameter: &Parameter) -> String {
-    let way = match (parameter.setting, parameter.field.step) {
-        (Setting::Heading, _) => "a group: its fields are in the rows below",
-        (_, Step::Choice) => "a choice: ← → change it",
-        _ => "not a number: Enter types it",
+    let way = match (parameter.setting, parameter.field.step, parameter.field.range) {
+        (Setting::Heading, ..) => "a group: its fields are in the rows below",
+        (_, Step::Choice, _) => "a choice: ← → change it",
+        (.., Range::Text { .. }) => "a text: Enter types it",
+        (.., Range::List { .. }) => "a list: Enter types it",
+        _ => "several numbers: Enter types them",
     };
     format!("{} is {way}", parameter.name())
 }
