@@ -126,6 +126,16 @@ impl<'a> Space<'a> {
                 Parameter::ClosingWork => (0.0, base[Parameter::Work as usize]),
                 _ => (start / FACTOR, start * FACTOR),
             });
+            // The work on opening comes first among the coordinates.
+            let opening = coordinates.first().filter(|one: &&Coordinate| one.parameter == Parameter::Work);
+            let most = opening.map_or(base[Parameter::Work as usize], |one| one.range.1);
+            if parameter == Parameter::ClosingWork && range.0 > most {
+                let [least, most] = [range.0, most].map(|work| format_quantity(work, "J/m²"));
+                return refused(
+                    format!("{} of at least {least}", parameter.name()),
+                    format!("from 0 to {most}, the work of adhesion"),
+                );
+            }
             let start = start.clamp(range.0, range.1);
             base[parameter as usize] = start;
             let unit = match parameter {
@@ -235,6 +245,10 @@ mod tests {
         };
         assert!(refused(&[]).starts_with("no free parameter; allowed: one or more of work, closing_work"));
         assert_eq!(refused(&["work", "work"]), "work is free twice; allowed: each parameter once");
+        assert_eq!(
+            refused(&["closing_work=2e-3..3e-3"]),
+            "closing_work of at least 2 mJ/m²; allowed: from 0 to 1 mJ/m², the work of adhesion"
+        );
     }
 
     #[test]
