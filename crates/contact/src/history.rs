@@ -1,6 +1,7 @@
 //! Loading histories: targets, records of motions with their force curves, contact patches and work counts.
 
 use super::ContactError;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -121,7 +122,8 @@ pub struct History {
 }
 
 /// Work counts: the same on every machine, unlike times.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub struct Work {
     /// Number of springs of the line.
     pub springs: u64,
@@ -142,10 +144,10 @@ pub struct Work {
     /// Number of springs sorted by threshold in the intervals that may hold an extreme of the force.
     pub events_sorted: u64,
     /// Number of springs attached on the legs of the loading history; `joins` in files.
-    #[serde(rename = "joins")]
+    #[cfg_attr(feature = "serde", serde(rename = "joins"))]
     pub attached: u64,
     /// Number of springs detached on the legs of the loading history; `leaves` in files.
-    #[serde(rename = "leaves")]
+    #[cfg_attr(feature = "serde", serde(rename = "leaves"))]
     pub detached: u64,
     /// Number of steps of the stepwise solver.
     pub steps: u64,
@@ -165,8 +167,8 @@ impl Work {
 }
 
 /// Direction of a leg.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize), serde(rename_all = "lowercase"))]
 pub enum Direction {
     /// The indentation grows.
     Loading,
@@ -204,8 +206,8 @@ impl CurvePoint {
 }
 
 /// A contact patch: springs in contact without a gap between them. In JSON the array `[first, last]`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(into = "(usize, usize)")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(Serialize), serde(into = "(usize, usize)"))]
 pub struct Patch {
     /// Index of the leftmost spring.
     pub first: usize,
@@ -244,7 +246,8 @@ impl From<Patch> for (usize, usize) {
 }
 
 /// Target of a body: one loading stage.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Move {
     /// Until the force first reaches this value, N (compression positive).
     ToForce(f64),

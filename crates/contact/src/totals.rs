@@ -22,13 +22,19 @@ const GAP_BITS: i32 = 62;
 /// Largest exponent of the scale, so that scale and quantum are both normal numbers.
 const LARGEST_SCALE_EXPONENT: i32 = 1000;
 
+/// Digits of a double behind its exponent, and the exponent of 1 in its bits.
+const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+const EXPONENT_BIAS: i32 = f64::MAX_EXP - 1;
+
 impl GapScale {
     /// Scale for gaps up to `largest` (m, finite, at least zero).
     pub fn for_gaps_up_to(largest: f64) -> Self {
         // The smallest power of two above the largest gap, which may be zero.
-        let (_, above) = libm::frexp(largest.max(f64::MIN_POSITIVE));
+        let above = (largest.max(f64::MIN_POSITIVE).to_bits() >> MANTISSA_BITS) as i32 - EXPONENT_BIAS + 1;
         let exponent = (GAP_BITS - above).min(LARGEST_SCALE_EXPONENT);
-        GapScale { quanta_per_metre: libm::ldexp(1.0, exponent), quantum: libm::ldexp(1.0, -exponent) }
+        let power_of_two =
+            |exponent: i32| f64::from_bits(((EXPONENT_BIAS + exponent) as u64) << MANTISSA_BITS);
+        GapScale { quanta_per_metre: power_of_two(exponent), quantum: power_of_two(-exponent) }
     }
 
     /// A gap in quanta, rounded down.

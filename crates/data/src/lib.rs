@@ -3,21 +3,29 @@
 #![doc = include_str!("../README.md")]
 
 mod axis_scale;
+#[cfg(feature = "files")]
 mod hash;
+#[cfg(feature = "files")]
 mod json;
 pub mod memory;
 pub mod npy;
 mod numerics;
+#[cfg(feature = "files")]
 mod object;
 pub mod parallel;
 mod quantity;
+#[cfg(feature = "files")]
 mod read;
+#[cfg(feature = "files")]
 mod table;
 mod text;
+#[cfg(feature = "files")]
 mod write;
 
 pub use axis_scale::AxisScale;
+#[cfg(feature = "files")]
 pub use hash::{hexadecimal, sha256_of};
+#[cfg(feature = "files")]
 pub use json::write_json;
 pub use memory::{OutOfMemory, check_room, emptied, gathered, push, reserve, resized};
 pub use npy::SIGNATURE;
@@ -25,18 +33,22 @@ pub use numerics::{
     CompensatedSum, between, gauss_nodes_on_quarter_circle, mean, median, quantile, root_mean_square, slope,
     standard_deviation, student_quantile,
 };
+#[cfg(feature = "files")]
 pub use object::{Entry, Object, Optional};
 pub use parallel::{in_parallel, on_this_thread, on_threads};
 pub use quantity::{
     QuantityError, exact_quantity, format_quantity, format_range, format_rounded, format_within, in_unit,
     one_unit, parse_quantity, unit_of,
 };
+#[cfg(feature = "files")]
 pub use read::{ReadError, into_text, open_regular, read_limited, read_regular, read_regular_text};
+#[cfg(feature = "files")]
 pub use table::{Kind, Table, TableOf};
 pub use text::{
     belong_together, grouped, is_control, memory_size, path_name, per_cent, printable, printable_lines,
     round_to, shown, si_prefix, wrap,
 };
+#[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
 
 /// First characters of a CSV file that begins with its scene.

@@ -1,11 +1,12 @@
 //! Spans, neighbouring springs that one fragment holds, and their levels: length, edges and edge cells as the edges slide.
 
 use asperity_data::CompensatedSum;
+#[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
-use strum::IntoStaticStr;
 
 /// Edge model of a contact patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
     /// The rule of the paper: a patch of n springs is n Δx long.
     Grid,
@@ -17,7 +18,10 @@ pub enum Edges {
 impl Edges {
     /// Name in scene files.
     pub fn name(self) -> &'static str {
-        self.into()
+        match self {
+            Edges::Grid => "Grid",
+            Edges::SubCell => "SubCell",
+        }
     }
 }
 
