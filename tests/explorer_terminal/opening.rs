@@ -123,14 +123,6 @@ fn terminals_without_braille_get_ascii() {
 }
 
 #[test]
-fn a_scene_opens_with_the_loop_of_another_one() {
-    let (program, _folder) = explorer();
-    let mut terminal = paused(program.argument("--compare").argument("jkr-sphere"));
-    assert!(row_with(&terminal, "A: F_a ").contains("A: F_a 23.6 µN"), "{}", terminal.text());
-    quit(&mut terminal);
-}
-
-#[test]
 fn a_terminal_that_places_nothing_is_refused() {
     let (program, _folder) = explorer();
     let mut terminal = program.env("TERM", "dumb").start();

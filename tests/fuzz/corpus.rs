@@ -1,7 +1,7 @@
 //! The properties of the fuzz targets on a plain toolchain: for all seeds, for all findings of fuzzing, and for some
 //! thousand mutations of both, the same ones each time.
 //!
-//! `TEST_EFFORT=40 cargo test --test fuzz corpus` tries 100 000 mutations of each target, `FUZZ_SEED=7` others.
+//! `TEST_EFFORT=40 cargo test --test fuzz corpus` tries 40 000 mutations of each target, `FUZZ_SEED=7` others.
 
 use super::allocations;
 use super::effort::cases;
@@ -11,7 +11,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 
 /// Mutations of each target in a quick run.
-const MUTATIONS: u32 = 2500;
+const MUTATIONS: u32 = 1000;
 
 /// Longest generated input, bytes.
 const LONGEST: usize = 4_096;

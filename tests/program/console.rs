@@ -14,7 +14,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 
 /// Runs a script in a folder.
-pub fn shell(script: &str, folder: &Path) -> Output {
+fn shell(script: &str, folder: &Path) -> Output {
     let program = Path::new(env!("CARGO_BIN_EXE_asperity")).parent().unwrap().to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths([program].into_iter().chain(std::env::split_paths(&path))).unwrap();

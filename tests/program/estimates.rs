@@ -3,7 +3,6 @@
 //! On cones every even number of springs has the outermost spring; where it decides, the true error is zero and the stated
 //! one is not.
 
-use super::common::effort::cases;
 use super::documentation::markdown;
 use super::generated::check;
 use asperity::scene::Document;
@@ -72,8 +71,8 @@ fn of_any_form(edges: &str, uniform: &mut dyn FnMut() -> f64) -> Document {
 type Judged = (Document, f64);
 
 /// Ratios of stated errors to true ones on random scenes, ascending.
-fn ratios(quick: u32, seed: u8, make: fn(&mut dyn FnMut() -> f64) -> Document) -> Vec<f64> {
-    judged(cases(quick) as usize, seed, make).into_iter().map(|(_, ratio)| ratio).collect()
+fn ratios(scenes: usize, seed: u8, make: fn(&mut dyn FnMut() -> f64) -> Document) -> Vec<f64> {
+    judged(scenes, seed, make).into_iter().map(|(_, ratio)| ratio).collect()
 }
 
 /// Random scenes in the order of their ratios.

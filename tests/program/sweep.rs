@@ -304,14 +304,6 @@ fn another_plan_is_refused() {
     assert!(merge(&folder, true).unwrap_err().to_string().contains("belongs to another plan"));
 }
 
-#[test]
-fn plans_read_back_the_same() {
-    for text in asperity::study::PLANS.iter().map(|plan| plan.text).chain([SMALL]) {
-        let plan = plan(text);
-        assert_eq!(self::plan(&plan.to_ron()), plan);
-    }
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(cases(8)))]
 

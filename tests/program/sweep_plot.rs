@@ -88,30 +88,3 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     let half = asperity(at, &["sweep", "plot", "half", "--at", "preload=0.1"]).unwrap();
     assert!(half.contains("Small"), "{half}");
 }
-
-#[test]
-fn curves_lie_along_the_longer_axis_and_protocols_stand_side_by_side() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = folder.path();
-    let plan = PLAN
-        .replace("to: 0.9, count: 9", "to: 0.9, count: 3")
-        .replace("preloads: [0.01, 0.1, 1.0],", "")
-        .replace("adhesion_coefficient, adhesion_force, regime", "zero_force_adhesion_share, rms_height");
-    fs::write(at.join("plan.ron"), plan).unwrap();
-    asperity(at, &["sweep", "plan.ron", "-o", "study"]).unwrap();
-    let plot = |more: &[&str]| asperity(at, &[&["sweep", "plot", "study"], more].concat()).unwrap();
-    let text = plot(&[]);
-    assert!(text.matches("⠒●⠒ H = 0.1  ⠒■⠒ H = 0.5  ⠒▲⠒ H = 0.9").count() >= 2, "{text}");
-    assert!(text.contains("roughness-adhesion parameter κ") && !text.contains('↑'), "{text}");
-    let picture = plot(&["-o", "-"]);
-    // Quantities with their typeset symbols.
-    let symbol = r#"<tspan font-style="italic">F</tspan>"#;
-    assert!(picture.contains(&format!("(a) zero-load adhesion share {symbol}")), "{picture}");
-    assert!(picture.contains(&format!(") zero-force adhesion share {symbol}")), "{picture}");
-    // By request the short axis goes across, and the figure is a map.
-    let map = plot(&["--x", "roughness.hurst"]);
-    assert!(map.contains("↑ roughness-adhesion parameter κ"), "{map}");
-    // Numbers equal to rounding are one number.
-    let same = plot(&["--x", "roughness.hurst", "--quantity", "rms_height"]);
-    assert!(same.contains("180 ··· ") && same.contains(" 220\n"), "{same}");
-}

@@ -303,23 +303,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn reversals_are_those_of_loads_of_their_own() {
-        let sphere = Profile::sphere(1e-4, 1e-4, 512).unwrap();
-        let ends = [Move::ToForce(2e-4), Move::ToTouch, Move::ToIndentation(1e-6)];
-        for (work, edges) in [(0.05, Edges::Grid), (0.05, Edges::SubCell), (0.0, Edges::SubCell)] {
-            let contact =
-                Contact::builder(&sphere, Material::effective(1e6)).work_of_adhesion(work).edges(edges);
-            let contact = contact.build().unwrap();
-            let reversals = contact.reversals(&ends).unwrap();
-            for (end, reversal) in ends.iter().zip(&reversals) {
-                let cycle = contact.load(&[*end, Move::ToSeparation]).unwrap();
-                assert_eq!(reversal.adhesion_force(), cycle.pull_off_force());
-                assert_eq!(Some(reversal.dissipated_energy), cycle.dissipated_energy());
-            }
-            assert!(contact.reversals(&[Move::ToSeparation]).is_err());
-            assert_eq!(contact.reversals(&[]).unwrap(), []);
-        }
-    }
 }

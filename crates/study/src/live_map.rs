@@ -195,26 +195,6 @@ mod tests {
     }
 
     #[test]
-    fn every_level_has_the_cells_of_the_one_before() {
-        let map = map();
-        let cells = Level::ALL.map(|level| map.cells(level));
-        assert_eq!(
-            cells.each_ref().map(|rows| (rows[0].len(), rows.len())),
-            [(5, 5), (9, 9), (17, 19), (33, 19)]
-        );
-        for pair in cells.map(|rows| rows.concat()).windows(2) {
-            assert!(pair[0].iter().all(|cell| pair[1].contains(cell)));
-        }
-        let places = |level: Level| level.places(&map.plan().axes[1]);
-        assert_eq!(places(Level::Coarse), [0, 4, 9, 14, 18]);
-        assert_eq!(places(Level::Medium), [0, 2, 4, 7, 9, 11, 14, 16, 18]);
-        assert_eq!(
-            [1024, MANY + 1, VERY_MANY + 1].map(Level::finest),
-            [Level::Whole, Level::Fine, Level::Medium]
-        );
-    }
-
-    #[test]
     fn a_map_goes_from_coarse_to_fine_and_adhesion_falls_with_kappa() {
         let (mut map, mut levels, mut rows) = (map(), Vec::new(), 0);
         map.compute(&|| false, &mut |map| {

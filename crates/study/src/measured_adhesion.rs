@@ -230,21 +230,4 @@ mod tests {
         let scene = scene.with(with_work).unwrap();
         assert_eq!(MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap(), by_kappa);
     }
-
-    #[test]
-    fn one_force_has_no_spread() {
-        let profile = |adhesion_force, fit_change| ProfileAdhesion {
-            seed: 1,
-            adhesion_force,
-            fit_change,
-            regime: None,
-            regime_after_zero_force: None,
-        };
-        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(2.0)), profile(None, None)] };
-        assert_eq!((found.adhesion_force().unwrap().spread, found.fit_deviation()), (None, None));
-        let found = MeasuredAdhesion { profiles: vec![profile(Some(1.0), Some(-2.0)); 2] };
-        assert_eq!(found.fit_deviation(), Some(2.0));
-        // Twice the force itself: a factor, and nothing below 0.
-        assert_eq!(found.fit_interval(), Some(((-2.0_f64).exp(), 2.0_f64.exp())));
-    }
 }

@@ -391,28 +391,6 @@ impl Results {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::open;
-
-    #[test]
-    fn profiles_do_not_depend_on_how_many_threads_share_them() {
-        let document = open("rough-sphere").unwrap();
-        let scene = document.scene().with_seed(u64::MAX - 2);
-        let scene = scene.with(|scene| scene.numerics.points = 1024).unwrap();
-        let record = [Quantity::AdhesionForce, Quantity::DissipatedEnergy];
-        let of = |jobs| Results::of_scene(&scene, &document.resolve(""), &record, 7, None, jobs).unwrap();
-        let alone = of(1);
-        assert_eq!((of(3), of(64)), (alone.clone(), alone.clone()));
-        assert_eq!([0, 3].map(|line| alone.plan().seed_of(line)), [u64::MAX - 2, 0]);
-        // Each record is that of the scene itself with that seed.
-        let mut simulation = Simulation::new(document.resolve(""));
-        let outcome = simulation.run(&scene.with_seed(0), &|| false, &mut |_, _, _| Ok(())).unwrap();
-        for (quantity, expected) in
-            record.into_iter().zip([outcome.figures.adhesion_force, outcome.figures.dissipated_energy])
-        {
-            assert_eq!(alone.value(0, 3, quantity), expected);
-        }
-        assert_eq!(alone.statistics(0, record[0]).unwrap().count, 7);
-    }
 
     #[test]
     fn records_agree_bit_by_bit_but_for_the_kind_of_nan() {

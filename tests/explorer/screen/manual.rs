@@ -69,22 +69,6 @@ fn small_and_large_steps_press_and_pull() {
 }
 
 #[test]
-fn the_status_shows_what_a_move_changed() {
-    let mut driver = pressed("d");
-    let before = driver.point().springs;
-    driver.press("{");
-    let (changed, now) = (manual(&driver).changed, driver.point().springs);
-    assert!(changed > 0 && changed == before - now, "{changed}: {before} to {now}");
-    driver.states(format!("{changed} springs changed"));
-    driver.resize((80, 24));
-    assert!(driver.status().contains("springs changed"), "in a common window too: {}", driver.status());
-    driver.shows("manual");
-    // A change of the view is no move: the changes of the last move are still shown.
-    driver.press("n + z z");
-    assert_eq!(manual(&driver).changed, changed);
-}
-
-#[test]
 fn pulled_off_by_hand_it_loses_what_the_leg_loses() {
     let mut driver = mid_retraction(rough());
     driver.press("< d S");

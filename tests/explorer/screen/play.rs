@@ -5,34 +5,6 @@ use asperity::explorer::config::Config;
 use asperity::explorer::player::At;
 
 #[test]
-fn the_animation_plays_to_its_end_and_stops() {
-    let mut driver = Driver::start(rough());
-    assert!(driver.app.play.playing);
-    let ends: Vec<f64> = driver.app.legs().iter().map(|leg| leg.end()).collect();
-    let (mut last, mut elapsed) = (f64::NEG_INFINITY, 0);
-    while driver.app.play.playing {
-        let leg = driver.app.play.leg;
-        assert_eq!(driver.elapse(0.1), [Task::Ask]);
-        if driver.app.play.leg != leg {
-            last = ends[0];
-        }
-        let d = driver.point().indentation;
-        // The direction turns at the end of the first leg.
-        let forwards = if driver.app.play.leg == 0 { last <= d && d <= ends[0] } else { d <= last };
-        assert!(forwards, "{last} to {d}");
-        last = d;
-        elapsed += 1;
-        assert!(elapsed < 1000, "it never ends");
-    }
-    assert_eq!(driver.app.play.leg, 1);
-    assert!((last - ends[1]).abs() < 1e-12, "{last}");
-    assert!(driver.elapse(1.0).is_empty(), "then nothing changes any more");
-    // Playing again starts from the beginning.
-    driver.press("Space");
-    assert!(driver.app.play.playing && driver.app.play.leg == 0);
-}
-
-#[test]
 fn the_animation_is_paused_stepped_and_begun_again() {
     let mut driver = Driver::start(rough());
     driver.elapse(1.0);

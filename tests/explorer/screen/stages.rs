@@ -85,29 +85,6 @@ fn a_stage_of_another_kind_has_the_state_at_its_end() {
 }
 
 #[test]
-fn edits_of_stages_keep_comments() {
-    let text = rough().text().replace(
-        "[ToForce(2.0e-5), ToSeparation]",
-        "[\n        ToForce(20.0e-6), // press\n        ToSeparation, // pull\n    ]",
-    );
-    let mut driver = Driver::start(Document::parse(&text, "a.ron").unwrap());
-    select(&mut driver, 1);
-    driver.press("P");
-    assert_eq!(driver.app.prompt.as_ref().map(|prompt| prompt.line.text()), Some("zero force"));
-    driver.press("Esc");
-    let added =
-        "[\n        ToForce(20.0e-6), // press\n        ToZeroForce,\n        ToSeparation, // pull\n    ]";
-    assert!(driver.document().text().contains(added), "{}", driver.document().text());
-    driver.press("K");
-    let moved =
-        "[\n        ToZeroForce,\n        ToForce(20.0e-6), // press\n        ToSeparation, // pull\n    ]";
-    assert!(driver.document().text().contains(moved), "{}", driver.document().text());
-    driver.press("J Backspace");
-    assert_eq!(driver.document().text(), text);
-    assert_eq!(driver.document().overrides(), []);
-}
-
-#[test]
 fn what_cannot_be_loaded_is_refused_in_one_line() {
     let (one, two) = ("[ToForce(2.0e-5)]", "[ToForce(2.0e-5), ToSeparation]");
     let mut driver = loaded(one, 1);
@@ -194,28 +171,4 @@ fn the_path_of_manual_loading_is_kept_as_the_loading() {
         driver.press("u");
         assert_eq!(driver.document().text(), scene.text());
     }
-}
-
-#[test]
-fn the_path_is_exported_with_its_stages() {
-    let mut driver = Driver::start(rough());
-    driver.press("Space > . . d { } { S");
-    let manual = driver.app.manual.clone().unwrap();
-    driver.press("E Ctrl+u `path.csv` Enter");
-    let table = driver.file("path.csv");
-    let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
-    assert_eq!(rows[0], "leg,indentation,force,contact_length,fragments,stored_energy");
-    assert_eq!(rows.len(), 1 + manual.path.len());
-    let legs: Vec<usize> =
-        rows[1..].iter().map(|row| row.split(',').next().unwrap().parse().unwrap()).collect();
-    assert_eq!(legs, manual.stages);
-    assert_eq!(legs.last(), Some(&(manual.loading.len() - 1)));
-    // The table opens as the scene with this loading.
-    let path = driver.folder.join("path.csv");
-    assert_eq!(open(path.to_str().unwrap()).unwrap().scene().loading, manual.loading);
-    assert!(table.contains("# command: asperity rough-line --set 'loading="), "{table}");
-    driver.press("E Ctrl+u `path.json` Enter");
-    let value: serde_json::Value = serde_json::from_str(&driver.file("path.json")).unwrap();
-    assert_eq!(value["curve"].as_array().unwrap().len(), manual.path.len());
-    assert_eq!(value["loading"][0]["ToForce"], 2e-5);
 }

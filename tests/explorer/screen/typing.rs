@@ -2,7 +2,6 @@
 
 use super::*;
 use asperity::explorer::update::update;
-use clap::ValueEnum;
 
 #[test]
 fn the_editor_opens_with_the_value_selected_and_keeps_what_is_refused() {
@@ -151,19 +150,6 @@ fn digits_begin_a_value_wherever_the_list_can_be_edited() {
     // The arrows of map and crosshair are not those of the list, and digits do nothing.
     driver.press("u * 5 * m 5");
     assert_eq!((driver.document(), driver.app.prompt.is_none()), (&before, true));
-}
-
-#[test]
-fn the_selected_row_is_bright_only_while_its_pane_has_the_focus() {
-    for theme in asperity::explorer::theme::Theme::value_variants() {
-        let mut driver = pressed("");
-        driver.app.view.appearance.theme = *theme;
-        assert!(driver.text().contains("›  Hurst exponent") && reversed(&driver.screen().content).is_empty());
-        for (keys, row) in [("Tab Tab", "Hurst exponent"), ("Tab /", "adhesion")] {
-            driver.press(keys);
-            assert!(reversed(&driver.screen().content).contains(row), "{theme:?} {keys}");
-        }
-    }
 }
 
 #[test]

@@ -182,7 +182,7 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
 fn scenes_over_whole_ranges() {
     let folder = tempfile::tempdir().unwrap();
     let scenes = (quick().documents(), shapes(), (-30.0..5.0_f64).prop_map(f64::exp));
-    proptest!(draws(375), |((document, shape, height) in scenes)| {
+    proptest!(draws(200), |((document, shape, height) in scenes)| {
         // A little longer than the line.
         let profile = text_of(&shape, document.scene().length * (1.0 + 1e-9), height);
         std::fs::write(folder.path().join(FILE), profile).unwrap();

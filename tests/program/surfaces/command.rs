@@ -120,22 +120,6 @@ fn moments_and_contact_parameters_are_those_of_the_heights() {
     assert_eq!((&both["points"], &both["files"][1]["points"]), (&json!(512 + 1600), &json!([40, 40])));
 }
 
-#[test]
-fn the_profile_of_a_scene_is_read_back_with_its_moments() {
-    let place = Place::new();
-    place.run(&["line", "pressure-sensitive", "-o", "made.csv"]);
-    let report = place.json(&["surface", "made.csv", "--unit", "m", "--periodic", "--detrend", "mean"]);
-    // Line over cut: 1 and √2.
-    for (name, cut, ratio) in
-        [("rms_height", "rms_height", 1.0), ("rms_gradient", "rms_slope", std::f64::consts::SQRT_2)]
-    {
-        let moment = &report["equivalent_line"][name];
-        assert_equal(number(&moment["value"]), ratio * number(&report[cut]), 0.01);
-        assert!(number(&moment["error"]) < 0.15 * number(&moment["value"]), "{moment}");
-    }
-    assert_eq!(report["ends_inside_scan"], true);
-}
-
 /// Numbers after the last of these keys, each searched after the previous one, to the last digit: a general JSON reader
 /// rounds some of them.
 fn numbers<'a>(text: &'a str, keys: &[&str]) -> impl Iterator<Item = f64> + 'a {
@@ -167,7 +151,7 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
         let scene = format!("scenes/{number}.ron");
         let asked: Vec<&str> = std::iter::once("surface").chain(options.split(' ')).collect();
         let report = place
-            .run(&[&asked[..], &CONTACT, &["--lines", "3", "--format", "json", "--scene", &scene]].concat());
+            .run(&[&asked[..], &CONTACT, &["--lines", "2", "--format", "json", "--scene", &scene]].concat());
         // The moments of the analysis, and those of the line on springs: bit for bit.
         let document = asperity::scene::open(place.path().join(&scene).to_str().unwrap()).unwrap();
         let faces = document.scene().measured_paths(&document.resolve(""));
@@ -184,42 +168,11 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
                 assert_eq!(stated, Some(value), "{options}, {name}, {kind}");
             }
         }
-        let lines = place.run(&["run", &scene, "--lines", "3", "--format", "csv"]);
+        let lines = place.run(&["run", &scene, "--lines", "2", "--format", "csv"]);
         let stated: Vec<f64> = numbers(&report, &["adhesion", "lines", "adhesion_force"]).collect();
         assert_eq!(table(&lines).map(|row| row[1]).collect::<Vec<_>>(), stated, "{options}");
         assert_eq!(numbers(&report, &["adhesion", "length"]).next(), Some(document.scene().length));
     }
-}
-
-#[test]
-fn the_spectra_of_both_faces_add() {
-    let place = Place::new();
-    let report = |arguments: &[&str]| place.json(&[&["surface"], arguments].concat());
-    let [one, other, both] =
-        [&["line.txt"][..], &["map.txt"], &["line.txt", "--opposite", "map.txt"]].map(report);
-    // Each face is stated by itself.
-    for name in ["files", "points", "rms_height", "hurst_exponent", "spectrum", "profile_spectra", "warnings"]
-    {
-        assert_eq!((&both[name], &both["opposite"][name]), (&one[name], &other[name]), "{name}");
-    }
-    // The gradient: long waves missing in one scan add little to it.
-    let square = |report: &Value| number(&report["equivalent_line"]["rms_gradient"]["value"]).powi(2);
-    let ratio = square(&both) / (square(&one) + square(&other));
-    assert!((ratio - 1.0).abs() < 1e-2 && ratio < 1.0, "{ratio}");
-    let powers = |arguments: &[&str], kind: &str| -> Vec<String> {
-        let table = place.run(&[&["surface"], arguments, &["--format", "csv"]].concat());
-        rows(&table).filter_map(|row| row.strip_prefix(kind)).map(str::to_owned).collect()
-    };
-    for kind in ["1D PSD along x,", "q/π × 2D PSD,"] {
-        let alone = powers(&["map.txt"], kind);
-        assert!(!alone.is_empty());
-        let opposite = format!("\"opposite, {}\",", kind.trim_end_matches(','));
-        assert_eq!(powers(&["line.txt", "--opposite", "map.txt"], &opposite), alone);
-    }
-    // The line begins at the first wave contained in both scans.
-    let line = powers(&["line.txt", "--opposite", "map.txt"], "equivalent line,");
-    let first: f64 = line[0].split(',').next().unwrap().parse().unwrap();
-    assert_equal(first, std::f64::consts::TAU / 40e-6, 1e-9);
 }
 
 #[test]

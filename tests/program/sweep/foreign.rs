@@ -2,7 +2,7 @@
 //! text.
 
 use super::{SMALL, compute, computed, plan, shard_files, study, tables};
-use asperity::study::{Changes, Folder, Plan, Shard, Status, StudyError, merge};
+use asperity::study::{Folder, Shard, Status, merge};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
@@ -142,30 +142,6 @@ fn pipes_and_devices_are_refused_at_once() {
     let table = fs::canonicalize(folder.path().join("results.csv")).unwrap();
     fs::OpenOptions::new().write(true).open(table).unwrap().set_len(1 << 40).unwrap();
     refused(&["sweep", "plot", path], "is not a row of this study");
-}
-
-#[test]
-fn titles_of_plans_are_held_to_what_scenes_may_have() {
-    for (title, expected) in [
-        ("\\u{1b}]52;c;eA==\\u{7}", "title = text with '\\u{1b}': allowed: no control characters"),
-        ("a\\u{202e}b", "title = text with '\\u{202e}': allowed: no control characters"),
-        ("two\\nlines", "title = text with '\\n': allowed: no control characters"),
-        (&*"x".repeat(201), "title = 201 characters: allowed: one line of at most 200 characters"),
-    ] {
-        let text = SMALL.replacen("\"Small\"", &format!("\"{title}\""), 1);
-        assert_ne!(text, SMALL);
-        let message = Plan::parse(&text, "p.ron", &Changes::default()).unwrap_err().to_string();
-        assert!(message.contains(expected), "{message}");
-        let text = text.replacen("title:", "notice:", 1);
-        let notice = Plan::parse(&text, "p.ron", &Changes::default());
-        assert_eq!(notice.is_ok(), title.contains("lines") || title.starts_with('x'), "{notice:?}");
-    }
-    // A study of an earlier version with such a title.
-    let (_place, folder) = study(&plan(SMALL));
-    let file = folder.path().join("plan.ron");
-    let text = fs::read_to_string(&file).unwrap().replacen("\"Small\"", "\"\\u{1b}[2J\"", 1);
-    fs::write(&file, text).unwrap();
-    assert!(matches!(Folder::open(folder.path()), Err(StudyError::Plan(_))));
 }
 
 #[test]

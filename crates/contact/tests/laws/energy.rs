@@ -18,7 +18,7 @@ fn work_done(body: &Body, record: &LegRecord, leg: &Leg) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(cases(800))]
+    #![proptest_config(cases(400))]
 
     #[test]
     fn the_work_of_each_leg_is_stored_or_dissipated(body in bodies(60), turns in indentations(8)) {

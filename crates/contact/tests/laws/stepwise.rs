@@ -49,22 +49,6 @@ proptest! {
             }
         }
     }
-
-    #[test]
-    fn a_refused_target_does_not_change_the_body(
-        body in whole_springs(60), to in 0.0..0.5_f64, back in -0.1..0.5_f64,
-    ) {
-        let contact = body.contact();
-        let (mut asked, mut spared) = (stepwise(&contact, 0.01), stepwise(&contact, 0.01));
-        for target in [Move::ToIndentation(to), Move::ToIndentation(back), Move::ToSeparation] {
-            let (one, other) = (asked.advance(target).unwrap(), spared.advance(target).unwrap());
-            prop_assert_eq!(one, other, "{:?} after a refused leg", target);
-            let refused = asked.advance(Move::ToForce(-1e30));
-            let reason = refused.unwrap_err();
-            let because = matches!(reason, ContactError::DetachesBefore { .. } | ContactError::NothingToPull);
-            prop_assert!(because, "{:?}", reason);
-        }
-    }
 }
 
 #[test]

@@ -304,29 +304,6 @@ mod tests {
     }
 
     #[test]
-    fn signs_are_in_cells_of_their_curves() {
-        let points: Vec<(f64, f64)> = (0..12)
-            .map(|at| (-1.3e-7 + 6.9e-8 * f64::from(at), 3e-6 * f64::from((at * 7) % 11) - 2e-5))
-            .collect();
-        let (without, with) =
-            (chart(vec![curve(&points, None)]), chart(vec![curve(&points, Some(Sign::Up))]));
-        for size in SIZES {
-            let (place, line) = drawn(&without, size);
-            let (_, signs) = drawn(&with, size);
-            let mut seen = 0;
-            for point in &points {
-                let cell = place.cell(&without, *point).unwrap();
-                let blank = [" ", "\u{2800}"].contains(&line[cell].symbol());
-                assert!(!blank, "{size:?} {point:?}");
-                seen += usize::from(signs[cell].symbol() == "▲");
-            }
-            let all = signs.content.iter().filter(|cell| cell.symbol() == "▲").count();
-            assert!(all > 0 && seen >= all, "{size:?}: {seen} of {all}");
-        }
-        assert_eq!(drawn(&without, SIZES[0]).0.cell(&without, (1.0, 0.0)), None);
-    }
-
-    #[test]
     fn a_value_of_a_map_is_found_at_its_cell() {
         let columns: Vec<f64> = (1..20).map(|at| 0.05 * f64::from(at)).collect();
         let rows: Vec<f64> = (0..33).map(|at| 0.125 * 2_f64.powf(0.25 * f64::from(at))).collect();
@@ -362,18 +339,6 @@ mod tests {
             let corner = Some((place.plot.right() - 1, place.plot.y));
             assert_eq!(place.cell(&chart, (9.0, 1e9)), corner);
             assert_eq!(place.data_at(&chart, (place.plot.right(), place.plot.y)), None);
-        }
-    }
-
-    #[test]
-    fn two_numbers_give_each_axis_a_scale() {
-        let [x, y] = [axis(-5.26e-8, 6.71e-7, "d", "m"), axis(-1.93e-5, 1.22e-5, "F", "N")];
-        let chart = Chart::new(x, y, Vec::new());
-        for (width, height) in [(28, 7), (30, 9), (40, 12), (100, 30)] {
-            let (numbers, label) = scale_below(&chart, width, false);
-            let seen = numbers.iter().filter(|number| !is_covered(number, width, &label));
-            assert!(seen.count() >= 2, "{width}: {numbers:?}");
-            assert!(scale_beside(&chart, height).len() >= 2, "{height}");
         }
     }
 

@@ -266,14 +266,3 @@ fn time_of_transform() -> Option<f64> {
     let times: Option<Vec<f64>> = (0..=MOST_RUNS).map(run).collect();
     times?.into_iter().skip(1).reduce(f64::min)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_order_is_that_of_a_power() {
-        assert!((observed_order(1.0, 0.125, 2.0).unwrap() - 3.0).abs() < 1e-15);
-        assert_eq!(observed_order(1.0, 0.0, 2.0), None);
-    }
-}

@@ -231,10 +231,6 @@ mod tests {
         leg(Move::ToSeparation, Direction::Unloading, &[extreme, point(-0.3, 0.0, springs)], extreme)
     }
 
-    fn free() -> [LegRecord; 2] {
-        [(-1.5, -2.0), (-2.0, -1.0)].map(|(from, to)| LegRecord::free(Move::ToIndentation(to), from, to))
-    }
-
     fn figures(legs: &[LegRecord]) -> Figures {
         Figures::of(&History { legs: legs.to_vec(), ..History::default() })
     }
@@ -258,17 +254,6 @@ mod tests {
         // A body in contact has not completed a loop.
         assert_eq!(figures(&[pressed(7.0), pulled(-3.0, 1)]).dissipated_energy, None);
         assert_eq!(figures(&[]), Figures::default());
-    }
-
-    #[test]
-    fn a_separated_body_has_no_extremes() {
-        let legs = [&[pressed(-7.0), pulled(-3.0, 0)][..], &free()].concat();
-        let found = figures(&legs);
-        assert_eq!((found.preload, found.adhesion_force), (Some(-7.0), Some(3.0)));
-        assert_eq!(marks(&legs), [(Mark::Preload, legs[0].largest), (Mark::PullOff, legs[1].smallest)]);
-        // A body that is pulled throughout has no preload for a coefficient.
-        assert_eq!(found.adhesion_coefficient, None);
-        assert_eq!(figures(&free()).preload, None);
     }
 
     #[test]

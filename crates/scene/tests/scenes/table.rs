@@ -76,40 +76,6 @@ fn a_thousand_rows_are_their_closed_form() {
     }
 }
 
-/// g(x) of a sphere that goes over into a cone, and that of many points between two rows.
-#[test]
-fn a_sphere_on_a_cone_has_its_closed_profile() {
-    let border = 0.25;
-    let depth = |r: f64| if r < border { 0.5 * r * r } else { border * (r - 0.5 * border) };
-    let profile = |x: f64| match x < border {
-        true => x * x,
-        false => x * (x - (x * x - border * border).sqrt() + border * (border / x).acos()),
-    };
-    let (radii, depths) = rows(1.0, depth);
-    let table = FormTable::new(radii, &depths).unwrap();
-    for points in [50, 1 << 16] {
-        let spacing = 1.0 / f64::from(points);
-        let depths = table.depths(spacing, points as usize + 1).unwrap();
-        assert_eq!(depths.len(), points as usize + 1);
-        for (place, depth) in depths.iter().enumerate().skip(1) {
-            let x = place as f64 * spacing;
-            // Beside the border the curvature of f jumps between two rows.
-            let allowed = if (x - border).abs() < 0.01 { 2e-5 } else { 1e-6 };
-            assert!((depth / profile(x) - 1.0).abs() < allowed, "{x}: {depth} {}", profile(x));
-        }
-    }
-    // Interpolated far rows are the rows themselves.
-    let [few, many] =
-        [64, 1 << 16].map(|points| table.depths(1.0 / f64::from(points), points as usize + 1).unwrap());
-    for (place, one) in few.iter().enumerate() {
-        let other = many[place << 10];
-        assert!((one - other).abs() <= 1e-12 * other, "{place}: {one} {other}");
-    }
-    assert_eq!(table.falls_from(1.0), None);
-    let waves = rows(1.0, |r| r * r + 0.05 * (1.0 - (40.0 * r).cos()));
-    assert!(FormTable::new(waves.0, &waves.1).unwrap().falls_from(1.0).is_some());
-}
-
 /// A table loaded for a line becomes its gaps; a sphere is one to rounding.
 #[test]
 fn a_table_without_a_file_or_too_short_is_refused() {
@@ -312,6 +278,12 @@ fn tables_of_any_kind_have_the_profile_of_their_interpolant() {
             assert!(error < 1e-12, "table {number} at {place}: {error:e} of {largest}");
         }
     }
+    let falls = |depth: &dyn Fn(f64) -> f64| {
+        let (radii, depths) = rows(1.0, depth);
+        FormTable::new(radii, &depths).unwrap().falls_from(1.0)
+    };
+    assert_eq!(falls(&|r| r * r), None);
+    assert!(falls(&|r| r * r + 0.05 * (1.0 - (40.0 * r).cos())).is_some());
 }
 
 /// A punch with an edge in few rows, and rows far closer than its springs beside the corner of a flat end.

@@ -94,16 +94,3 @@ pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
 pub(super) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_has_the_deviation_of_its_values() {
-        // The line 0, 1, 2, 3 with deviations of 0.5 that neither lift nor turn it, over two degrees of freedom.
-        let line = Baseline::through(&[0.5, 0.5, 1.5, 3.5]);
-        assert!((line.mean - 1.5).abs() < 1e-15 && (line.slope - 1.0).abs() < 1e-15, "{line:?}");
-        assert!((line.noise - 0.5_f64.sqrt()).abs() < 1e-15, "{line:?}");
-    }
-}

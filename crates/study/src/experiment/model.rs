@@ -219,20 +219,6 @@ mod tests {
     }
 
     #[test]
-    fn a_loading_ends_close_behind_its_displacement() {
-        let scene = random(4, 512).scene;
-        let (contact, _) = Simulation::default().contact(&scene).unwrap();
-        let sampling = Sampling { stiffness: 0.1 * stiffness(&scene), points: FEW, least_jump: 1.0 };
-        let approach = Leg::approach(&contact).unwrap();
-        for to in [2e-7, 1e-6] {
-            let pressed = sampling.press(&approach, None, to).unwrap();
-            let last = *pressed.points().last().unwrap();
-            let over = last.indentation - pressed.at(to).unwrap().indentation;
-            assert!(last.displacement >= to && (0.0..to / 30.0).contains(&over), "{to:e}: {last:?} {over:e}");
-        }
-    }
-
-    #[test]
     fn forces_are_those_of_the_radius_that_is_asked_for() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
         let document = on_rubber(1e-3, 2e6);
@@ -243,51 +229,6 @@ mod tests {
         let [wide, narrow, again] = [7.5e-6, 3e-6, 7.5e-6].map(&mut forces);
         assert!(wide == again && wide != narrow);
         assert_eq!(fresh.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6]).unwrap(), narrow);
-    }
-
-    /// At a fold, where the displacement turns back because the instrument is too soft to hold the body, points are dense: on
-    /// either side the first one is half way to the next even point, and each further one halves the distance to the fold.
-    #[test]
-    fn points_are_dense_on_both_sides_of_a_fold() {
-        let from = 1e-6;
-        for (seed, points, presses) in [(4, 512, false), (11, 1024, true)] {
-            let scene = random(seed, points).scene;
-            let (contact, _) = Simulation::default().contact(&scene).unwrap();
-            let approach = Leg::approach(&contact).unwrap();
-            let leg = if presses { approach } else { approach.turn(from).unwrap() };
-            let (sign, power, low) = if presses { (1.0, 1, 0.0) } else { (-1.0, 2, leg.end()) };
-            let share = |index: usize| (index as f64 / (FEW - 1) as f64).powi(power);
-            let even: Vec<f64> = (0..FEW).map(|index| low + (from - low) * share(index)).collect();
-            for times in [0.01, 0.1, 1.0] {
-                let stiffness = times * stiffness(&scene);
-                let curve = leg.curve(&even).unwrap();
-                let at: Vec<f64> = curve.iter().map(|point| sign * point.displacement(stiffness)).collect();
-                let is_fold = |&index: &usize| {
-                    let (next, before) =
-                        if presses { (index + 1, 0..index) } else { (index - 1, index + 1..FEW) };
-                    at[index] > at[next] && at[before].iter().all(|before| at[index] > *before)
-                };
-                let folds: Vec<usize> = (1..FEW - 1).filter(is_fold).collect();
-                assert!(!folds.is_empty(), "{seed} {times}");
-                let mut dense = even.clone();
-                for (fold, end) in folds.into_iter().flat_map(|fold| [(fold, fold - 1), (fold, fold + 1)]) {
-                    let way = even[end] - even[fold];
-                    dense.extend((1..=8).map(|halvings| even[fold] + way / 2_f64.powi(halvings)));
-                }
-                dense.sort_by(f64::total_cmp);
-                let mut points = leg.curve(&dense).unwrap();
-                let sampling = Sampling { stiffness, points: FEW, least_jump: f64::INFINITY };
-                let found = if presses {
-                    sampling.over(&leg, [low, from], power, None)
-                } else {
-                    points.insert(0, CurvePoint { indentation: low, ..CurvePoint::default() });
-                    points.reverse();
-                    sampling.pull(&leg, from)
-                };
-                let expected = DisplacementCurve::new(leg.direction(), &points, stiffness);
-                assert_eq!(found.unwrap(), expected, "{seed} {times}");
-            }
-        }
     }
 
     #[test]

@@ -278,14 +278,4 @@ mod tests {
             assert!(error.starts_with(said) || error.contains(said), "{text}: {error}");
         }
     }
-
-    #[test]
-    fn a_remedy_belongs_to_a_pair_in_any_order() {
-        use Parameter::{Modulus, Offset, Stiffness, Work, Zero};
-        assert!(Parameter::remedy(Stiffness, Modulus).contains("hard specimen"));
-        assert_eq!(Parameter::remedy(Modulus, Stiffness), Parameter::remedy(Stiffness, Modulus));
-        assert!(Parameter::remedy(Work, Work).starts_with("less noise"));
-        assert!(Parameter::remedy(Work, Zero).starts_with("a curve with another preload"));
-        assert!(Parameter::remedy(Offset, Zero).contains("before contact"));
-    }
 }

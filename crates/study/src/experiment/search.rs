@@ -377,29 +377,6 @@ mod tests {
     }
 
     #[test]
-    fn a_population_is_scattered_over_the_ranges() {
-        searched(1.0, |search, _| {
-            let scattered = [0, 1].map(|attempt| search.scattered(attempt).unwrap());
-            let expected =
-                [(0.0, 100.0_f64.asinh()), (1e6_f64.ln(), 4e6_f64.ln()), (13.5, 21.5), (-0.05, 0.05)];
-            for members in &scattered {
-                assert_eq!(members.len(), SCAN * FREE.len());
-                for (index, (low, high)) in expected.into_iter().enumerate() {
-                    let (least, most) = ends(members.iter().map(|member| member.at[index]));
-                    let width = high - low;
-                    assert!(low <= least && least < low + 0.03 * width, "{index}: {least}");
-                    assert!(high - 0.03 * width < most && most <= high, "{index}: {most}");
-                    let mean =
-                        members.iter().map(|member| member.at[index]).sum::<f64>() / members.len() as f64;
-                    assert!((mean - 0.5 * (low + high)).abs() < 0.02 * width, "{index}: {mean}");
-                }
-            }
-            let is_in_both = |member: &Member| scattered[1].iter().any(|other| other.at == member.at);
-            assert!(!scattered[0].iter().any(is_in_both));
-        });
-    }
-
-    #[test]
     fn a_population_ends_at_the_noise_of_the_curve_with_exact_forces() {
         searched(1.0, |search, _| {
             let population = search.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED)).unwrap();
@@ -422,21 +399,6 @@ mod tests {
             assert!(population.noise > COARSE && population.members.len() == count);
             let exact = search.member(population.best.at.clone()).unwrap();
             assert_eq!(exact.rests, population.best.rests);
-        });
-    }
-
-    /// The costs of blocks are parts of the cost of the curve, at the same noise.
-    #[test]
-    fn costs_of_blocks_add_up() {
-        searched(1.0, |search, curve| {
-            let mut rests = vec![6.0; curve.force.len()];
-            rests[150] = 300.0;
-            let member = Member { at: search.space.start(), rests };
-            let blocks = search.block_costs(&member, 3.0);
-            let sum = 2.0 * curve.free as f64 + blocks.iter().sum::<f64>();
-            assert!((search.cost(&member, 3.0) / sum - 1.0).abs() < 1e-12, "{sum}");
-            assert!((blocks[0] - 2.0 * ((100 - curve.free) / 4) as f64).abs() < 1e-9, "{blocks:?}");
-            assert!((sum - 2.0 * 199.0 - loss(100.0)).abs() < 1e-9, "{sum}");
         });
     }
 }

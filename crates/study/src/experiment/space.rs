@@ -193,7 +193,6 @@ impl<'a> Space<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::baseline::dot;
     use super::super::made::{on_rubber, read, rubber};
     use super::super::options::Drift;
     use super::*;
@@ -231,56 +230,6 @@ mod tests {
                 "{form}: {range:?}"
             );
         }
-    }
-
-    #[test]
-    fn parameters_are_named_once_each() {
-        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
-        let refused = |free: &[&str]| {
-            let free = free.iter().map(|one| one.parse().unwrap()).collect();
-            let options = FitOptions { free, lines: 1, jobs: 1 };
-            let found =
-                Space::of(&curve, &on_rubber(1e-3, 2e6), &mut Simulation::default(), &options, &|| false);
-            found.map(|_| ()).unwrap_err().to_string()
-        };
-        assert!(refused(&[]).starts_with("no free parameter; allowed: one or more of work, closing_work"));
-        assert_eq!(refused(&["work", "work"]), "work is free twice; allowed: each parameter once");
-        assert_eq!(
-            refused(&["closing_work=2e-3..3e-3"]),
-            "closing_work of at least 2 mJ/m²; allowed: from 0 to 1 mJ/m², the work of adhesion"
-        );
-    }
-
-    #[test]
-    fn blocks_are_parts_of_the_segments_in_contact() {
-        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
-        let blocks = space(&curve, &[]).blocks();
-        assert_eq!(blocks.len(), 2 * PARTS);
-        assert_eq!(
-            (blocks[0].start, blocks[3].end, blocks[4].start, blocks[7].end),
-            (curve.free, 100, 100, 200)
-        );
-        assert!(blocks.windows(2).all(|pair| pair[0].end == pair[1].start));
-        assert!(blocks.iter().all(|block| (10..=25).contains(&block.len())), "{blocks:?}");
-    }
-
-    #[test]
-    fn zero_and_drift_are_lines_at_right_angles() {
-        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Remove);
-        let [zero, drift] = &space(&curve, &[Parameter::Work]).lines()[..] else { panic!("two lines") };
-        for (one, other, product) in [(zero, zero, 1.0), (drift, drift, 1.0), (zero, drift, 0.0)] {
-            assert!((dot(one, other) - product).abs() < 1e-12);
-        }
-        assert!(zero.iter().all(|value| *value == zero[0]));
-        let step = drift[1] - drift[0];
-        assert!(step > 0.0 && drift.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-12));
-        let lines = space(&curve, &[Parameter::Zero]).lines();
-        // A zero that is free is no line.
-        let [drift] = &lines[..] else { panic!("one line") };
-        let step = drift[1] - drift[0];
-        assert!(step > 0.0 && drift.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-12));
-        let kept = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
-        assert_eq!(space(&kept, &[Parameter::Work]).lines().len(), 1);
     }
 
     #[test]

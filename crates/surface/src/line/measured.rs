@@ -291,19 +291,6 @@ mod tests {
     }
 
     #[test]
-    fn samples_lie_on_the_straight_pieces() {
-        let profile = parsed("-2 7\n0 3\n1 6\n4 0").unwrap();
-        // At −1.5, −0.5 … 3.5.
-        assert_eq!(profile.sample(6.0, 6, 0.0).unwrap(), [6.0, 4.0, 4.5, 5.0, 3.0, 1.0]);
-        // From the first point on.
-        assert_eq!(profile.sample(2.0, 4, 0.0).unwrap(), [6.5, 5.5, 4.5, 3.5]);
-        assert_eq!(
-            (&profile.positions[..], &profile.heights[..]),
-            (&[-2.0, 0.0, 1.0, 4.0][..], &[7.0, 3.0, 6.0, 0.0][..])
-        );
-    }
-
-    #[test]
     fn a_wave_has_its_own_wave_number_on_any_grid_and_under_a_tilt() {
         let text = |points: u32, middles: f64, tilt: f64| -> String {
             let place = |i: u32| (f64::from(i) + middles) / f64::from(points);

@@ -183,17 +183,6 @@ mod tests {
     }
 
     #[test]
-    fn form_and_roughness_add() {
-        let rough = [0.0, 3.0, -1.0, 2.0];
-        let form = Form::Paraboloid { radius: 1.0 };
-        let line = Line::new(4.0, 4, Some(&form), Some(&rough), 2.0).unwrap();
-        // z = 2·rough − x² with x = −2, −1, 0, 1: −4, 5, −2, 3.
-        assert_eq!(line.summit, 5.0);
-        assert_eq!(*line.gaps, [9.0, 0.0, 7.0, 2.0]);
-        assert_eq!(line.heights().collect::<Vec<_>>(), [-4.0, 5.0, -2.0, 3.0]);
-    }
-
-    #[test]
     fn roughness_becomes_the_same_gaps_in_its_own_memory() {
         let rough: Vec<f64> = phases(7, 1).take(40).collect();
         let forms =

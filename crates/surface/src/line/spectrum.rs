@@ -326,12 +326,4 @@ mod tests {
         let flat = SelfAffine { hurst: 0.7, first: 4, last: 512, roll_off_mode: 4.0 };
         assert_eq!(flat.unit_amplitude(1.0), SelfAffine { roll_off_mode: 0.0, ..flat }.unit_amplitude(1.0));
     }
-
-    #[test]
-    fn one_mode_is_a_cosine() {
-        let spectrum = SelfAffine { hurst: 0.3, first: 5, last: 5, roll_off_mode: 0.0 };
-        let expected = std::f64::consts::TAU * 5.0 / 2.0;
-        assert!((spectrum.gradient_per_height(2.0) / expected - 1.0).abs() < 1e-15);
-        assert_eq!(spectrum.continuum_gradient_per_height(2.0), 0.0);
-    }
 }

@@ -218,13 +218,6 @@ mod tests {
         terms.iter().map(term).sum()
     }
 
-    fn cut(nodes: &Nodes, k: f64) -> f64 {
-        let spectrum = known(*nodes, |q| q.powi(-3));
-        let mut terms = Vec::new();
-        add_cut(&mut terms, nodes, k, 1.0);
-        mean(&terms, &spectrum.values)
-    }
-
     #[test]
     fn powers_that_differ_between_directions_count_as_fewer_waves() {
         // Quantiles of the exponential distribution, for half of the waves times a factor.
@@ -241,19 +234,6 @@ mod tests {
         assert!((found(1.0) - 1.0).abs() < 0.01, "{}", found(1.0));
         // Mean 5, mean square 2 (1 + 81)/2 = 82: variance over squared mean (82 − 25)/25.
         assert!((found(9.0) - 57.0 / 25.0).abs() < 0.03, "{}", found(9.0));
-    }
-
-    #[test]
-    fn cuts_of_a_power_law_have_their_closed_form() {
-        // ∫ (k² + t²)^(−3/2) dt = t/(k² √(k² + t²)).
-        let nodes = Nodes::new(1.0, 1000.0, 6.0, End::Ends);
-        for k in [1.0, 2.0, 31.4, 500.0, 990.0] {
-            let t = (1000.0_f64.powi(2) - k * k).sqrt();
-            let expected = t / (k * k * 1000.0) / PI;
-            let found = cut(&nodes, k);
-            assert!((found / expected - 1.0).abs() < 1e-7, "{k}: {found} {expected}");
-        }
-        assert_eq!(cut(&nodes, 1001.0), 0.0);
     }
 
     #[test]
