@@ -1,31 +1,9 @@
-//! A finished study opens as a map; another folder is refused with its kind.
+//! A folder without a map is refused with its kind.
 
 use crate::common::study::{PLAN, begun, merged};
-use crate::common::terminal::Program;
-use crate::driving::{ASPERITY, paused, quit};
+use crate::driving::ASPERITY;
 use std::path::Path;
 use std::process::{Command, Stdio};
-
-#[test]
-fn a_folder_opens_as_the_map_of_its_study() {
-    let folder = tempfile::tempdir().unwrap();
-    merged(&folder.path().join("small"), PLAN);
-    let home = folder.path().to_str().unwrap();
-    let program = Program::new(ASPERITY).argument("small/").folder(folder.path()).env("HOME", home);
-    let mut terminal = paused(program);
-    for message in [
-        "Small study",
-        "Study small: regime (touch) over H, κ, 12 profiles",
-        "F_n/(E* h L) = 0.01",
-        "◆ H 0.5, κ 1",
-    ] {
-        terminal.wait_for(message);
-    }
-    // Browsing is no change that anyone has to save.
-    terminal.send("P");
-    terminal.wait_for("F_n/(E* h L) = 0.1");
-    quit(&mut terminal);
-}
 
 /// Message of the program about a folder, without a terminal.
 fn message(folder: &Path, name: &str) -> String {

@@ -208,21 +208,6 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_a_scene_does_not_have_are_stated() {
-        let scene = open("jkr-sphere").unwrap().scene().clone();
-        for path in
-            ["roughness.hurst", "form.angle", "loading.7.0", "numerics.solver.step", "springs_per_wave"]
-        {
-            assert!(with(&scene, path, 1.0).unwrap_err().to_string().contains("the scene has no "), "{path}");
-        }
-        for path in
-            ["version", "roughness.seed", "roughness.wavelengths", "roughness.modes", "numerics", "title"]
-        {
-            assert!(Target::of(path).is_err(), "{path}");
-        }
-    }
-
-    #[test]
     fn a_document_is_moved_in_its_own_terms() {
         let by_kappa = open("pressure-sensitive").unwrap().set("numerics.points", "2048").unwrap();
         let by_work = by_kappa.set("adhesion", "(work: 0.05)").unwrap();

@@ -122,30 +122,3 @@ fn a_hash_without_a_file_is_refused() {
     let message = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
     assert!(message.contains("this scene has no such file"), "{message}");
 }
-
-#[test]
-fn the_table_of_a_form_is_a_measured_file() {
-    let place = tempfile::tempdir().unwrap();
-    let (tip, plan) = (place.path().join("tip.csv"), place.path().join("plan.ron"));
-    let form =
-        |radius: f64| (0..60).map(|row| f64::from(row) * 1e-6).map(move |r| (r, r * r / (2.0 * radius)));
-    let text = |radius| form(radius).map(|(r, f)| format!("{r:e} {f:e}\n")).collect::<String>();
-    fs::write(&tip, text(1e-4)).unwrap();
-    fs::write(
-        &plan,
-        PLAN.replace(
-            "roughness: Measured(file: \"line.csv\", as_line: true)",
-            "form: Table(file: \"tip.csv\", unit: \"m\")",
-        ),
-    )
-    .unwrap();
-    let plan = Plan::open(plan.to_str().unwrap(), &Changes::default()).unwrap();
-    let folder = begin(place.path(), &plan).unwrap();
-    compute(&folder, 2, Shard::WHOLE);
-    let kept = fs::read_to_string(folder.path().join("plan.ron")).unwrap();
-    assert!(kept.contains(&hash_of(&tip)), "{kept}");
-    begin(place.path(), &plan).unwrap();
-    fs::write(&tip, text(2e-4)).unwrap();
-    let refused = begin(place.path(), &plan).unwrap_err().to_string();
-    assert!(refused.contains("has changed") && refused.contains("tip.csv"), "{refused}");
-}

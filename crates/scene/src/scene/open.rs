@@ -158,23 +158,4 @@ mod tests {
         assert!(message("folder.ron").ends_with("this is a directory, not a scene file"));
         assert!(message("missing.ron").contains("cannot be read"));
     }
-
-    #[test]
-    fn a_table_opens_as_its_scene() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("table");
-        let read = |bytes: &[u8]| {
-            fs::write(&path, bytes).unwrap();
-            open(path.to_str().unwrap())
-        };
-        let scene = presets()[0].text;
-        let text = format!("asperity 0.1.0\nsha256: 00 \"a.txt\"\ncommand: asperity run x\nscene:\n{scene}");
-        let csv: String = text.lines().map(|line| format!("# {line}\n")).collect::<String>() + "x,z\n1,2\n";
-        for file in [csv.clone(), csv.replace('\n', "\r\n")] {
-            assert_eq!(read(file.as_bytes()).unwrap().scene(), open(presets()[0].name).unwrap().scene());
-        }
-        assert!(read(npy::SIGNATURE).unwrap_err().to_string().contains("an array of NumPy holds no scene"));
-        let refused = read(b"# asperity 0.1.0\nx,z\n").unwrap_err().to_string();
-        assert!(refused.contains("a table without a scene; allowed: "), "{refused}");
-    }
 }

@@ -231,19 +231,4 @@ mod tests {
             );
         }
     }
-
-    #[test]
-    fn a_work_that_is_found_holds_on_closing_too_up_to_that_of_the_scene() {
-        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
-        let space = space(&curve, &[Parameter::Work, Parameter::Modulus]);
-        let start = space.start();
-        assert_eq!(start, [4.0_f64.asinh(), 2.0_f64.ln()]);
-        let values = space.values(&start);
-        assert!((values[0] - 2.0).abs() < 1e-12 && values[1] == 1.5 && (values[2] - 2.0).abs() < 1e-12);
-        assert!((space.values(&[2.0_f64.asinh(), 0.0])[1] - 1.0).abs() < 1e-12);
-        assert_eq!(values[5..], [7.0, 1.0]);
-        let mut rests = vec![100.0; curve.force.len()];
-        rests[curve.free..].fill(-3.0);
-        assert!((space.misfit(&rests) - 3.0).abs() < 1e-12);
-    }
 }

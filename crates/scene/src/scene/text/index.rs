@@ -227,63 +227,6 @@ impl Tokens<'_> {
 mod tests {
     use super::*;
 
-    const SCENE: &str = r##"#![enable(implicit_some)]
-#! [ enable(unwrap_newtypes) ]
-// A comment with ( and "quotes".
-Scene(
-    version: 1, /* , title: "no" /* nested */ */
-    title: r#"Rough (very "rough")"#,
-    material: (youngs_modulus: Some(2.0e6), poisson_ratio: 0.5),
-    roughness: Some(SelfAffine(r#hurst: 0.7, modes: (1, 512,), seed: 7)),
-    loading: [ToForce(1.0e-5), ToIndentation(-1e-7), ToSeparation],
-    numerics: (solver: Stepwise(step: 1e-9)),
-    adhesion: Some(work: 0.05),
-)
-"##;
-
-    #[test]
-    fn values_are_found_by_path() {
-        let text = Text::new(SCENE).unwrap();
-        for (path, expected) in [
-            ("version", Some("1")),
-            ("title", Some("r#\"Rough (very \"rough\")\"#")),
-            ("material", Some("(youngs_modulus: Some(2.0e6), poisson_ratio: 0.5)")),
-            ("material.youngs_modulus", Some("Some(2.0e6)")),
-            ("material.poisson_ratio", Some("0.5")),
-            ("roughness.hurst", Some("0.7")),
-            ("roughness.modes", Some("(1, 512,)")),
-            ("roughness.modes.1", Some("512")),
-            ("roughness.modes.2", None),
-            ("loading.1", Some("ToIndentation(-1e-7)")),
-            ("loading.1.0", Some("-1e-7")),
-            ("loading.2", Some("ToSeparation")),
-            ("loading.2.0", None),
-            ("numerics.solver.step", Some("1e-9")),
-            ("adhesion.work", Some("0.05")),
-            ("adhesion.kappa", None),
-            ("form", None),
-            ("0", None),
-            ("version.", None),
-        ] {
-            assert_eq!(text.written(path), expected, "{path}");
-        }
-    }
-
-    #[test]
-    fn bytes_know_their_paths() {
-        let outline = Text::new(SCENE).unwrap();
-        for (needle, path) in [
-            ("0.7", "roughness.hurst"),
-            ("512", "roughness.modes.1"),
-            ("-1e-7", "loading.1.0"),
-            ("r#hurst", "roughness.hurst"),
-            ("nested", ""),
-            ("1e-9", "numerics.solver.step"),
-        ] {
-            assert_eq!(outline.path_at(SCENE.find(needle).unwrap()), path, "{needle}");
-        }
-    }
-
     #[test]
     fn columns_count_characters() {
         let text = "a\nκκ x\r\n";
