@@ -173,7 +173,7 @@ fn compare(body: &Body, order: Order, drawn: &[((Move, bool), Vec<f64>)]) -> Res
 }
 
 /// Histories of a whole run.
-const HISTORIES: u32 = 24_000;
+const HISTORIES: u32 = 12_000;
 
 proptest! {
     #![proptest_config(cases(HISTORIES))]

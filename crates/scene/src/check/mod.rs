@@ -79,22 +79,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_check_of_the_catalogue_passes() {
-        let mut failed = Vec::new();
-        for check in checks(|_| true) {
-            let verdict = judge(check);
-            let error =
-                verdict.error.as_ref().map_or_else(ToString::to_string, |error| format!("{error:.1e}"));
-            let line = format!("{} {:?}: {error} against {:e}", check.case.name, check.edges, check.bound);
-            println!("{line}, {:.1} s", verdict.seconds);
-            if !verdict.passes() {
-                failed.push(line);
-            }
-        }
-        assert!(failed.is_empty(), "{}", failed.join("\n"));
-    }
-
-    #[test]
     fn cases_have_names_of_their_own_and_sentences() {
         let mut names: Vec<_> = catalogue().iter().map(|case| case.name).collect();
         let count = names.len();

@@ -395,10 +395,10 @@ mod tests {
 
     #[test]
     fn a_flood_of_errors_is_counted() {
-        let text = SCENE.replace("ToForce(1.0e-5), ", &"ToForce(NaN), ".repeat(50_000));
+        let text = SCENE.replace("ToForce(1.0e-5), ", &"ToForce(NaN), ".repeat(5_000));
         let errors = Document::parse(&text, "x").unwrap_err();
         assert_eq!(errors.iter().count(), 101);
-        assert!(errors.to_string().ends_with("and 49900 more errors"));
+        assert!(errors.to_string().ends_with("and 4900 more errors"));
     }
 
     #[test]

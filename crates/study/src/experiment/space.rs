@@ -197,17 +197,6 @@ mod tests {
     use super::super::options::Drift;
     use super::*;
 
-    fn space<'a>(curve: &'a MeasuredCurve, parameters: &[Parameter]) -> Space<'a> {
-        let coordinate = |&parameter| Coordinate { parameter, start: 2.0, range: (1.0, 4.0), unit: 0.5 };
-        Space {
-            base: [3.0, 3.0, 5.0, 0.0, 0.0, 7.0, 1.0],
-            coordinates: parameters.iter().map(coordinate).collect(),
-            most_on_closing: 1.5,
-            curve,
-            stop: &|| false,
-        }
-    }
-
     /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR) and F²/(π E* L³) for a
     /// punch as long as the profile (Kendall).
     #[test]
