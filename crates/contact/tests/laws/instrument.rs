@@ -19,7 +19,7 @@ fn behind(curve: &[(f64, f64)], sign: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(cases(1500))]
+    #![proptest_config(cases(750))]
 
     /// Each stage ends at the first indentation at which the running extremum of d + F/k reaches its target.
     #[test]

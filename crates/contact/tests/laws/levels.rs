@@ -6,7 +6,7 @@ use super::*;
 use relaxed::Relaxed;
 
 proptest! {
-    #![proptest_config(cases(3500))]
+    #![proptest_config(cases(2500))]
 
     #[test]
     fn any_history_agrees_with_relaxation_level_by_level(body in bodies(61), turns in indentations(9)) {
