@@ -54,7 +54,8 @@
 //! | [`contact`] | gaps c at a distance Δx, E\*, γ, a loading | [`contact::History`], legs and curves |
 //! | [`surface`] | measured files, forms, spectra | moments, equivalent lines |
 //! | [`scene`] | a scene file | [`scene::Outcome`] with figures and regime |
-//! | [`study`] | many scenes, measured curves | tables, fits |
+//! | [`experiment`] | measured force curves and a scene | fitted values with their errors |
+//! | [`study`] | many scenes | tables, statistics |
 //!
 //! Charts, the command line and the explorer belong to the program alone.
 
@@ -65,6 +66,7 @@ pub mod export;
 pub use asperity_contact as contact;
 pub use asperity_contact::{Edges, Move};
 pub use asperity_data as data;
+pub use asperity_experiment as experiment;
 pub use asperity_scene as scene;
 pub use asperity_scene::{Contact, ContactBuilder, Cycle, Document, Error, Material, Profile, Scene, run};
 pub use asperity_study as study;

@@ -2,7 +2,7 @@
 
 use super::studies::Findings;
 use asperity_contact::CurvePoint;
-use asperity_study::{CurveOptions, Fit, Free, MeasuredCurve};
+use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,8 @@ use asperity_data::AxisScale;
 use asperity_data::Table;
 use asperity_data::grouped;
 use asperity_data::{format_quantity, format_rounded};
+use asperity_experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
 use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_study::{Fit, FittedParameter, MeasuredCurve, Parameter};
 use serde::Serialize;
 use std::f64::consts::PI;
 

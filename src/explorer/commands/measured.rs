@@ -7,7 +7,7 @@ use crate::explorer::measured::{Fitting, fitted};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use asperity_data::{format_quantity, one_unit};
-use asperity_study::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
+use asperity_experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
 use std::sync::Arc;
 
 /// Number of computed curves between two progress reports of a fit.

@@ -1,9 +1,9 @@
 //! A measured force curve beside the scene.
 
 use super::*;
+use asperity::experiment::{CurveOptions, Drift, Fit, MeasuredCurve};
 use asperity::explorer::measured::Fitting;
 use asperity::explorer::measured::Measured;
-use asperity::study::{CurveOptions, Drift, Fit, MeasuredCurve};
 use std::fmt::Write;
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! The segments of a curve, which press and pull in turn, and the pauses between them.
 
-use super::baseline::ends;
+use crate::baseline::ends;
 
 /// Share of the range of the displacement that counts as a turn, and share of the points that a smoothed displacement
 /// averages.
@@ -14,7 +14,7 @@ const MORE: f64 = 8.0;
 /// Mean step between points, over the range of the displacement, above which the rows are not in the order of time.
 const SHUFFLED: f64 = 0.2;
 
-pub(super) struct Segments {
+pub(crate) struct Segments {
     /// Index of the segment of each point, from 0.
     pub numbers: Vec<usize>,
     /// True for each point that belongs to a pause.
@@ -56,7 +56,7 @@ impl Segments {
 }
 
 /// Returns true for displacements that jump to and fro from point to point, as displacements of rows in a wrong order do.
-pub(super) fn are_shuffled(displacement: &[f64]) -> bool {
+pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     let (low, high) = ends(displacement.iter().copied());
     let way: f64 = displacement.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
     way > SHUFFLED * (high - low) * displacement.len() as f64

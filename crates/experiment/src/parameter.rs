@@ -31,7 +31,7 @@ impl Serialize for Parameter {
 }
 
 /// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
-pub(super) type Values = [f64; 7];
+pub(crate) type Values = [f64; 7];
 
 /// Names, symbol and unit of a parameter.
 #[derive(Clone, Copy, Debug)]
@@ -73,7 +73,7 @@ impl Parameter {
     }
 
     /// Returns true for a parameter that may have either sign.
-    pub(super) fn is_signed(self) -> bool {
+    pub(crate) fn is_signed(self) -> bool {
         matches!(self, Parameter::Offset | Parameter::Zero)
     }
 
@@ -169,7 +169,7 @@ pub struct FitOptions {
 /// Coordinate in which a free parameter is searched: value over a unit, share of the work of adhesion (for the work on
 /// closing), or logarithm. The coordinate of the work of adhesion is linear up to its unit, so that it reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Coordinate {
+pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),

@@ -1,13 +1,13 @@
 //! A measured force curve: its segments, with pressing positive; the zero of its force, its drift and its noise.
 
-use super::baseline::{ends, right_angled};
-use super::free::FEWEST;
-use super::options::{CurveOptions, Drift, Negate, Tilt};
-use super::points::{Points, kept};
-use super::read::Columns;
-use super::segment::{Segments, are_shuffled};
-use super::zero::FreeParts;
-use super::{ExperimentError, refused};
+use crate::baseline::{ends, right_angled};
+use crate::error::{ExperimentError, refused};
+use crate::free::FEWEST;
+use crate::options::{CurveOptions, Drift, Negate, Tilt};
+use crate::points::{Points, kept};
+use crate::read::Columns;
+use crate::segment::{Segments, are_shuffled};
+use crate::zero::FreeParts;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
 use asperity_data::mean;
@@ -33,7 +33,7 @@ pub struct MeasuredCurve {
     /// Index of the segment of each point; segments with even indices press.
     pub segment: Vec<usize>,
     /// Number of the first points, which are before contact.
-    pub(super) free: usize,
+    pub(crate) free: usize,
     /// Displacement, m, at which the contact seems to begin.
     pub touch: f64,
     /// Standard deviation of the noise of the force, N.
@@ -43,14 +43,14 @@ pub struct MeasuredCurve {
     /// Number of points left out since a value is missing.
     pub missing: usize,
     /// Displacements, m, at which the segments end.
-    pub(super) turns: Vec<f64>,
+    pub(crate) turns: Vec<f64>,
     /// True for each point that belongs to a pause.
-    pub(super) is_still: Vec<bool>,
+    pub(crate) is_still: Vec<bool>,
     /// Changes of the force, N, that remain in the curve without contact: over time, over the displacement, and from before
     /// to after contact; 0 where there is none.
-    pub(super) remaining: [f64; 3],
+    pub(crate) remaining: [f64; 3],
     /// Time and displacement of each point, as shares of the whole curve.
-    pub(super) shares: [Vec<f64>; 2],
+    pub(crate) shares: [Vec<f64>; 2],
     /// Whether the zero of the force, a drift and a tilt were estimated from the points without contact and subtracted.
     is_estimated: [bool; 3],
     /// Sentences on what was done to the curve.
@@ -186,7 +186,7 @@ impl MeasuredCurve {
 
     /// Orthonormal columns for the zero of the force, a removed drift and a removed tilt, as far as they were estimated
     /// from the curve: each model refines them. `has_zero` is true if the zero is a free parameter.
-    pub(super) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
+    pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
         let [time, displacement] = self.shares.clone();
         let columns = [vec![1.0; time.len()], time, displacement];
         let [zero, drift, tilt] = self.is_estimated;
@@ -214,8 +214,8 @@ fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(),
 
 #[cfg(test)]
 mod tests {
-    use super::super::made::{from_text, lines, of_spring, text_of_spring};
     use super::*;
+    use crate::made::{from_text, lines, of_spring, text_of_spring};
 
     #[test]
     fn many_points_are_averaged_and_missing_ones_counted() {

@@ -1,10 +1,10 @@
 //! The points of a curve without contact, and the zero, drift and tilt of the force at these points.
 
-use super::baseline::{Baseline, ends};
-use super::free::{FEWEST, NoBaseline, Slopes, free_count};
-use super::options::{CurveOptions, Drift, Tilt};
-use super::points::Points;
-use super::{ExperimentError, refused};
+use crate::baseline::{Baseline, ends};
+use crate::error::{ExperimentError, refused};
+use crate::free::{FEWEST, NoBaseline, Slopes, free_count};
+use crate::options::{CurveOptions, Drift, Tilt};
+use crate::points::Points;
 use asperity_data::format_quantity;
 use asperity_data::mean;
 use std::ops::Range;
@@ -17,7 +17,7 @@ const CURVED: f64 = 1.5;
 const DOMINATES: f64 = 20.0;
 
 /// The points without contact: the first ones of an approach and the last ones of a retraction.
-pub(super) struct FreeParts {
+pub(crate) struct FreeParts {
     pub before: Option<usize>,
     /// Number of the last points after contact; 0 if there are few.
     pub after: usize,
@@ -226,9 +226,9 @@ fn refuse_baseline<T>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::curve::MeasuredCurve;
-    use super::super::made::{from_text, lines, of_spring};
     use super::*;
+    use crate::curve::MeasuredCurve;
+    use crate::made::{from_text, lines, of_spring};
 
     /// The curve of the spring with a drift, a tilt and a step after contact, all in nN.
     fn made(drift: f64, tilt: f64, step: f64) -> String {

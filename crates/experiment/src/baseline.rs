@@ -4,7 +4,7 @@ use asperity_data::mean;
 
 /// Least-squares line through evenly spaced values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Baseline {
+pub(crate) struct Baseline {
     count: f64,
     pub mean: f64,
     pub slope: f64,
@@ -36,7 +36,7 @@ impl Baseline {
 
 /// Sums of squared residuals of the least-squares polynomial with `terms` terms through the first value, the first two, and
 /// so on; computed by rotations of each row into the triangle of the rows before.
-pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
+pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
     let add = |(index, value): (usize, f64)| {
@@ -61,7 +61,7 @@ pub(super) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) 
 }
 
 /// Orthonormal columns that span these columns; zero for a column that depends on the columns before it.
-pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {
         let mut column = column.clone();
@@ -79,18 +79,18 @@ pub(super) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
 }
 
 /// Subtracts from the values their component along a column of length 1, and returns the component.
-pub(super) fn take_off(values: &mut [f64], column: &[f64]) -> f64 {
+pub(crate) fn take_off(values: &mut [f64], column: &[f64]) -> f64 {
     let along = dot(values, column);
     values.iter_mut().zip(column).for_each(|(value, one)| *value -= along * one);
     along
 }
 
 /// Sum of the products of two columns, up to the length of the shorter one.
-pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
+pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
 /// Smallest and largest of the values.
-pub(super) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }

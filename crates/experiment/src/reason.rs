@@ -1,11 +1,11 @@
 //! The reason why a model does not describe a curve, from the pattern of its residuals.
 
-use super::ExperimentError;
-use super::baseline::{dot, ends, right_angled, take_off};
-use super::curve::MeasuredCurve;
-use super::free::least_squares;
-use super::model::Model;
-use super::parameter::{Parameter, Values};
+use crate::baseline::{dot, ends, right_angled, take_off};
+use crate::curve::MeasuredCurve;
+use crate::error::ExperimentError;
+use crate::free::least_squares;
+use crate::model::Model;
+use crate::parameter::{Parameter, Values};
 use asperity_data::format_quantity;
 use asperity_data::median;
 use asperity_scene::CheckedScene;
@@ -117,7 +117,7 @@ impl Serialize for Reason {
 ///
 /// # Errors
 /// A computation fails.
-pub(super) fn reason(
+pub(crate) fn reason(
     curve: &MeasuredCurve,
     scene: &CheckedScene,
     simulation: &mut Simulation,
@@ -265,10 +265,10 @@ fn branches_differ(
 
 #[cfg(test)]
 mod tests {
-    use super::super::made::from_text;
-    use super::super::options::CurveOptions;
-    use super::super::scene::values_of;
     use super::*;
+    use crate::made::from_text;
+    use crate::options::CurveOptions;
+    use crate::scene::values_of;
     use asperity_scene::{Document, open};
     use std::fmt::Write;
 

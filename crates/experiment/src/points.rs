@@ -1,15 +1,15 @@
 //! The points of a curve in the order of time, reversed so that pressing is positive.
 
-use super::baseline::{Baseline, ends};
-use super::free::{FEWEST, free_count};
-use super::options::{CurveOptions, Negate};
-use super::segment::Segments;
-use super::{ExperimentError, refused};
+use crate::baseline::{Baseline, ends};
+use crate::error::{ExperimentError, refused};
+use crate::free::{FEWEST, free_count};
+use crate::options::{CurveOptions, Negate};
+use crate::segment::Segments;
 use asperity_data::mean;
 use std::ops::Range;
 
 /// Points in the order of time; if there are many, each is the mean of several points of the file.
-pub(super) struct Points {
+pub(crate) struct Points {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub segment: Vec<usize>,
@@ -111,7 +111,7 @@ impl Points {
 }
 
 /// Indices of the points of the chosen segments without their pauses; all points if no segments are chosen.
-pub(super) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
+pub(crate) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
     let all = 0..points.force.len();
     let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;
     if let Some(wrong) = options.segments.iter().find(|number| !numbers.contains(*number)) {

@@ -1,10 +1,10 @@
 //! The parts of a curve without contact: where they end, and the drift and tilt of their force.
 
-use super::baseline::{Baseline, dot, ends, growing, right_angled, take_off};
-use super::statistics::correlated;
+use crate::baseline::{Baseline, dot, ends, growing, right_angled, take_off};
+use crate::statistics::correlated;
 
 /// Smallest number of points without contact, and of points in contact.
-pub(super) const FEWEST: usize = 10;
+pub(crate) const FEWEST: usize = 10;
 const FEWEST_IN_CONTACT: usize = 4;
 /// Gain of a contact over a straight line (number of points times the decrease of the logarithm of the sum of squared
 /// residuals) from which on the contact is not attributed to noise.
@@ -20,7 +20,7 @@ const NOTABLE: f64 = 0.05;
 
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum NoBaseline {
+pub(crate) enum NoBaseline {
     /// The segment has only this few points.
     Few,
     /// The segment is a straight line: range and noise of the force, N.
@@ -35,7 +35,7 @@ pub(super) enum NoBaseline {
 /// The contact begins where a straight line before and a parabola behind describe the segment best. This finds the steep
 /// part of the contact; its weak beginning is found by going back from there until the last points no longer deviate from
 /// the line through the points before them.
-pub(super) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
+pub(crate) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
     let count = values.len();
     if count < 2 * FEWEST {
         return Err(NoBaseline::Few);
@@ -97,7 +97,7 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
 /// to the last point of the curve, and the tilt the change over the range of the displacement. The step is the difference
 /// between the force after and before contact that neither drift nor tilt explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Slopes {
+pub(crate) struct Slopes {
     pub zero: f64,
     pub drift: (f64, f64),
     pub tilt: (f64, f64),
@@ -134,7 +134,7 @@ impl Slopes {
 
 /// Least-squares coefficients of columns for these values, with standard errors; `None` if a column depends on the columns
 /// before it.
-pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
+pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
     let basis = right_angled(columns);
     let mut rests = values.to_vec();
     let along: Vec<f64> = basis.iter().map(|column| take_off(&mut rests, column)).collect();

@@ -3,17 +3,17 @@
 /// Share of different members from which on the extent of a population is meaningful.
 const DISTINCT: f64 = 0.5;
 /// Residual, in units of the noise, beyond which a point counts less, since it is on the wrong side of a jump.
-pub(super) const WRONG_SIDE: f64 = 5.0;
+pub(crate) const WRONG_SIDE: f64 = 5.0;
 
 /// Coordinates, and the residuals at these coordinates in units of the noise of the curve.
 #[derive(Clone)]
-pub(super) struct Member {
+pub(crate) struct Member {
     pub at: Vec<f64>,
     pub rests: Vec<f64>,
 }
 
 /// Members with their costs for a noise, in units of the noise of the curve, and the best member so far with its cost.
-pub(super) struct Population {
+pub(crate) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
     pub noise: f64,
@@ -43,7 +43,7 @@ impl Population {
 
 /// Cost of a residual (in units of the noise): half its square, continued as a logarithm for points on the wrong side of a
 /// jump, since measured displacements are not exact to the edge of a jump.
-pub(super) fn loss(rest: f64) -> f64 {
+pub(crate) fn loss(rest: f64) -> f64 {
     let rest = rest.abs();
     if rest > WRONG_SIDE {
         WRONG_SIDE * WRONG_SIDE * (0.5 + (rest / WRONG_SIDE).ln())
@@ -53,7 +53,7 @@ pub(super) fn loss(rest: f64) -> f64 {
 }
 
 /// Draws `count` members in proportion to their weights, at even distances; `share` is the position of the first one.
-pub(super) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
+pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
     let step = weights.iter().sum::<f64>() / count as f64;
     let (mut drawn, mut sum) = (Vec::with_capacity(count), 0.0);
     for (member, weight) in members.iter().zip(weights) {
@@ -66,6 +66,6 @@ pub(super) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f6
 }
 
 /// Point number `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
-pub(super) fn share_of(number: usize, base: usize) -> f64 {
+pub(crate) fn share_of(number: usize, base: usize) -> f64 {
     if number == 0 { 0.0 } else { ((number % base) as f64 + share_of(number / base, base)) / base as f64 }
 }

@@ -1,9 +1,9 @@
 //! Columns of a measured curve in SI units, read from text, CSV or a NumPy array.
 
-use super::ExperimentError;
-use super::baseline::ends;
-use super::columns::{Choice, Pair, is_unit};
-use super::options::CurveOptions;
+use crate::baseline::ends;
+use crate::columns::{Choice, Pair, is_unit};
+use crate::error::ExperimentError;
+use crate::options::CurveOptions;
 use asperity_data::{PROVENANCE, npy};
 use asperity_surface::{Cell, Column, Decimal, Header, Separator, each_line};
 use asperity_surface::{Place, TopographyError, columns as npy_columns, content, refused, shown, unpacked};
@@ -21,7 +21,7 @@ const OF_AFMFORMATS: &str = "END METADATA";
 
 /// Columns of a file in SI units, without points that lack a value.
 #[derive(Debug, Default)]
-pub(super) struct Columns {
+pub(crate) struct Columns {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     /// Index of the segment of each point, as labelled in the file; empty without such a column.
@@ -235,9 +235,9 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogra
 
 #[cfg(test)]
 mod tests {
-    use super::super::curve::MeasuredCurve;
-    use super::super::made::{from_bytes, from_text, lines, of_spring, text_of_spring};
     use super::*;
+    use crate::curve::MeasuredCurve;
+    use crate::made::{from_bytes, from_text, lines, of_spring, text_of_spring};
 
     fn columns(names: &[&str]) -> CurveOptions {
         CurveOptions { columns: names.iter().map(ToString::to_string).collect(), ..CurveOptions::default() }

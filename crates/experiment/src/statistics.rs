@@ -1,17 +1,17 @@
 //! Statistics of samples and residuals.
 
-use super::baseline::dot;
+use crate::baseline::dot;
 use asperity_data::{mean, standard_deviation};
 
 /// Smallest number of independent ranges that a curve is assumed to have.
 const RANGES: usize = 20;
 
 /// Number of parts into which each segment is divided as blocks of the curve.
-pub(super) const PARTS: usize = 4;
+pub(crate) const PARTS: usize = 4;
 
 /// Robust root mean square of residuals: residuals larger than `cut` times this scale count as `cut` times the scale
 /// (Huber, Robust Statistics, proposal 2), so that single points on the wrong side of a jump count little.
-pub(super) fn scale(residuals: &[f64], cut: f64) -> f64 {
+pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();
     squares.sort_by(f64::total_cmp);
     let (mut sum, mut count) = (squares.iter().sum::<f64>(), squares.len() as f64);
@@ -28,7 +28,7 @@ pub(super) fn scale(residuals: &[f64], cut: f64) -> f64 {
 /// sample for each block (infinitesimal jackknife; Giordano and Broderick, arXiv 2305.06466). Where a model does not
 /// describe a curve, its residuals are no independent noise, and each block would give another value. Blocks are joined, up
 /// to whole segments; the largest error counts.
-pub(super) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
+pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let (count, average) = (values.len() as f64, mean(values));
     let influence = |block: usize| {
         values.iter().zip(blocks).map(|(value, costs)| (value - average) * costs[block]).sum::<f64>() / count
@@ -43,7 +43,7 @@ pub(super) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
 }
 
 /// Factor by which correlation of the residuals along the curve increases the variance of their mean: 1 without correlation.
-pub(super) fn correlated(residuals: &[f64]) -> f64 {
+pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
     let correlations = (1..residuals.len() / RANGES).map(|lag| dot(residuals, &residuals[lag..]) / square);
@@ -55,7 +55,7 @@ fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
 }
 
 /// Multiplies the deviations of samples from their mean by a factor.
-pub(super) fn widen(samples: &mut [Vec<f64>], factor: f64) {
+pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     for index in 0..samples.first().map_or(0, Vec::len) {
         let mean = mean(&column(samples, index));
         samples.iter_mut().for_each(|sample| sample[index] = mean + factor * (sample[index] - mean));
@@ -63,14 +63,14 @@ pub(super) fn widen(samples: &mut [Vec<f64>], factor: f64) {
 }
 
 /// Standard deviation of values, and their 2.5 % and 97.5 % quantiles.
-pub(super) fn spread(mut values: Vec<f64>) -> (f64, (f64, f64)) {
+pub(crate) fn spread(mut values: Vec<f64>) -> (f64, (f64, f64)) {
     values.sort_by(f64::total_cmp);
     let quantile = |share: f64| values[((share * values.len() as f64) as usize).min(values.len() - 1)];
     (standard_deviation(&values, mean(&values)), (quantile(0.025), quantile(0.975)))
 }
 
 /// Correlation of two coordinates over samples; 0 if one of them does not vary.
-pub(super) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
+pub(crate) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
     let [one, other] = pair.map(|index| {
         let mut values = column(samples, index);
         let mean = mean(&values);

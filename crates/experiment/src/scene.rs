@@ -1,8 +1,8 @@
 //! The scene of a fit: the values at which a search begins, and the document with the fitted values.
 
-use super::ExperimentError;
-use super::curve::MeasuredCurve;
-use super::parameter::{Parameter, Values};
+use crate::curve::MeasuredCurve;
+use crate::error::ExperimentError;
+use crate::parameter::{Parameter, Values};
 use asperity_data::round_to;
 use asperity_scene::Governing;
 use asperity_scene::{Adhesion, Document, Scene, SceneErrors, ron_float};
@@ -15,7 +15,7 @@ fn change(path: &str, value: f64) -> Change {
 }
 
 /// The parameters of a fit as the scene states them; `governing` has its works of adhesion.
-pub(super) fn values_of(scene: &Scene, governing: &Governing) -> Values {
+pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let closing = governing.closing_work.unwrap_or(work);
     let (stiffness, radius) =
@@ -24,18 +24,18 @@ pub(super) fn values_of(scene: &Scene, governing: &Governing) -> Values {
 }
 
 /// Radius of the form of a scene, m; `None` for a form without a radius.
-pub(super) fn radius_of(scene: &Scene) -> Option<f64> {
+pub(crate) fn radius_of(scene: &Scene) -> Option<f64> {
     scene.form.clone()?.radius_mut().copied()
 }
 
 /// Largest work of adhesion on closing that a scene allows, J/m²; infinite if it states none.
-pub(super) fn most_on_closing(scene: &Scene) -> f64 {
+pub(crate) fn most_on_closing(scene: &Scene) -> f64 {
     scene.adhesion.and_then(|adhesion| adhesion.closing_work()).unwrap_or(f64::INFINITY)
 }
 
 /// The document with works of adhesion in place of κ or e_el/γ. If it has no adhesion, `start` (J/m²) is added if it is
 /// given.
-pub(super) fn written_out(
+pub(crate) fn written_out(
     document: &Document,
     governing: &Governing,
     start: Option<f64>,
@@ -50,7 +50,7 @@ pub(super) fn written_out(
 }
 
 /// The document with the fitted values, loaded as the measured curve was.
-pub(super) fn with_values(
+pub(crate) fn with_values(
     document: &Document,
     values: &Values,
     free: impl Fn(Parameter) -> bool,
@@ -97,7 +97,7 @@ impl MeasuredCurve {
 }
 
 /// The first error of a scene with other values, as an error of the fit.
-pub(super) fn wrong(errors: SceneErrors) -> ExperimentError {
+pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
     let error = errors.first();
     let found = format!("{} = {}", error.field, error.value);
     ExperimentError::Refused { found, allowed: error.allowed.clone() }
@@ -105,9 +105,9 @@ pub(super) fn wrong(errors: SceneErrors) -> ExperimentError {
 
 #[cfg(test)]
 mod tests {
-    use super::super::made::{on_rubber, read, rubber};
-    use super::super::options::Drift;
     use super::*;
+    use crate::made::{on_rubber, read, rubber};
+    use crate::options::Drift;
 
     #[test]
     fn values_found_are_written_where_they_belong() {

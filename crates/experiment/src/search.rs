@@ -9,12 +9,12 @@
 //! members are distributed as the noise lets the parameters be. The start is no member, since a start close to the result
 //! would be copied to the whole population.
 
-use super::baseline::{dot, ends};
-use super::model::Model;
-use super::parameter::{Coordinate, Parameter};
-use super::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
-use super::space::Space;
-use super::{ExperimentError, refused};
+use crate::baseline::{dot, ends};
+use crate::error::{ExperimentError, refused};
+use crate::model::Model;
+use crate::parameter::{Coordinate, Parameter};
+use crate::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
+use crate::space::Space;
 use asperity_contact::ContactError;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -53,7 +53,7 @@ const HALVINGS: usize = 12;
 /// Factor of the noise in a step where no smaller factor leaves enough members.
 const SLOWEST: f64 = 0.99;
 /// Residual in contact, in units of the noise, from which on a model does not describe the curve.
-pub(super) const MISFIT: f64 = 1.5;
+pub(crate) const MISFIT: f64 = 1.5;
 /// Coordinate of the work of adhesion below which a scene without adhesion is tried: a few times the work that the noise
 /// hides.
 const CLOSE: f64 = 2.5;
@@ -62,7 +62,7 @@ const FAR: f64 = 1e12;
 /// Bases of the sequences of evenly scattered points, one for each coordinate.
 const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 
-pub(super) struct Found {
+pub(crate) struct Found {
     /// The member with the smallest residuals.
     pub best: Member,
     /// Noise at which the samples are distributed, over the noise of the curve; larger than 1 where the residual is.
@@ -77,7 +77,7 @@ pub(super) struct Found {
 }
 
 /// A search on one random profile.
-pub(super) struct Search<'a> {
+pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
     pub lines: Vec<Vec<f64>>,

@@ -1,8 +1,8 @@
 //! The force of a scene at the measured displacements, for any values of its parameters.
 
-use super::ExperimentError;
-use super::curve::MeasuredCurve;
-use super::parameter::{Parameter, Values};
+use crate::curve::MeasuredCurve;
+use crate::error::ExperimentError;
+use crate::parameter::{Parameter, Values};
 use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Foundation, HessRule, Leg};
 use asperity_scene::Scene;
 use asperity_scene::Simulation;
@@ -23,7 +23,7 @@ const NOTABLE: f64 = 2.0;
 const FAN: i32 = 8;
 
 /// Computes a scene at the displacements of a measured curve.
-pub(super) struct Model<'a> {
+pub(crate) struct Model<'a> {
     curve: &'a MeasuredCurve,
     scene: Scene,
     simulation: &'a mut Simulation,
@@ -194,11 +194,11 @@ impl Sampling {
 
 #[cfg(test)]
 mod tests {
-    use super::super::made::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
-    use super::super::options::Drift;
-    use super::super::scene::radius_of;
-    use super::super::statistics::scale;
     use super::*;
+    use crate::made::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
+    use crate::options::Drift;
+    use crate::scene::radius_of;
+    use crate::statistics::scale;
 
     /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of coarse forces.
     fn rests(made: &Made) -> [Vec<f64>; 2] {

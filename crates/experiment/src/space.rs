@@ -1,12 +1,12 @@
 //! The coordinates in which a scene is fitted, and what a fit derives from the curve.
 
-use super::baseline::ends;
-use super::curve::MeasuredCurve;
-use super::parameter::{Coordinate, FitOptions, Free, Parameter, Values};
-use super::population::WRONG_SIDE;
-use super::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
-use super::statistics::{PARTS, scale};
-use super::{ExperimentError, refused};
+use crate::baseline::ends;
+use crate::curve::MeasuredCurve;
+use crate::error::{ExperimentError, refused};
+use crate::parameter::{Coordinate, FitOptions, Free, Parameter, Values};
+use crate::population::WRONG_SIDE;
+use crate::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
+use crate::statistics::{PARTS, scale};
 use asperity_data::format_quantity;
 use asperity_scene::Simulation;
 use asperity_scene::{Document, Solver};
@@ -20,7 +20,7 @@ const FACTOR: f64 = 30.0;
 const LINEAR: f64 = 0.01;
 
 /// The coordinates in which a scene is fitted, with the values of all other parameters.
-pub(super) struct Space<'a> {
+pub(crate) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
     /// Largest allowed work of adhesion on closing, J/m².
@@ -193,9 +193,9 @@ impl<'a> Space<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::made::{on_rubber, read, rubber};
-    use super::super::options::Drift;
     use super::*;
+    use crate::made::{on_rubber, read, rubber};
+    use crate::options::Drift;
 
     /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR) and F²/(π E* L³) for a
     /// punch as long as the profile (Kendall).

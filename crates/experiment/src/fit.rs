@@ -1,17 +1,17 @@
 //! Fit of the parameters of a scene to a measured curve, with their errors, and the parameters that the curve cannot
 //! separate.
 
-use super::ExperimentError;
-use super::baseline::dot;
-use super::curve::MeasuredCurve;
-use super::model::Model;
-use super::parameter::{Coordinate, FitOptions, Parameter, Values};
-use super::population::WRONG_SIDE;
-use super::reason::{Reason, reason};
-use super::scene::with_values;
-use super::search::{MISFIT, Search};
-use super::space::Space;
-use super::statistics::{block_error, correlated, correlation, spread, widen};
+use crate::baseline::dot;
+use crate::curve::MeasuredCurve;
+use crate::error::ExperimentError;
+use crate::model::Model;
+use crate::parameter::{Coordinate, FitOptions, Parameter, Values};
+use crate::population::WRONG_SIDE;
+use crate::reason::{Reason, reason};
+use crate::scene::with_values;
+use crate::search::{MISFIT, Search};
+use crate::space::Space;
+use crate::statistics::{block_error, correlated, correlation, spread, widen};
 use asperity_data::format_within;
 use asperity_data::on_threads;
 use asperity_scene::Document;
@@ -228,11 +228,11 @@ fn other_profiles(
 
 #[cfg(test)]
 mod tests {
-    use super::super::made::{
+    use super::*;
+    use crate::made::{
         Made, fit_from, fitted, force_curve, gauss, measured, noise, on_rubber, random, read, rubber, truth,
     };
-    use super::super::options::Drift;
-    use super::*;
+    use crate::options::Drift;
     use asperity_contact::Move;
 
     /// Asserts that the values differ from the truth by at most a few standard errors, and that the residuals are as large

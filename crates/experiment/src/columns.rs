@@ -1,6 +1,6 @@
 //! The columns of a measured curve: which ones hold displacement, force and segment, and their units.
 
-use super::options::CurveOptions;
+use crate::options::CurveOptions;
 use asperity_data::parse_quantity;
 use asperity_surface::Column;
 use asperity_surface::{Place, TopographyError, refused, shown};
@@ -47,14 +47,14 @@ const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as
 
 /// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
+pub(crate) struct Pair {
     pub places: [usize; 2],
     pub units: [f64; 2],
 }
 
 /// The columns of a file that are used.
 #[derive(Debug)]
-pub(super) struct Choice {
+pub(crate) struct Choice {
     /// One pair, or one for an approach and one for the retraction beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
@@ -204,7 +204,7 @@ fn direction(name: &str) -> (Option<usize>, String) {
 }
 
 /// Returns true for a unit of length or force.
-pub(super) fn is_unit(text: &str) -> bool {
+pub(crate) fn is_unit(text: &str) -> bool {
     QUANTITIES.iter().any(|row| unit(text, row.1).is_some())
 }
 

@@ -1,0 +1,36 @@
+//! The reason why a curve is not read or not fitted.
+
+use asperity_contact::ContactError;
+use asperity_scene::RunError;
+use asperity_surface::TopographyError;
+use thiserror::Error;
+
+/// Reason why a curve cannot be read or fitted. The caller prepends the name of the file or scene.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ExperimentError {
+    /// The file cannot be read as a curve.
+    #[error(transparent)]
+    File(#[from] TopographyError),
+    /// The curve or the scene cannot be fitted.
+    #[error("{found}; allowed: {allowed}")]
+    Refused {
+        /// What was found, in words.
+        found: String,
+        /// What is allowed, and the option that helps.
+        allowed: String,
+    },
+    /// A computation failed or was stopped.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl From<ContactError> for ExperimentError {
+    fn from(error: ContactError) -> Self {
+        ExperimentError::Run(error.into())
+    }
+}
+
+/// Error of a curve or a scene that cannot be fitted.
+pub(crate) fn refused<T>(found: impl Into<String>, allowed: impl Into<String>) -> Result<T, ExperimentError> {
+    Err(ExperimentError::Refused { found: found.into(), allowed: allowed.into() })
+}

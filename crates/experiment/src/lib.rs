@@ -1,0 +1,35 @@
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+#![doc = include_str!("../README.md")]
+
+mod baseline;
+mod columns;
+mod curve;
+mod error;
+mod fit;
+mod free;
+mod model;
+mod options;
+mod parameter;
+mod points;
+mod population;
+mod read;
+mod reason;
+mod scene;
+mod search;
+mod segment;
+mod space;
+mod statistics;
+mod zero;
+
+#[cfg(test)]
+mod coverage;
+#[cfg(test)]
+mod made;
+
+pub use curve::MeasuredCurve;
+pub use error::ExperimentError;
+pub use fit::{Fit, FittedParameter, fit};
+pub use options::{CurveOptions, Drift, Negate, Tilt};
+pub use parameter::{FitOptions, Free, Parameter, Row};
+pub use reason::Reason;
