@@ -57,11 +57,10 @@
 //! | [`experiment`] | measured force curves and a scene | fitted values with their errors |
 //! | [`study`] | many scenes | tables, statistics |
 //!
-//! Charts, the command line and the explorer belong to the program alone.
+//! Charts and reports have crates of their own; the command line and the explorer belong to the program alone.
 
 pub mod cli;
 pub mod explorer;
-pub mod export;
 
 pub use asperity_contact as contact;
 pub use asperity_contact::{Edges, Move};

@@ -4,8 +4,8 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
 use super::removed;
-use crate::export::report::Format;
-use asperity_scene::{Case, Check, Verdict, catalogue, checks, judge};
+use asperity_report::Format;
+use asperity_study::{Case, Check, Verdict, catalogue, checks, judge};
 use clap::Args;
 use std::io::Write;
 

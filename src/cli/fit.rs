@@ -3,12 +3,12 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{MOST_LINES, Overrides, threads};
-use crate::export::fit::FitReport;
-use crate::export::provenance::named_from;
-use crate::export::report::Format;
 use asperity_data::path_name;
 use asperity_data::write_new;
 use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as find};
+use asperity_report::FitReport;
+use asperity_report::Format;
+use asperity_report::named_from;
 use asperity_scene::open_argument;
 use clap::Args;
 use std::io::Write;

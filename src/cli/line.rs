@@ -3,7 +3,7 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES, without_look};
 use super::scene::{SceneArguments, simulation_of};
-use crate::export::report::Format;
+use asperity_report::Format;
 use clap::Args;
 use std::io::Write;
 

@@ -1,13 +1,13 @@
 //! Formats and destinations of the results of commands.
 
 use super::error::CliError;
-use crate::export::parameters::parameter_lines;
-use crate::export::provenance::{entries, files_provenance, scene_provenance, scenes_provenance};
-use crate::export::report::{Format, Report, check_extension};
 use asperity_data::parse_quantity;
 use asperity_data::path_name;
 use asperity_data::{check_writable, write_new};
 use asperity_plot::{Colours, Figure, figure_text};
+use asperity_report::parameter_lines;
+use asperity_report::{Format, Report, check_extension};
+use asperity_report::{entries, files_provenance, scene_provenance, scenes_provenance};
 use asperity_scene::{Document, Scene, quoted};
 use clap::{Arg, ArgGroup, Args};
 use serde::Serialize;
@@ -135,7 +135,7 @@ impl OutputArguments {
         };
         let provenance = provenance.map_err(CliError::message)?;
         let Some(figure) = report.figure().filter(|_| format.is_picture()) else {
-            return self.fill(stdout, |out| crate::export::report::write(out, report, format, &provenance));
+            return self.fill(stdout, |out| asperity_report::write(out, report, format, &provenance));
         };
         let parameters = match origin {
             _ if !self.parameters => Vec::new(),
@@ -144,7 +144,7 @@ impl OutputArguments {
             Origin::Files(_) => return Err(CliError::named("--parameters", "this figure has no scene")),
         };
         let figure = Figure { parameters, width: self.width.map(|width| PX * width), ..figure };
-        self.fill(stdout, |out| crate::export::report::write(out, &figure, format, &provenance))
+        self.fill(stdout, |out| asperity_report::write(out, &figure, format, &provenance))
     }
 
     /// Writes a figure, as a picture or as text, to its destination.

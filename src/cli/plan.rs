@@ -3,8 +3,8 @@
 use super::error::CliError;
 use super::output::AnswerFormat;
 use super::scene::SceneArguments;
-use crate::export::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
+use asperity_report::Sheet;
 use asperity_scene::{PlannedStage, Scene, Workload};
 use clap::Args;
 use serde::Serialize;

@@ -2,9 +2,9 @@
 
 use super::error::CliError;
 use super::output::AnswerFormat;
-use crate::export::sheet::Sheet;
 use asperity_data::object;
 use asperity_data::{printable, printable_lines};
+use asperity_report::Sheet;
 use asperity_scene::Simulation;
 use asperity_scene::{Document, Entry};
 use clap::Subcommand;

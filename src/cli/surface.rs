@@ -3,14 +3,14 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{MOST_LINES, threads};
-use crate::export::measured_face::{MeasuredFace, SurfaceFile};
-use crate::export::provenance::named_from;
-use crate::export::report::Format;
-use crate::export::surface::SurfaceReport;
 use asperity_contact::Move;
 use asperity_data::parse_quantity;
 use asperity_data::write_new;
 use asperity_data::{path_name, round_to};
+use asperity_report::Format;
+use asperity_report::SurfaceReport;
+use asperity_report::named_from;
+use asperity_report::{MeasuredFace, SurfaceFile};
 use asperity_scene::equivalent_springs;
 use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, SCENE_VERSION, Scene};
 use asperity_study::MeasuredAdhesion;

@@ -4,7 +4,7 @@ use super::keys::bindings::Command;
 use super::opening::Opening;
 use super::snapshot::Reply;
 use super::studies::Finding;
-use crate::export::report::Format;
+use asperity_report::Format;
 use asperity_scene::Entry;
 use crossterm::event::KeyEvent;
 use std::path::PathBuf;

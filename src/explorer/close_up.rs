@@ -2,8 +2,8 @@
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, PatchFacts};
-use crate::export::section::{Contact, LineColumns, Part};
 use asperity_contact::{Leg, Patch};
+use asperity_report::{Contact, LineColumns, Part};
 
 /// Makes the close-up of the requested part of the line, with the patch nearest to its middle.
 pub fn close_up(

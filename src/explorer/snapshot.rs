@@ -2,10 +2,10 @@
 //! pane.
 
 use super::request::{Drive, Focus, LineView, SnapshotRequest};
-use crate::export::section::Section;
-use crate::export::section::{Contact, LineColumns, Part};
 use asperity_contact::Move;
 use asperity_contact::{CurvePoint, Patch, PatchState, Springs};
+use asperity_report::Section;
+use asperity_report::{Contact, LineColumns, Part};
 use asperity_scene::CheckedScene;
 use asperity_scene::Reach;
 use asperity_scene::{LineFacts, Outcome};

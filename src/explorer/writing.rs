@@ -10,10 +10,10 @@ use super::picture::svg::svg;
 use super::picture::text;
 use super::theme::Theme;
 use super::view;
-use crate::export::provenance::scene_provenance;
-use crate::export::report::{Format, Json, Report};
 use asperity_data::{WriteError, object, write_new_file};
 use asperity_plot::{Figure, Palette};
+use asperity_report::scene_provenance;
+use asperity_report::{Format, Json, Report};
 use asperity_scene::{Scene, command_line};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
@@ -66,7 +66,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
             let beside_scene = SceneTable { scene: document.scene(), table: &*report };
             let is_table_alone = format == Format::Json && report.json().is_none();
             let report: &dyn Report = if is_table_alone { &beside_scene } else { &*report };
-            crate::export::report::write(out, report, format, &provenance)
+            asperity_report::write(out, report, format, &provenance)
         }
     }
 }

@@ -4,7 +4,6 @@
 
 mod accuracy;
 mod analysis;
-mod check;
 mod contact_cycle;
 mod error;
 mod front;
@@ -27,8 +26,6 @@ pub use analysis::governing::{
 };
 pub use analysis::instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
 pub use analysis::reversal_map::ReversalMap;
-pub use check::case::Case;
-pub use check::{Check, Verdict, catalogue, checks, judge};
 pub use contact_cycle::{Contact, ContactBuilder, Cycle};
 pub use error::Error;
 pub use front::run;

@@ -6,6 +6,7 @@ mod axis;
 mod boundary;
 mod case_outcome;
 mod cells;
+mod check;
 mod error;
 mod grid;
 mod live_map;
@@ -32,6 +33,8 @@ mod tables;
 
 pub use axis::{Axis, DERIVED, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, USUAL_LEVELS, boundaries, protocol_name};
+pub use check::case::Case;
+pub use check::{Check, Verdict, catalogue, checks, judge};
 pub use error::StudyError;
 pub use grid::{Cell, Grid, Layer, Place};
 pub use live_map::{Level, LiveMap};

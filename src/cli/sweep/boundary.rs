@@ -2,7 +2,7 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
-use crate::export::report::Format;
+use asperity_report::Format;
 use asperity_scene::RoughnessParameter;
 use asperity_study::{USUAL_LEVELS, boundaries};
 use clap::Args;

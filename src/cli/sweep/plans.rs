@@ -2,8 +2,8 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
-use crate::export::sheet::Sheet;
 use asperity_data::object;
+use asperity_report::Sheet;
 use asperity_study::{Changes, PLANS, Plan};
 use clap::Args;
 use std::io::Write;

@@ -2,8 +2,8 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::OutputArguments;
-use crate::export::report::Format;
-use crate::export::study_figure::{study_curves, study_figure, study_map};
+use asperity_report::Format;
+use asperity_report::{study_curves, study_figure, study_map};
 use asperity_scene::Scene;
 use asperity_study::{Results, Selected, Selection};
 use clap::Args;

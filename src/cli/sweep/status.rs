@@ -2,8 +2,8 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
-use crate::export::sheet::Sheet;
 use asperity_data::grouped;
+use asperity_report::Sheet;
 use asperity_study::{Folder, Status};
 use clap::Args;
 use std::io::Write;

@@ -5,8 +5,8 @@ use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::editor::Editor;
 use crate::explorer::prompt::Purpose;
-use crate::export::report::{Format, check_extension};
 use asperity_data::is_control;
+use asperity_report::{Format, check_extension};
 use asperity_scene::{Document, Preset, command_line, presets};
 use std::path::{Path, PathBuf};
 

@@ -8,7 +8,7 @@ use crate::explorer::measured::Measured;
 use crate::explorer::opening::Opening;
 use crate::explorer::pane::Pane;
 use crate::explorer::theme::Appearance;
-use crate::export::loop_chart::LoopQuantities;
+use asperity_report::LoopQuantities;
 use asperity_study::StudyMap;
 use std::sync::Arc;
 

@@ -7,9 +7,9 @@ use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::{ContactSnapshot, PatchFacts};
 use crate::explorer::theme::{Meaning, Theme};
-use crate::export::section::{Part as LinePart, Section};
 use asperity_data::format_quantity;
 use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
+use asperity_report::{Part as LinePart, Section};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 

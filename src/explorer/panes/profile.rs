@@ -6,10 +6,10 @@ use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel, names};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Appearance;
-use crate::export::section::Part as LinePart;
 use asperity_data::AxisScale;
 use asperity_data::format_quantity;
 use asperity_plot::{Axis, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
+use asperity_report::Part as LinePart;
 use asperity_surface::Histogram;
 use std::f64::consts::TAU;
 

@@ -6,10 +6,10 @@ use crate::explorer::panel::{Panel, names};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text::Part;
 use crate::explorer::theme::{Appearance, Meaning};
-use crate::export::report::Report;
-use crate::export::section::{Part as LinePart, Section};
 use asperity_data::format_quantity;
 use asperity_plot::{Chart, Figure, Ink, Layer, Shape, Span, Stroke, value_label};
+use asperity_report::Report;
+use asperity_report::{Part as LinePart, Section};
 use asperity_scene::LineFacts;
 use ratatui::text::Span as Text;
 

@@ -7,10 +7,10 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{filled, wrapped};
 use crate::explorer::theme::Meaning;
-use crate::export::scene_spectra::SceneSpectra;
-use crate::export::surface::measured_adhesion_text;
 use asperity_data::format_quantity;
 use asperity_data::per_cent;
+use asperity_report::SceneSpectra;
+use asperity_report::measured_adhesion_text;
 use asperity_scene::RunError;
 use asperity_scene::{Roughness, Scene, Solver};
 use asperity_study::{MeasuredAdhesion, ProfileAdhesion};
@@ -82,7 +82,7 @@ fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     if shown.moments.is_some() {
         words.extend(adhesion(app));
     }
-    if words.is_empty() && shown.spectra == crate::export::spectrum_figure::Spectra::default() {
+    if words.is_empty() && shown.spectra == asperity_report::Spectra::default() {
         words.push("the profile has no roughness and no spectrum".to_owned());
     }
     words

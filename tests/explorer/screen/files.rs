@@ -4,10 +4,10 @@ use super::*;
 use asperity::explorer::action::{Content, OutputFile};
 use asperity::explorer::picture;
 use asperity::explorer::theme::Marker;
-use asperity::export::provenance::scene_provenance;
-use asperity::export::report::{Format, write};
-use asperity::export::run::RunReport;
 use asperity::scene::command_line;
+use asperity_report::RunReport;
+use asperity_report::scene_provenance;
+use asperity_report::{Format, write};
 use std::path::PathBuf;
 
 /// Exports to a file and returns the effects.

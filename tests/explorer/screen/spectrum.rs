@@ -1,8 +1,8 @@
 //! The pane of spectra.
 
 use super::*;
-use asperity::export::scene_spectra::SceneSpectra;
 use asperity::study::MeasuredAdhesion;
+use asperity_report::SceneSpectra;
 
 /// A scene of a measured profile of 512 µm, with its file.
 fn measured(file: &Path) -> Document {

@@ -1,0 +1,53 @@
+#![forbid(unsafe_code)]
+#![doc = include_str!("../README.md")]
+
+mod boundary;
+mod check;
+mod cost;
+mod ensemble;
+mod fit;
+mod loop_chart;
+mod map;
+mod measured_face;
+mod parameters;
+mod preloads;
+mod provenance;
+mod report;
+mod reversals;
+mod run;
+mod scene_figure;
+mod scene_spectra;
+mod scenes;
+mod section;
+mod sensitivity;
+mod sheet;
+mod spectrum_figure;
+mod study_figure;
+mod summary;
+mod surface;
+mod work_precision;
+
+pub use cost::CostReport;
+pub use ensemble::LinesReport;
+pub use fit::FitReport;
+pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
+pub use measured_face::{MeasuredFace, SurfaceFile};
+pub use parameters::parameter_lines;
+pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};
+pub use provenance::{
+    check_measured_files, entries, files_provenance, named_from, scene_provenance, scenes_provenance,
+};
+pub use report::{Format, Json, Report, check_extension, write};
+pub use reversals::ReversalReport;
+pub use run::{PathReport, RunReport};
+pub use scene_figure::ContactSets;
+pub use scene_spectra::SceneSpectra;
+pub use scenes::ScenesReport;
+pub use section::{Contact, LineColumns, Part, Section};
+pub use sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
+pub use sheet::Sheet;
+pub use spectrum_figure::Spectra;
+pub use study_figure::{study_curves, study_figure, study_map};
+pub use summary::brief_summary;
+pub use surface::{SurfaceReport, measured_adhesion_text};
+pub use work_precision::work_precision;

@@ -1,0 +1,210 @@
+//! Measured surfaces of one face, as samples of the same roughness: facts about their files, and warnings about their
+//! analysis.
+
+use asperity_data::format_quantity;
+use asperity_data::{grouped, path_name, printable};
+use asperity_surface::Topography;
+use asperity_surface::{Analysis, End};
+use serde::{Serialize, Serializer};
+use std::path::{Path, PathBuf};
+
+/// Share of the squared height in long waves above which the rms height depends on the length of the scan.
+const MANY_LONG_WAVES: f64 = 0.3;
+
+/// Number of profiles from which on moments are as accurate as the moments of a map.
+const MANY_PROFILES: u64 = 100;
+
+/// Smallest and largest factor by which adhesion near its boundary varies between single profiles; the same as in
+/// `docs/surfaces.md`.
+const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
+
+/// Rms gradient above which slopes are not small, and smallest ratio of the rms heights of two samples of one roughness:
+/// beyond either a wrong unit is likely.
+const LARGEST_GRADIENT: f64 = 1.0;
+const FAR_APART: f64 = 30.0;
+
+/// Facts about a surface and its file. Lists have one number for a profile, and a number for each axis for a map.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurfaceFile {
+    #[serde(rename = "file", serialize_with = "in_unicode")]
+    pub path: PathBuf,
+    /// Name of the measurement in a container; empty if the surface is from a file of its own.
+    #[serde(rename = "measurement", skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    pub format: &'static str,
+    /// Number of points of a row, and number of rows.
+    pub points: Vec<usize>,
+    pub lengths: Vec<f64>,
+    /// Numbers of columns and rows without measured points left out at the borders; for a profile a number of points at its
+    /// ends.
+    pub cropped: Vec<usize>,
+    pub interpolated: usize,
+    /// Messages on oddities of the file.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Writes a path; what is not Unicode becomes U+FFFD.
+fn in_unicode<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&path.display())
+}
+
+impl SurfaceFile {
+    /// Collects the facts about a surface; the lengths are 0 if its points are not evenly spaced.
+    pub fn new(path: PathBuf, surface: &Topography) -> Self {
+        let mut points = vec![surface.columns, surface.rows()];
+        points.truncate(if surface.rows() > 1 { 2 } else { 1 });
+        let spacing = surface.spacing().unwrap_or_default();
+        SurfaceFile {
+            path,
+            name: surface.name.clone(),
+            format: surface.format,
+            lengths: points.iter().zip(spacing).map(|(count, distance)| *count as f64 * distance).collect(),
+            cropped: surface.cropped.counts()[..points.len()].to_vec(),
+            points,
+            interpolated: surface.interpolated(),
+            warnings: surface.warnings.clone(),
+        }
+    }
+
+    /// Name of the file, with the name of the measurement in a container.
+    fn name(&self) -> String {
+        let name = if self.name.is_empty() { String::new() } else { format!(" {:?}", printable(&self.name)) };
+        path_name(&self.path) + &name
+    }
+
+    /// Name, format, shape and sizes in words, with the points that are left out or interpolated.
+    pub fn describe(&self) -> String {
+        let counts: Vec<String> = self.points.iter().map(|count| grouped(*count as u64)).collect();
+        let lengths: Vec<String> = self.lengths.iter().map(|length| format_quantity(*length, "m")).collect();
+        let kind = if counts.len() > 1 { "map" } else { "profile" };
+        let shape = format!("{kind} of {} points, {}", counts.join(" × "), lengths.join(" × "));
+        let points: usize = self.points.iter().product();
+        let interpolated = match self.interpolated {
+            0 => String::new(),
+            some => format!(", {:.2} % interpolated", 100.0 * some as f64 / points as f64),
+        };
+        let cropped = match self.cropped[..] {
+            [0] | [0, 0] => String::new(),
+            [points] => format!(", {points} missing at its ends left out"),
+            ref counts => {
+                let empty = counts.iter().zip(["column", "row"]).filter(|(count, _)| **count > 0);
+                let counted = empty.map(|(count, name)| {
+                    let plural = if *count == 1 { "" } else { "s" };
+                    format!("{count} empty {name}{plural}")
+                });
+                format!(", without {} at its border", counted.collect::<Vec<_>>().join(" and "))
+            }
+        };
+        format!("{} ({}): {shape}{cropped}{interpolated}", self.name(), self.format)
+    }
+}
+
+/// Measured surfaces of one face, with their common analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredFace {
+    pub files: Vec<SurfaceFile>,
+    pub analysis: Analysis,
+}
+
+pub(crate) fn steep(rms_gradient: f64) -> Option<String> {
+    (rms_gradient > LARGEST_GRADIENT).then(|| {
+        format!(
+            "the rms gradient {} is above {LARGEST_GRADIENT}, where the theory of small slopes does not hold: is the unit of \
+             positions or of heights wrong? --unit and --height-unit, in a scene roughness.unit and roughness.height_unit, \
+             state them",
+            format_quantity(rms_gradient, "1")
+        )
+    })
+}
+
+impl MeasuredFace {
+    /// Warning for files whose rms heights differ much, although they are samples of one roughness.
+    fn far_apart(&self) -> Option<String> {
+        let MeasuredFace { files, analysis } = self;
+        let heights = || analysis.rms_heights.iter().zip(files);
+        let (least, flat) = heights().min_by(|one, other| one.0.total_cmp(other.0))?;
+        let (most, rough) = heights().max_by(|one, other| one.0.total_cmp(other.0))?;
+        (most / least > FAR_APART).then(|| {
+            format!(
+                "the rms heights of {} ({}) and {} ({}) are {}-fold apart: is the unit of one of them wrong, or are they no samples \
+                 of the same roughness?",
+                flat.name(),
+                format_quantity(*least, "m"),
+                rough.name(),
+                format_quantity(*most, "m"),
+                format_quantity(most / least, "1"),
+            )
+        })
+    }
+
+    /// Messages on oddities of the files, and limits of their analysis that concern the user.
+    pub fn warnings(&self) -> Vec<String> {
+        let analysis = &self.analysis;
+        let of_file = |file: &SurfaceFile| {
+            let name = file.name();
+            file.warnings.iter().map(|warning| format!("{name}: {warning}")).collect::<Vec<_>>()
+        };
+        let mut warnings: Vec<String> = self.files.iter().flat_map(of_file).collect();
+        warnings.extend([steep(analysis.line.rms_gradient.value), self.far_apart()].into_iter().flatten());
+        if let Some(distance) = analysis.displaced {
+            warnings.push(format!(
+                "odd rows are displaced by {} along even ones, as trace and retrace are: the gradient is too large; give the rows \
+                 of one direction",
+                format_quantity(distance, "m")
+            ));
+        }
+        let long = analysis.long_wave_share();
+        if long > MANY_LONG_WAVES {
+            warnings.push(format!(
+                "waves longer than a quarter of the scan carry {:.0} % of the squared height: rms height and elastic \
+                 energy depend on the length of the scan",
+                100.0 * long
+            ));
+        }
+        if analysis.maps == 0 && analysis.profiles < MANY_PROFILES {
+            let [low, high] = BOUNDARY_FACTORS;
+            warnings.push(format!(
+                "from few profiles adhesion near its boundary is uncertain by a factor from {low} to {high}, up or down; \
+                 {MANY_PROFILES} profiles or a map are better"
+            ));
+        }
+        if analysis.end == End::Ends && !analysis.ends_inside {
+            warnings.push(
+                "the spectrum does not end inside the scan: shorter waves may be missing, and in samples of points add \
+                 to the longer ones; --continue-to, in a scene roughness.continue_to, continues it as a power law"
+                    .to_owned(),
+            );
+        }
+        if analysis.offsets {
+            warnings.push(
+                "rows or columns are offset against each other, or were levelled one by one: waves along that axis \
+                 alone are left out of the fit"
+                    .to_owned(),
+            );
+        }
+        if analysis.apart > 0.0 {
+            warnings.push(format!(
+                "waves along one axis differ from their neighbours by {:.0} % of the squared gradient: rows or columns \
+                 are offset against each other, or the surface has a lay; level the rows before, or choose one by --row",
+                100.0 * analysis.apart
+            ));
+        }
+        if let Some(cutoff) = analysis.reliability_cutoff {
+            warnings.push(format!("waves below {cutoff:.3e} m may be artefacts of the tip"));
+        }
+        warnings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn warnings_promise_what_the_documentation_states() {
+        let [low, high] = BOUNDARY_FACTORS;
+        let stated = format!("by a factor from {low} to {high} either way");
+        assert!(include_str!("../../../docs/surfaces.md").contains(&stated), "{stated}");
+    }
+}

@@ -1,0 +1,266 @@
+//! A result in up to four forms (text, JSON, table, figure), and the formats in which these are written.
+
+use crate::provenance::entries;
+use asperity_data::{Kind, Table, write_json};
+use asperity_data::{path_name, printable};
+use asperity_plot::{Axis, Chart, Figure, Layer};
+use serde::Serialize;
+use std::io;
+use std::io::Write;
+use std::path::Path;
+use strum::IntoStaticStr;
+
+/// A result that has one or more of four forms.
+pub trait Report {
+    /// The result as plain text of at most 80 columns.
+    fn text(&self) -> Option<String> {
+        None
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        None
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        None
+    }
+
+    fn figure(&self) -> Option<Figure> {
+        None
+    }
+}
+
+/// A value that is written as JSON without an intermediate copy.
+pub trait Json {
+    /// Writes the value; if it is an object, the entries `head` come first.
+    fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
+}
+
+impl<T: Serialize> Json for T {
+    fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()> {
+        write_json(out, self, head)
+    }
+}
+
+/// A figure of one chart can also be written as the table of its curves.
+impl Report for Figure {
+    fn table(&self) -> Option<Table<'_>> {
+        let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
+        let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
+        let column = |axis: &Axis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
+        let rows = || {
+            let points = |layer: &Layer| layer.shape.points();
+            layers
+                .iter()
+                .flat_map(move |layer| points(layer).into_iter().map(|at| (layer.name.to_string(), at)))
+        };
+        let table = Table::of(rows).with("curve", Kind::Text(names.max()?), |row| row.0.clone());
+        let table = table.with(column(x), Kind::Real, |row| row.1.0);
+        Some(table.with(column(y), Kind::Real, |row| row.1.1).done())
+    }
+
+    fn figure(&self) -> Option<Figure> {
+        Some(self.clone())
+    }
+}
+
+/// Writes a report in a format, with its provenance, which text, arrays and pixels leave out.
+pub fn write(
+    out: &mut dyn Write,
+    report: &(impl Report + ?Sized),
+    format: Format,
+    provenance: &str,
+) -> io::Result<()> {
+    let missing = || io::Error::other(format!("this result has no {} form", format.name()));
+    match format {
+        Format::Text => out.write_all(report.text().ok_or_else(missing)?.as_bytes()),
+        Format::Json => report.json().ok_or_else(missing)?.write_json(out, &entries(provenance)),
+        Format::Csv => report.table().ok_or_else(missing)?.write_csv(out, provenance),
+        Format::Npy => report.table().ok_or_else(missing)?.write_npy(out),
+        Format::Svg => {
+            let figure = report.figure().ok_or_else(missing)?;
+            out.write_all(Figure { origin: provenance.to_owned(), ..figure }.svg().as_bytes())
+        }
+        Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
+        Format::Pdf => out.write_all(&report.figure().ok_or_else(missing)?.pdf()?),
+    }
+}
+
+/// Format of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[strum(serialize_all = "lowercase")]
+pub enum Format {
+    Text,
+    Json,
+    Csv,
+    Npy,
+    Svg,
+    Png,
+    /// Vector picture on a page of its own size.
+    Pdf,
+}
+
+impl Format {
+    pub const ALL: [Format; 7] =
+        [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
+
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+
+    pub fn extension(self) -> &'static str {
+        if self == Format::Text { "txt" } else { self.name() }
+    }
+
+    pub fn is_table(self) -> bool {
+        matches!(self, Format::Csv | Format::Npy)
+    }
+
+    pub fn is_picture(self) -> bool {
+        matches!(self, Format::Svg | Format::Png | Format::Pdf)
+    }
+
+    /// The format of a file by its extension; without an extension or a file, the chosen format or else the usual one. An
+    /// error for a format that is not one of `formats`, or an extension that contradicts the chosen format.
+    pub fn of_file(
+        file: Option<&Path>,
+        chosen: Option<Format>,
+        formats: &[Format],
+        usual: Format,
+    ) -> Result<Format, String> {
+        if let Some(format) = chosen.filter(|chosen| !formats.contains(chosen)) {
+            let (format, allowed) =
+                (format.name(), alternatives("", formats.iter().map(|format| format.name())));
+            return Err(format!("--format {format}: this result has no such format; use {allowed}"));
+        }
+        let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
+        let file = file.unwrap_or(Path::new(""));
+        let refused = |error: String| format!("{}: {error}", path_name(file));
+        let place = check_extension(file, &extensions).map_err(refused)?;
+        match (place.map(|place| formats[place]), chosen) {
+            (Some(of_extension), Some(chosen)) if of_extension != chosen => {
+                let (name, extension) = (chosen.name(), chosen.extension());
+                Err(refused(format!(
+                    "the extension contradicts --format {name}; use .{extension}, or leave out --format"
+                )))
+            }
+            (of_extension, chosen) => Ok(of_extension.or(chosen).unwrap_or(usual)),
+        }
+    }
+}
+
+/// Index in a list of the extension of a file; `None` for a name without an extension.
+pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, String> {
+    let Some(extension) = file.extension().map(|extension| extension.to_string_lossy()) else {
+        return Ok(None);
+    };
+    let place = allowed.iter().position(|one| extension.eq_ignore_ascii_case(one));
+    place.map(Some).ok_or_else(|| {
+        let (extension, allowed) = (printable(&extension), alternatives(".", allowed.iter().copied()));
+        format!("unsupported file extension .{extension}; use {allowed}")
+    })
+}
+
+/// A list in words, such as `.txt, .json or .csv`.
+fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
+    let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
+    match words.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => words.concat(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_format_follows_the_extension() {
+        let formats = [Format::Text, Format::Json, Format::Svg];
+        let of = |path: &str, chosen| Format::of_file(Some(Path::new(path)), chosen, &formats, Format::Text);
+        for (path, chosen, expected) in [
+            ("a.json", None, Format::Json),
+            ("a.SVG", None, Format::Svg),
+            ("a.json", Some(Format::Json), Format::Json),
+            ("a", None, Format::Text),
+            ("json", Some(Format::Svg), Format::Svg),
+        ] {
+            assert_eq!(of(path, chosen), Ok(expected), "{path}");
+        }
+        for path in ["a.csv", "a.json.gz", "a.dat", "b/a.PNG"] {
+            let extension = path.rsplit_once('.').unwrap().1;
+            let expected =
+                format!("{path}: unsupported file extension .{extension}; use .txt, .json or .svg");
+            assert_eq!(of(path, None), Err(expected.clone()));
+            assert_eq!(of(path, Some(Format::Json)), Err(expected));
+        }
+        let expected = "a.svg: the extension contradicts --format text; use .txt, or leave out --format";
+        assert_eq!(of("a.svg", Some(Format::Text)), Err(expected.to_owned()));
+        let expected = "--format csv: this result has no such format; use text, json or svg";
+        assert_eq!(of("a", Some(Format::Csv)), Err(expected.to_owned()));
+    }
+
+    /// Figures of every kind, of usual scenes and of scenes without adhesion, roughness or contact.
+    #[test]
+    fn every_figure_lies_within_its_picture() {
+        use crate::preloads::PreloadReport;
+        use crate::reversals::ReversalReport;
+        use crate::run::RunReport;
+        use crate::scene_figure::ContactSets;
+        use crate::scene_spectra::SceneSpectra;
+        use crate::scenes::ScenesReport;
+        use asperity_plot::judge::check_picture;
+        use asperity_scene::Simulation;
+        use asperity_scene::open;
+        use asperity_study::{Axis, Results, Staircase};
+        let few = ("numerics.points", "512");
+        let rough = [few, ("roughness.modes", "(1, 64)")];
+        for (name, overrides) in [
+            ("jkr-sphere", &[few][..]),
+            ("jkr-sphere", &[few, ("adhesion", "None"), ("loading", "[ToTouch]")]),
+            ("pressure-sensitive", &rough),
+            (
+                "pressure-sensitive",
+                &[few, ("roughness", "None"), ("adhesion", "(work: 0.05)"), ("title", "\"a <&> b\"")],
+            ),
+        ] {
+            let overrides = overrides.iter().map(|(path, value)| (path.to_string(), value.to_string()));
+            let document = open(name).unwrap().set_all(&overrides.collect::<Vec<_>>()).unwrap();
+            let (scene, title) = (document.scene(), document.title());
+            let mut simulation = Simulation::default();
+            let mut sets = ContactSets::new(true);
+            let mut observe = |_, record: &_, leg: &_| {
+                sets.observe(record, leg);
+                Ok(())
+            };
+            let outcome = simulation.run(scene, &|| false, &mut observe).unwrap();
+            let spectra = SceneSpectra::new(scene, &outcome, &mut simulation).unwrap();
+            let line = simulation.make_line(scene).unwrap().0.clone();
+            let scenes = [(&document, outcome.clone()), (&document, outcome.clone())];
+            let mut figures = vec![
+                RunReport { title, scene, outcome: &outcome, choice: None, estimate: None }.figure().unwrap(),
+                ScenesReport { scenes: &scenes, panels: false }.figure().unwrap(),
+                ScenesReport { scenes: &scenes, panels: true }.figure().unwrap(),
+                sets.profile_figure(title, &outcome, &line),
+                sets.patches_figure(title, &outcome),
+                Figure::of_chart(title, spectra.spectra.chart()),
+            ];
+            if let Ok(map) = simulation.reversal_map(scene, None, 16, &|| false) {
+                let preloads = Axis::of_preloads((0.0, 1e-5), 8, asperity_data::AxisScale::Linear).unwrap();
+                let record = &Results::OF_PRELOADS;
+                let results = Results::of_scene(scene, Path::new(""), record, 1, Some(&preloads), 1).unwrap();
+                let staircase = Staircase::find(scene, &preloads, &mut simulation, &|| false, &mut |_| ());
+                let staircase = staircase.ok();
+                let (preloads, staircase) = (Some(&results), staircase.as_ref());
+                let report =
+                    ReversalReport { title, scene, map: &map, preloads, staircase, map_table: false };
+                figures.extend(report.figure());
+                let report =
+                    PreloadReport { title, choice: None, results: &results, staircase, curves: false };
+                figures.extend(report.figure());
+            }
+            figures.iter().for_each(|figure| check_picture(&figure.svg()));
+        }
+    }
+}

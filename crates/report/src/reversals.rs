@@ -1,0 +1,144 @@
+//! First-order reversal curves of a scene as text, JSON, tables and a figure.
+
+use crate::preloads::{preload_chart, preload_table, unloadings};
+use crate::report::{Json, Report};
+use crate::sheet::{Sheet, thinned};
+use asperity_data::AxisScale;
+use asperity_data::grouped;
+use asperity_data::{Table, object};
+use asperity_plot::{Axis, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
+use asperity_scene::ReversalMap;
+use asperity_scene::Scene;
+use asperity_study::{Results, Staircase};
+
+const MOST_ROWS: usize = 16;
+/// Limit of the number of cells along either axis of a map in a figure.
+const MOST_CELLS: usize = 128;
+
+#[derive(Clone, Copy, Debug)]
+pub struct ReversalReport<'a> {
+    pub title: &'a str,
+    pub scene: &'a Scene,
+    pub map: &'a ReversalMap,
+    /// Adhesion force against preload, with the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
+    /// bodies together.
+    pub preloads: Option<&'a Results>,
+    /// Adhesion force against preload with the exact position of each step, for the figure.
+    pub staircase: Option<&'a Staircase>,
+    /// True for a table with a row for each point of the map, false for a row for each turning point.
+    pub map_table: bool,
+}
+
+impl Report for ReversalReport<'_> {
+    fn text(&self) -> Option<String> {
+        let ReversalReport { scene, map, .. } = *self;
+        let mut sheet = Sheet::default();
+        sheet.paragraph(&scene.title);
+        let reversals = &map.reversals;
+        let (count, springs) = (grouped(reversals.len() as u64), grouped(scene.numerics.points));
+        sheet.heading(&format!("{count} reversals of one loading, {springs} springs"));
+        let shown = thinned(reversals.iter(), MOST_ROWS);
+        let shown = shown.map(|one| {
+            let [at, pull_off] = [one.turn, one.smallest].map(|point| Some(point.indentation));
+            [Some(one.turn.force), at, one.adhesion_force(), pull_off, Some(one.dissipated_energy)]
+        });
+        unloadings(&mut sheet, ["force at turn", "turning at"], shown);
+        sheet.heading("Map");
+        sheet.quantity("step of indentations", map.step(), "m");
+        let points = 0..map.points.len();
+        let all = (0..reversals.len()).flat_map(|turn| points.clone().map(move |point| (turn, point)));
+        let everett = all.filter_map(|(turn, point)| map.everett(turn, point)).reduce(f64::max);
+        sheet.quantity("largest Everett value", everett, "N");
+        Some(sheet.into_text())
+    }
+
+    /// For each turning point, forces and Everett function at the indentations up to that point.
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let ReversalReport { scene, map, preloads, .. } = *self;
+        let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
+            let row = |turn: usize| (0..=map.below + turn).map(|point| value(turn, point)).collect();
+            (0..map.reversals.len()).map(row).collect()
+        };
+        Some(Box::new(object! {
+            "scene": scene,
+            "preloads": preloads.map_or_else(
+                || Table::of(std::iter::empty::<()>).done(),
+                |results| preload_table(results, 0..1, false),
+            ),
+            "reversals": turning_points(map),
+            "indentations": &map.points,
+            "step": map.step(),
+            "forces": map.reversals.iter().map(|reversal| reversal.forces.as_slice()).collect::<Vec<_>>(),
+            "everett": rows(&|turn, point| map.everett(turn, point)),
+        }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        Some(if self.map_table { points(self.map) } else { turning_points(self.map) })
+    }
+
+    /// The adhesion force against preload, and a map of the Everett function.
+    fn figure(&self) -> Option<Figure> {
+        let adhesion = self.staircase.map(|staircase| Chart {
+            heading: Label::quantity("adhesion force", "F_a"),
+            ..preload_chart(staircase, &[], true)
+        });
+        let charts = adhesion.into_iter().chain([everett_chart(self.map)]).collect();
+        Some(Figure { title: self.title.to_owned(), charts, size: Figure::SMALL, ..Figure::default() })
+    }
+}
+
+fn turning_points(map: &ReversalMap) -> Table<'_> {
+    Table::of(|| map.reversals.iter())
+        .real("turning_indentation", |one| one.turn.indentation)
+        .real("turning_force", |one| one.turn.force)
+        .real("adhesion_force", |one| one.adhesion_force())
+        .real("pull_off_indentation", |one| one.smallest.indentation)
+        .real("separation", |one| one.separation)
+        .real("dissipated_energy", |one| one.dissipated_energy)
+        .done()
+}
+
+/// Table with one row for each turning point and each indentation up to it.
+fn points(map: &ReversalMap) -> Table<'_> {
+    let points = || {
+        let turns = 0..map.turns().len();
+        turns.flat_map(|turn| (0..=map.below + turn).map(move |point| (turn, point)))
+    };
+    Table::of(points)
+        .real("turning_indentation", |&(turn, _)| map.turns()[turn])
+        .real("indentation", |&(_, point)| map.points[point])
+        .real("force", |&(turn, point)| map.force(turn, point))
+        .real("everett", |&(turn, point)| map.everett(turn, point))
+        .done()
+}
+
+/// Returns the chart of the Everett function, N, over indentation and turning point.
+pub fn everett_chart(map: &ReversalMap) -> Chart {
+    // A subset of the points of a fine map: the eye cannot distinguish more cells.
+    let every = |count: usize| (0..count).step_by(count.div_ceil(MOST_CELLS).max(1)).collect::<Vec<_>>();
+    let (columns, rows) = (every(map.points.len()), every(map.reversals.len()));
+    let values: Vec<Option<f64>> =
+        rows.iter().flat_map(|&turn| columns.iter().map(move |&point| map.everett(turn, point))).collect();
+    let key = Span::around(values.iter().flatten().copied(), 0.0);
+    let of = |indices: &[usize], offset: usize| {
+        indices.iter().map(|&index| map.points[offset + index]).collect::<Vec<f64>>()
+    };
+    let (columns, rows) = (of(&columns, 0), of(&rows, map.below));
+    let scale = AxisScale::Linear;
+    let axis =
+        |values: &[f64], name, symbol| Axis::new(scale, HeatMap::span(scale, values), name, symbol, "m");
+    let (x, y) = (axis(&columns, "indentation", "d"), axis(&rows, "turning point", "d_r"));
+    let map = HeatMap {
+        columns,
+        rows,
+        values,
+        key: Axis::new(scale, key, "", "E", "N"),
+        shades: Shades::Sequential,
+        classes: Vec::new(),
+        class_names: Vec::new(),
+        contour: None,
+    };
+    let layers = vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))];
+    Chart { heading: Label::quantity("Everett function", "E"), ..Chart::new(x, y, layers) }
+}

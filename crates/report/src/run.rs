@@ -1,0 +1,151 @@
+//! A computed scene as JSON, and its force curve as a table and a figure; and the table of a profile.
+
+use crate::loop_chart::force_figure;
+use crate::report::{Json, Report};
+use crate::summary::{summary, warning};
+use asperity_contact::CurvePoint;
+use asperity_contact::Move;
+use asperity_data::{Table, TableOf, object};
+use asperity_plot::Figure;
+use asperity_scene::Outcome;
+use asperity_scene::displacements;
+use asperity_scene::{Choice, Estimate};
+use asperity_scene::{Observer, Scene};
+use asperity_surface::Line;
+
+#[derive(Clone, Copy, Debug)]
+pub struct RunReport<'a> {
+    pub title: &'a str,
+    pub scene: &'a Scene,
+    pub outcome: &'a Outcome,
+    /// Choice of springs for a tolerance, if one was requested.
+    pub choice: Option<&'a Choice>,
+    /// Estimated error of the adhesion force, if it is known.
+    pub estimate: Option<&'a Estimate>,
+}
+
+impl Report for RunReport<'_> {
+    fn text(&self) -> Option<String> {
+        Some(summary(self.scene, self.outcome, self.estimate, self.choice))
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let RunReport { scene, outcome, choice, estimate, .. } = *self;
+        let Outcome { line, governing, figures, history, .. } = outcome;
+        let fragments = scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice());
+        Some(Box::new(object! {
+            "scene": scene,
+            "choice"?: choice,
+            "line": object! {
+                "points": line.points,
+                "length": line.length,
+                "spacing": line.spacing,
+                "rms_height": governing.amplitude.map(|amplitude| amplitude.rms_height),
+                "rms_gradient": governing.amplitude.map(|amplitude| amplitude.rms_gradient),
+                "modes": line.modes,
+                "seed": line.seed,
+            },
+            "effective_modulus": governing.effective_modulus,
+            "work_of_adhesion": governing.work_of_adhesion,
+            "kappa": governing.kappa,
+            "elastic_energy": governing.elastic_energy(),
+            "elastic_energy_ratio": governing.elastic_energy_ratio,
+            "regime": outcome.regime,
+            "regime_after_zero_force": outcome.regime_after_zero_force,
+            "ideal_adhesion_force": outcome.ideal_adhesion_force,
+            "smooth_adhesion_force": outcome.smooth_adhesion_force,
+            "zero_load_adhesion_force": outcome.zero_load_adhesion_force,
+            "zero_force_adhesion_force": outcome.zero_force_adhesion_force,
+            "preload": figures.preload,
+            "preload_indentation": figures.preload_indentation,
+            "adhesion_force": figures.adhesion_force,
+            "adhesion_force_error": estimate.and_then(|estimate| estimate.of_adhesion_force(outcome)),
+            "curve_error"?: estimate.and_then(Estimate::of_curve),
+            "adhesion_force_near_step": estimate.map(|estimate| estimate.near_step),
+            "adhesion_coefficient": figures.adhesion_coefficient,
+            "pull_off_indentation": figures.pull_off_indentation,
+            "dissipated_energy": figures.dissipated_energy,
+            "loop_area"?: outcome.instrument.map(|one| one.loop_area),
+            "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
+            "tabor_number": outcome.tabor_number,
+            "steep_waves"?: outcome.steep_waves,
+            "warnings"?: warning(scene, outcome).map(|warning| [warning]),
+            "curve": self.table(),
+            "contacts": &history.contacts,
+            "fragments": fragments,
+            "histogram": outcome.histogram.as_ref().map(|histogram| object! {
+                "low": histogram.low,
+                "high": histogram.high,
+                "counts": &histogram.counts,
+            }),
+            "work": history.work,
+            "timings": outcome.timings,
+        }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        let stiffness = self.outcome.instrument.map(|instrument| instrument.stiffness);
+        let legs = || self.outcome.history.legs.iter().zip(0_u64..);
+        let table = curve(move || {
+            legs().flat_map(move |(leg, number)| {
+                let displacements = displacements(leg, stiffness.unwrap_or(f64::INFINITY));
+                leg.curve.iter().zip(displacements).map(move |(point, at)| (number, point, at))
+            })
+        });
+        Some(match stiffness {
+            Some(_) => table.real("displacement", |(.., displacement)| *displacement).done(),
+            None => table.done(),
+        })
+    }
+
+    fn figure(&self) -> Option<Figure> {
+        Some(force_figure(&[(self.title, self.outcome)]))
+    }
+}
+
+/// The path of manual loading, as a result.
+#[derive(Clone, Copy, Debug)]
+pub struct PathReport<'a> {
+    /// Scene with another loading.
+    pub scene: &'a Scene,
+    /// Its stages, from separation.
+    pub loading: &'a [Move],
+    pub path: &'a [CurvePoint],
+    /// Index of the loading stage of each point.
+    pub stages: &'a [usize],
+}
+
+impl Report for PathReport<'_> {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let scene = Scene { loading: self.loading.to_vec(), ..self.scene.clone() };
+        Some(Box::new(object! { "scene": scene, "loading": self.loading, "curve": self.table() }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        let points = || self.stages.iter().zip(self.path);
+        Some(curve(move || points().map(|(stage, point)| (*stage as u64, point, point.indentation))).done())
+    }
+}
+
+/// Table of a force curve in SI units: its points with the indices of their loading stages, and the displacements of the
+/// instrument.
+fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, CurveRow<'a>> {
+    Table::of(rows)
+        .whole("leg", |(number, ..)| *number)
+        .real("indentation", |(_, point, _)| point.indentation)
+        .real("force", |(_, point, _)| point.force)
+        .real("contact_length", |(_, point, _)| point.contact_length)
+        .whole("fragments", |(_, point, _)| point.fragments)
+        .real("stored_energy", |(_, point, _)| point.stored_energy)
+}
+
+/// Index of a loading stage, a point of its curve, and the displacement of the instrument, m.
+type CurveRow<'a> = (u64, &'a CurvePoint, f64);
+
+/// The table has the position x and the height z of every spring under the body, m.
+impl Report for Line {
+    fn table(&self) -> Option<Table<'_>> {
+        let points = || self.heights().enumerate().map(|(index, height)| (self.position(index), height));
+        Some(Table::of(points).real("x", |point| point.0).real("z", |point| point.1).done())
+    }
+}

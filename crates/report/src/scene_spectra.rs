@@ -1,0 +1,151 @@
+//! Spectra of a computed scene: of its measured files, of the line as intended, and of the heights of the line.
+
+use crate::spectrum_figure::{Spectra, SpectrumPoint};
+use asperity_data::check_room;
+use asperity_scene::{CheckedScene, Scene};
+use asperity_scene::{Outcome, RunError, Simulation};
+use asperity_surface::Form;
+use asperity_surface::{Analysis, LineMoments, line_spectrum};
+use asperity_surface::{EquivalentLine, Line, read_faces};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// Number of modes per decade at which the spectrum of the line is drawn.
+const PER_DECADE: f64 = 20.0;
+
+/// Bytes per spring of the Fourier transform.
+const BYTES: u64 = 40;
+
+/// Spectra of a scene, and the moments of its measured surface with their errors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneSpectra {
+    /// Measured spectra, the intended spectrum of the line, and the spectrum of its heights.
+    pub spectra: Spectra,
+    /// Moments of the equivalent line; `None` for roughness that is not measured, and for a measured profile that is itself
+    /// the line.
+    pub moments: Option<LineMoments>,
+    /// Reason why some spectra are missing.
+    pub missing: Option<String>,
+}
+
+impl SceneSpectra {
+    /// Computes the spectra of a scene whose files are named from the working folder.
+    ///
+    /// # Errors
+    /// The line of the scene cannot be made.
+    pub fn new(
+        scene: &CheckedScene,
+        outcome: &Outcome,
+        simulation: &mut Simulation,
+    ) -> Result<Self, RunError> {
+        let (line, ..) = simulation.make_line(scene)?;
+        let mut missing = None;
+        let analyses = analyses(scene).unwrap_or_else(|error| {
+            missing = Some(error);
+            Vec::new()
+        });
+        let faces: Vec<&Analysis> = analyses.iter().collect();
+        let mut spectra = Spectra::of_faces(&faces);
+        let equivalent = EquivalentLine { faces: faces.iter().map(|face| face.isotropic.clone()).collect() };
+        let equivalent = Some(equivalent).filter(|_| !faces.is_empty());
+        spectra.line = expected(scene, outcome, equivalent.as_ref());
+        spectra.heights = of_heights(scene, line).unwrap_or_else(|error| {
+            missing.get_or_insert(error);
+            Vec::new()
+        });
+        let moments = equivalent.filter(|_| !scene.measured_as_line()).map(|line| line.moments());
+        Ok(SceneSpectra { spectra, moments, missing })
+    }
+}
+
+fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
+    let options = scene.measured_options();
+    let faces = read_faces(&scene.measured_paths(Path::new("")));
+    let analyses = faces.and_then(|faces| faces.iter().map(|face| options.analyse(face)).collect());
+    analyses.map_err(|error| error.to_string())
+}
+
+/// Intended spectrum of the line at some of its modes: A²L/4 for a mode with the amplitude A.
+fn expected(scene: &Scene, outcome: &Outcome, equivalent: Option<&EquivalentLine>) -> Vec<SpectrumPoint> {
+    let Some((first, last)) = outcome.line.modes else { return Vec::new() };
+    let length = outcome.line.length;
+    let power: Box<dyn Fn(u64) -> f64> = match scene.spectrum() {
+        Some(spectrum) => {
+            let height = outcome.governing.amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
+            let scale = 0.25 * length * (height / spectrum.relative_rms()).powi(2);
+            Box::new(move |mode| scale * spectrum.relative_amplitude(mode).powi(2))
+        }
+        None => Box::new(|mode| equivalent.map_or(0.0, |line| line.power(TAU * mode as f64 / length))),
+    };
+    let modes = |step: u32| (first as f64 * 10.0_f64.powf(f64::from(step) / PER_DECADE)).round() as u64;
+    let mut shown: Vec<u64> = (0..).map(modes).take_while(|mode| *mode < last).chain([last]).collect();
+    shown.dedup();
+    shown.into_iter().map(|mode| (TAU * mode as f64 / length, power(mode))).collect()
+}
+
+/// Spectrum of the heights of the line without its form. A measured profile that is itself the line is not periodic.
+fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
+    if scene.roughness.is_none() || line.gaps.len() < line.points {
+        return Ok(Vec::new());
+    }
+    let no_room = |_| format!("not enough memory for the spectrum of {} springs", line.points);
+    check_room(BYTES * line.points as u64).map_err(no_room)?;
+    let axis = Form::spring_on_axis(line.points as u64) as f64;
+    let depth = |index: usize| {
+        let distance = (index as f64 - axis) * line.spacing;
+        scene.form.as_ref().map_or(0.0, |form| form.mdr_profile(distance))
+    };
+    let heights: Vec<f64> = line.heights().enumerate().map(|(index, z)| z + depth(index)).collect();
+    let bins =
+        line_spectrum(&heights, line.spacing, scene.measured_as_line()).map_err(|error| error.to_string())?;
+    Ok(bins.into_iter().map(|bin| (bin.wave_number, bin.power)).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::Document;
+
+    fn spectra(roughness: &str, form: &str) -> SceneSpectra {
+        let text = format!(
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, form: {form}, roughness: {roughness}, \
+             loading: [ToTouch], numerics: (points: 1024, samples: 2))"
+        );
+        let document = Document::parse(&text, "test").unwrap();
+        let mut simulation = Simulation::default();
+        let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        SceneSpectra::new(document.scene(), &outcome, &mut simulation).unwrap()
+    }
+
+    #[test]
+    fn heights_have_the_spectrum_that_the_line_is_to_have() {
+        let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (2, 200), seed: 3)";
+        for form in ["None", "Paraboloid(radius: 1.0e-4)"] {
+            let found = spectra(roughness, form).spectra;
+            // Each of the first bins has one mode, with the power of the spectrum.
+            let single = |q: f64| found.line.iter().find(|(at, _)| (at / q - 1.0).abs() < 1e-9);
+            let both: Vec<_> =
+                found.heights.iter().filter_map(|(q, power)| Some((power, single(*q)?.1))).collect();
+            assert!(both.len() >= 4, "{:?}", found.heights);
+            assert!(
+                both[..4].iter().all(|(power, expected)| (*power / expected - 1.0).abs() < 1e-6),
+                "{both:?}"
+            );
+            let ends = [found.line[0].0, found.line[found.line.len() - 1].0];
+            let modes = ends.map(|q| q * 1e-4 / TAU);
+            assert!((modes[0] - 2.0).abs() < 1e-9 && (modes[1] - 200.0).abs() < 1e-9, "{modes:?}");
+        }
+    }
+
+    #[test]
+    fn smooth_lines_have_no_spectrum_and_files_that_are_gone_are_named() {
+        let smooth = spectra("None", "Paraboloid(radius: 1.0e-4)");
+        assert_eq!((smooth.spectra, smooth.missing), (Spectra::default(), None));
+        let scene = Document::parse(
+            "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4, roughness: Measured(file: \"none.txt\"))",
+            "test",
+        );
+        let error = analyses(scene.unwrap().scene()).unwrap_err();
+        assert!(error.contains("none.txt"), "{error}");
+    }
+}

@@ -1,0 +1,279 @@
+//! Sensitivity of a scene as text, JSON and a table, and the chart of the explorer.
+
+use crate::report::{Json, Report};
+use crate::sheet::Sheet;
+use asperity_data::AxisScale;
+use asperity_data::grouped;
+use asperity_data::{Table, object};
+use asperity_data::{format_quantity, format_rounded};
+use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span};
+use asperity_scene::Scene;
+use asperity_study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
+
+/// Relative change from which on a change is stated as a factor.
+const LARGE: f64 = 2.0;
+/// Smallest range of the axis of a chart, per cent.
+const LEAST: f64 = 1.0;
+/// Half the height of a bar, over the distance of bars.
+const HALF: f64 = 0.35;
+
+#[derive(Clone, Copy, Debug)]
+pub struct SensitivityReport<'a> {
+    pub title: &'a str,
+    pub scene: &'a Scene,
+    pub sensitivity: &'a Sensitivity,
+}
+
+/// A relative change in words: `+12 %`, `×4.2`.
+fn change_text(change: f64) -> String {
+    let percent = 100.0 * change;
+    let digits = if percent.abs() < 9.95 { 1 } else { 0 };
+    match change {
+        _ if percent.abs() < 0.05 => "0 %".to_owned(),
+        LARGE.. => format!("×{}", format_rounded(1.0 + change, 3, "1")),
+        _ => format!("{percent:+.digits$} %"),
+    }
+}
+
+/// Text in place of changes for a number that the scene does not allow.
+pub const NOT_ALLOWED: &str = "not allowed";
+const OTHERS: &str = "other seeds";
+
+/// Changes of the results for one changed number, or at one end of the range over the seeds.
+struct Side<'a> {
+    /// Influence of the changed number; `None` for the seeds.
+    influence: Option<&'a Influence>,
+    /// 0 for the smaller number or the smallest result, otherwise 1.
+    side: usize,
+    /// Relative changes of the results; `None` for a number that is not allowed.
+    changes: Option<[Option<f64>; 3]>,
+}
+
+impl Side<'_> {
+    fn name(&self) -> Label {
+        self.influence.map_or(OTHERS.into(), |one| Label::symbol_or_name(one.axis.symbol, &one.axis.name))
+    }
+
+    /// The change of the number in words: in per cent, or for a whole number the difference.
+    fn step(&self) -> String {
+        match self.influence {
+            None => ["least", "most"][self.side].to_owned(),
+            Some(one) if one.axis.is_whole() => format!("{:+}", one.sides[self.side].0 - one.value),
+            Some(_) => format!("{:+} %", [-100.0, 100.0][self.side] * STEP),
+        }
+    }
+
+    fn text(&self, result: usize) -> String {
+        let Some(changes) = self.changes else { return NOT_ALLOWED.to_owned() };
+        changes[result].map_or_else(|| "-".to_owned(), change_text)
+    }
+}
+
+/// Both changes of at most `most` numbers, the one with the largest influence on a result first; then the seeds.
+fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
+    let changes = |values: &Values| sensitivity.changes(values);
+    let numbers = sensitivity.ordered(result).into_iter().take(most).flat_map(|influence| {
+        let changes = influence.sides.each_ref().map(|(_, values)| values.as_ref().map(changes));
+        [0, 1].map(|side| Side { influence: Some(influence), side, changes: changes[side] })
+    });
+    let seeds = sensitivity.seeds.iter().flat_map(|ends| {
+        [0, 1].map(|side| Side { influence: None, side, changes: Some(changes(&ends[side])) })
+    });
+    numbers.chain(seeds).collect()
+}
+
+/// The changes of the results in words: a heading, the results of the scene, then a row for each change of at most `most`
+/// numbers, the one with the largest influence on the adhesion force first. The columns are name, value, change, and each
+/// result.
+pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 6]> {
+    let row = |texts: [&str; 3], result: &dyn Fn(usize) -> String| {
+        let [name, value, change] = texts.map(str::to_owned);
+        [name, value, change, result(0), result(1), result(2)]
+    };
+    let results = Sensitivity::RESULTS;
+    let head = row(["number", "value", "change"], &|result| results[result].symbol().to_owned());
+    let scene = row(["this scene", "", ""], &|result| {
+        let value = sensitivity.present[result];
+        value.map_or_else(|| "-".to_owned(), |value| format_quantity(value, results[result].unit()))
+    });
+    let changes = sides(sensitivity, 0, most).into_iter().map(|side| {
+        let value = side.influence.map(|one| format_quantity(one.value, one.axis.unit)).unwrap_or_default();
+        let (name, step) = (side.name().to_string(), side.step());
+        let named = if side.side == 0 { [name.as_str(), &value] } else { [""; 2] };
+        // A number that is not allowed says so once.
+        row([named[0], named[1], &step], &|result| match side.changes {
+            None if result > 0 => String::new(),
+            _ => side.text(result),
+        })
+    });
+    [head, scene].into_iter().chain(changes).collect()
+}
+
+/// Chart with a bar for each change of a result, in per cent, by at most `most` numbers; the largest is at the top.
+pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
+    let shown = sides(sensitivity, result, most);
+    let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
+    let numbers = shown.iter().filter(|side| side.influence.is_some());
+    let end = 1.05 * numbers.filter_map(percent).map(f64::abs).fold(LEAST, f64::max);
+    // Nothing falls by more than all of itself.
+    let span = Span { low: -end.min(105.0), high: end };
+    let (mut bars, mut names, mut beyond) =
+        ([const { Vec::new() }; 3], Vec::new(), [const { Vec::new() }; 2]);
+    // The lowest bar is at 0.
+    for (row, side) in (0..).map(f64::from).zip(shown.iter().rev()) {
+        names.push(side.name().then(&format!(", {}: {}", side.step(), side.text(result))));
+        let Some(change) = percent(side) else { continue };
+        let bar = ((change.min(0.0), change.max(0.0)), (row - HALF, row + HALF));
+        bars[side.influence.map_or(2, |_| side.side)].push(bar);
+        if change < span.low || change > span.high {
+            beyond[usize::from(change > 0.0)].push((change.clamp(span.low, span.high), row));
+        }
+    }
+    let bars = [Ink::Surface, Ink::Contact, Ink::Kept].into_iter().zip(bars.map(Shape::Boxes));
+    let ends = beyond.into_iter().zip([Sign::Left, Sign::Right]);
+    let ends = ends.map(|(points, sign)| (Ink::Text, Shape::signs(points, sign)));
+    let layers = std::iter::once((Ink::Quiet, Shape::Upright(0.0))).chain(bars).chain(ends);
+    let layers = layers.map(|(ink, shape)| Layer::unnamed(ink, shape)).collect();
+    let x = Axis::new(AxisScale::Linear, span, "change of", Sensitivity::RESULTS[result].symbol(), "%");
+    Chart::new(x, Axis::of_names(names), layers)
+}
+
+impl SensitivityReport<'_> {
+    /// Sentence on what stays constant while a number changes, and on the number of seeds.
+    fn note(&self) -> String {
+        if let Some(missing) = self.sensitivity.missing() {
+            return missing.to_owned();
+        }
+        let follows = match self.scene.adhesion {
+            Some(adhesion) if adhesion.parameter().is_some() => {
+                ", and the work of adhesion follows from them"
+            }
+            _ => "",
+        };
+        let seeds =
+            self.sensitivity.seeds.map(|_| format!(" Other seeds: range over {} profiles.", 1 + OTHER_SEEDS));
+        format!("All other numbers of the scene stay{follows}.{}", seeds.unwrap_or_default())
+    }
+}
+
+impl Report for SensitivityReport<'_> {
+    fn text(&self) -> Option<String> {
+        let mut sheet = Sheet::default();
+        sheet.paragraph(self.title);
+        if self.sensitivity.missing().is_none() {
+            let springs = grouped(self.scene.numerics.points);
+            sheet.heading(&format!("Changes of the results where one number changes, {springs} springs"));
+            sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
+        }
+        sheet.heading(&self.note());
+        Some(sheet.into_text())
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let values = |values: Values| {
+            object! { "adhesion_force": values[0], "zero_load_adhesion_force": values[1], "dissipated_energy": values[2] }
+        };
+        let side = move |(value, results): &(f64, Option<Values>)| {
+            results.map(|results| object! { "value": *value, "results": values(results) })
+        };
+        let influence = |influence: &Influence| {
+            let [smaller, larger] = influence.sides.each_ref().map(side);
+            object! {
+                "path": influence.axis.path.clone(), "name": influence.axis.name.clone(), "value": influence.value,
+                "smaller": smaller, "larger": larger,
+            }
+        };
+        let seeds = self.sensitivity.seeds.map(|[least, most]| {
+            object! { "profiles": 1 + OTHER_SEEDS, "least": values(least), "most": values(most) }
+        });
+        Some(Box::new(object! {
+            "scene": self.scene,
+            "step": STEP,
+            "results": values(self.sensitivity.present),
+            "numbers": self.sensitivity.influences.iter().map(influence).collect::<Vec<_>>(),
+            "seeds": seeds,
+        }))
+    }
+
+    /// A row for the scene, then a row for each change of each number.
+    fn table(&self) -> Option<Table<'_>> {
+        let rows = || {
+            let all = self.sensitivity.influences.iter();
+            let sides = all.flat_map(|one| {
+                let row =
+                    |side: &(f64, Option<Values>)| Some((one.axis.path.as_str(), Some(side.0), side.1?));
+                one.sides.iter().filter_map(row).collect::<Vec<_>>()
+            });
+            std::iter::once(("", None, self.sensitivity.present)).chain(sides)
+        };
+        let longest = self.sensitivity.influences.iter().map(|one| one.axis.path.len()).max().unwrap_or(0);
+        let mut table = Table::of(rows).with("path", asperity_data::Kind::Text(longest), |row| row.0);
+        table = table.real("value", |row| row.1);
+        for (index, quantity) in Sensitivity::RESULTS.iter().enumerate() {
+            table = table.real(quantity.name(), move |row| row.2[index]);
+        }
+        Some(table.done())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_are_short() {
+        for (change, text) in
+            [(-0.081, "-8.1 %"), (0.123, "+12 %"), (1e-5, "0 %"), (3.2, "×4.2"), (-0.5, "-50 %")]
+        {
+            assert_eq!(change_text(change), text);
+        }
+    }
+
+    /// Each change has a row and a bar: a whole number changes by a whole step, what is not allowed is stated, and a bar
+    /// beyond the frame has an arrow.
+    #[test]
+    fn each_change_has_a_row_and_a_bar_of_its_own() {
+        let scene = asperity_scene::open("jkr-sphere").unwrap().scene().clone();
+        let influence = |path: &str, value: f64, sides| {
+            let axis =
+                asperity_study::Axis::new(path, asperity_study::Spacing::List, Vec::new(), &scene).unwrap();
+            Influence { axis, value, sides }
+        };
+        let force = |force: f64| Some([Some(force), None, Some(1.0)]);
+        let sensitivity = Sensitivity {
+            present: [Some(2e-6), None, Some(1.0)],
+            influences: vec![
+                influence("material.poisson_ratio", 0.5, [(0.45, force(1.8e-6)), (0.55, None)]),
+                influence("roughness.modes.0", 4.0, [(3.0, force(3e-6)), (5.0, force(2.5e-6))]),
+            ],
+            seeds: Some([[Some(1e-6), None, Some(1.0)], [Some(8e-6), None, Some(1.0)]]),
+        };
+        let rows = sensitivity_table(&sensitivity, 9).into_iter().map(|row| row.join("|"));
+        let expected = [
+            "number|value|change|F_a|F_a(0)|ΔW",
+            "this scene|||2 µN|-|1 J",
+            "k_min|4|-1|+50 %|-|0 %",
+            "||+1|+25 %|-|0 %",
+            "ν|0.5|-10 %|-10 %|-|0 %",
+            "||+10 %|not allowed||",
+            "other seeds||least|-50 %|-|0 %",
+            "||most|×4|-|0 %",
+        ];
+        assert_eq!(rows.collect::<Vec<_>>(), expected);
+        let chart = sensitivity_chart(&sensitivity, 0, 1);
+        let names: Vec<String> = chart.y.names.iter().map(Label::to_string).collect();
+        assert_eq!(
+            names,
+            ["other seeds, most: ×4", "other seeds, least: -50 %", "k_min, +1: +25 %", "k_min, -1: +50 %"]
+        );
+        let arrows = |sign| {
+            let is_arrow =
+                |layer: &&Layer| matches!(&layer.shape, Shape::Curve { sign: Some(one), .. } if *one == sign);
+            chart.layers.iter().find(is_arrow).map(|layer| layer.shape.points().len())
+        };
+        assert_eq!((arrows(Sign::Right), arrows(Sign::Left)), (Some(1), Some(0)));
+        let none = Sensitivity { present: [Some(0.0), None, None], ..sensitivity };
+        let report = SensitivityReport { title: "None", scene: &scene, sensitivity: &none };
+        assert!(report.text().unwrap().contains("no pull-off"));
+    }
+}

@@ -1,0 +1,80 @@
+//! The least computation for each case: only the necessary building blocks, one after the other, without a plan,
+//! switches or memory of an earlier run.
+
+use super::cases::{
+    Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT, SAMPLES,
+    SEED, WORK_OF_ADHESION,
+};
+use asperity_contact::Move;
+use asperity_contact::{Body, Contact, Foundation, HessRule, History, Leg, LegRecord, Patch, run};
+use asperity_surface::Form;
+use asperity_surface::{Histogram, Line, SelfAffine, Synthesizer};
+use std::sync::Arc;
+
+/// Bins of the histogram of heights.
+const BINS: usize = 64;
+
+const LOOP: [Move; 2] = [Move::ToForce(FORCE), Move::ToSeparation];
+const TOUCH: [Move; 2] = [Move::ToTouch, Move::ToSeparation];
+const PRESS: [Move; 1] = [Move::ToForce(FORCE)];
+
+/// Result of a kernel.
+#[derive(Default)]
+pub struct Given {
+    pub history: History,
+    pub zero_load: [Option<f64>; 2],
+    pub histogram: Option<Histogram>,
+    pub fragments: Vec<Vec<Patch>>,
+}
+
+/// Runs the kernel of a case.
+pub fn kernel(case: &Case) -> Given {
+    let (smooth_or_rough, legs): (Line, &[Move]) = match case.class {
+        Class::SmoothPressed => (smooth(), &PRESS),
+        Class::AdhesivePressed => (rough(), &PRESS),
+        Class::AdhesiveTouch => (rough(), &TOUCH),
+        Class::RoughLoop | Class::AdhesiveLoop | Class::AdhesiveObserved => (rough(), &LOOP),
+    };
+    let (line, edges) = (&smooth_or_rough, case.edges);
+    let hess =
+        case.is_adhesive().then(|| HessRule::from_works(FOUNDATION, WORK_OF_ADHESION, WORK_OF_ADHESION));
+    let mut body = Body::new(&Contact::new(Arc::clone(&line.gaps), edges, FOUNDATION, hess), SAMPLES);
+    if !case.is_adhesive() {
+        let history = run(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
+        return Given { history, ..Given::default() };
+    }
+    let histogram =
+        case.is_observed().then(|| Histogram::new(line.heights(), line.lowest(), line.summit, BINS));
+    Given { histogram, ..adhesive(case, body, legs) }
+}
+
+const FOUNDATION: Foundation = Foundation::endless(LENGTH / POINTS as f64, EFFECTIVE_MODULUS);
+
+fn smooth() -> Line {
+    let sphere = Form::Paraboloid { radius: RADIUS };
+    Line::new(LENGTH, POINTS, Some(&sphere), None, 0.0).expect("a line")
+}
+
+fn rough() -> Line {
+    let spectrum = SelfAffine { hurst: HURST, first: 1, last: LAST_MODE, roll_off_mode: 0.0 };
+    let unit = Synthesizer::default().synthesize(spectrum, SEED, POINTS, 0.0, Vec::new()).expect("a line");
+    Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
+}
+
+/// A loading under adhesion, with the other results of its case beside the curve.
+fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
+    let mut fragments = Vec::new();
+    let history = run(&mut body, legs, |record: &LegRecord, leg: &Leg| {
+        if case.is_observed() {
+            let end = record.curve.last().filter(|end| end.springs > 0);
+            fragments.push(end.map_or_else(Vec::new, |end| leg.patches(end.indentation)));
+        }
+        Ok(())
+    });
+    let history = history.expect("a loading within reach");
+    let zero_load = match case.class {
+        Class::AdhesivePressed => [None; 2],
+        _ => body.zero_load_adhesion().expect("a contact at first touch"),
+    };
+    Given { history, zero_load, histogram: None, fragments }
+}

@@ -1,0 +1,174 @@
+//! Instructions of the program and of hand-written kernels, case by case.
+
+pub mod callgrind;
+mod cases;
+mod executed;
+mod kernels;
+
+pub use cases::Case;
+
+use asperity_contact::{History, Work};
+use asperity_scene::{Outcome, Simulation};
+use callgrind::Profile;
+use executed::EFFECTS;
+use std::fmt::Write;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Largest ratio of the instructions of the program to those of the kernel.
+pub const MOST: f64 = 1.02;
+
+/// Environment variable with the task of the process under callgrind.
+const CHILD: &str = "ASPERITY_INSTRUCTIONS";
+
+/// Task of a process under callgrind after it has read the scene of a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// Nothing: starting and reading are part of neither count.
+    Nothing,
+    /// The program's own simulation.
+    Program,
+    /// The kernel for this case.
+    Kernel,
+}
+
+impl What {
+    const ALL: [What; 3] = [What::Nothing, What::Program, What::Kernel];
+}
+
+/// The program's own way from a scene to its outcome.
+pub fn program(case: &Case) -> Outcome {
+    let mut simulation = Simulation::default();
+    let outcome = simulation.run(case.document().scene(), &|| false, &mut |_, _, _| Ok(()));
+    outcome.expect("a scene that can be computed")
+}
+
+/// Performs the task that the environment sets for a process under callgrind; `false` without a task.
+pub fn run_as_child() -> bool {
+    let Ok(asked) = std::env::var(CHILD) else { return false };
+    let mut words = asked.split(' ').map(|word| word.parse::<usize>().expect("an index"));
+    let case = Case::all()[words.next().expect("a case")];
+    let document = case.document();
+    match What::ALL[words.next().expect("what to do")] {
+        What::Nothing => drop(std::hint::black_box(document)),
+        What::Program => drop(std::hint::black_box(program(&case))),
+        What::Kernel => drop(std::hint::black_box(kernels::kernel(&case))),
+    }
+    true
+}
+
+/// Asserts that a kernel has the results of the program: otherwise it is no measure.
+pub fn assert_agree(case: &Case) {
+    let (outcome, given) = (program(case), kernels::kernel(case));
+    let what = case.name();
+    let forces = |history: &History| -> Vec<u64> {
+        history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.force.to_bits()).collect()
+    };
+    assert_eq!(forces(&outcome.history), forces(&given.history), "{what}");
+    assert_eq!(outcome.history.contacts, given.history.contacts, "{what}");
+    let zero_load = [outcome.zero_load_adhesion_force, outcome.zero_force_adhesion_force];
+    assert_eq!(zero_load, given.zero_load, "{what}");
+    assert_eq!(outcome.histogram, given.histogram, "{what}");
+    assert_eq!(outcome.fragments, given.fragments, "{what}");
+    assert!(outcome.history.legs.iter().all(|leg| leg.curve.iter().any(|point| point.springs > 0)), "{what}");
+}
+
+/// Counts of one case.
+pub struct Report {
+    case: Case,
+    program: u64,
+    kernel: u64,
+    /// Executed lines of the program's process.
+    profile: Profile,
+    /// The program's own counts.
+    work: Work,
+}
+
+/// Counts all cases, as many at a time as the machine has cores. `arguments` start the process as a child.
+pub fn count(cases: &[Case], arguments: &[&str]) -> Vec<Report> {
+    let next = AtomicUsize::new(0);
+    let reports = Mutex::new(Vec::new());
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                while let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let report = Report::of(*case, arguments);
+                    reports.lock().expect("no panic").push(report);
+                }
+            });
+        }
+    });
+    let mut reports = reports.into_inner().expect("no panic");
+    reports.sort_by_key(|report| report.case.index());
+    reports
+}
+
+impl Report {
+    fn of(case: Case, arguments: &[&str]) -> Report {
+        let profile = |what: What| {
+            let asked = format!("{} {}", case.index(), what as usize);
+            callgrind::profile(arguments, &[(CHILD, &asked)])
+        };
+        let [nothing, program, kernel] = What::ALL.map(profile);
+        let beyond = |profile: &Profile| profile.total() - nothing.total();
+        let (counted, of_kernel) = (beyond(&program), beyond(&kernel));
+        let work = self::program(&case).history.work;
+        Report { case, program: counted, kernel: of_kernel, profile: program, work }
+    }
+
+    /// Instructions of the program over those of the kernel.
+    pub fn ratio(&self) -> f64 {
+        self.program as f64 / self.kernel as f64
+    }
+
+    /// Returns true where executed lines are known: the program has line tables.
+    pub fn has_line_tables(&self) -> bool {
+        self.profile.has_line_tables()
+    }
+
+    /// One line for each violation.
+    pub fn failures(&self) -> Vec<String> {
+        let name = self.case.name();
+        let mut failures = Vec::new();
+        if self.ratio() > MOST || self.kernel == 0 {
+            failures.push(format!(
+                "{name}: {} instructions are {:.4} times the {} of the kernel",
+                self.program,
+                self.ratio(),
+                self.kernel
+            ));
+        }
+        for effect in EFFECTS {
+            let (wanted, instructions) = ((effect.called_for)(&self.case), effect.executed(&self.profile));
+            let counted = (effect.counted)(&self.work);
+            if self.has_line_tables() && wanted != (instructions > 0) {
+                let called = if wanted { "called for" } else { "not called for" };
+                failures.push(format!("{name}: {} is {called}: {instructions} instructions", effect.name));
+            }
+            if wanted != (counted > 0) {
+                failures.push(format!("{name}: the program counts {} {counted} times", effect.name));
+            }
+        }
+        failures
+    }
+
+    /// All reports as a table, with the effects that are executed.
+    pub fn table(reports: &[Report]) -> String {
+        let mut table = format!(
+            "{:<48} {:>14} {:>14} {:>8}  executed\n",
+            "scene of 2^16 springs", "program", "kernel", "ratio"
+        );
+        for report in reports {
+            let executed: Vec<&str> = EFFECTS
+                .iter()
+                .filter(|effect| effect.executed(&report.profile) > 0)
+                .map(|effect| effect.name)
+                .collect();
+            let Report { case, program, kernel, .. } = report;
+            let (name, ratio, executed) = (case.name(), report.ratio(), executed.join(", "));
+            let _ = writeln!(table, "{name:<48} {program:>14} {kernel:>14} {ratio:>8.4}  {executed}");
+        }
+        table
+    }
+}

@@ -1,0 +1,98 @@
+//! Instructions of 64 reversals over those of one loop to the deepest of them on the same line, trees included.
+
+use crate::instructions::callgrind;
+use asperity_contact::{Body, Contact, Foundation, HessRule, Solver};
+use asperity_contact::{Edges, Move};
+use asperity_surface::{Line, SelfAffine};
+use std::hint::black_box;
+use std::sync::Arc;
+
+/// Most loops that the reversals may take.
+const MOST_LOOPS: f64 = 16.0;
+
+/// Sends the process that callgrind watches the number of a task.
+const CHILD: &str = "ASPERITY_INSTRUCTIONS_OF_REVERSALS";
+
+const SPRINGS: usize = 1 << 16;
+const SAMPLES: usize = 512;
+/// Turning points at equal forces up to the load, in units of E* h L.
+const REVERSALS: u32 = 64;
+const LOAD: f64 = 0.4;
+const LENGTH: f64 = 1.0e-3;
+const EFFECTIVE_MODULUS: f64 = 2.0e6;
+const RMS_HEIGHT: f64 = 5.0e-7;
+
+/// κ and edges of the bodies. At a large κ most patches are new at each turning point.
+const BODIES: [(f64, Edges); 6] = [
+    (2.0, Edges::Grid),
+    (2.0, Edges::SubCell),
+    (6.0, Edges::Grid),
+    (6.0, Edges::SubCell),
+    (20.0, Edges::Grid),
+    (20.0, Edges::SubCell),
+];
+
+/// Part of a body's computation: its line alone, which all parts need; the loop; the reversals.
+#[derive(Clone, Copy)]
+enum Part {
+    Line,
+    Loop,
+    Reversals,
+}
+
+const PARTS: [Part; 3] = [Part::Line, Part::Loop, Part::Reversals];
+
+/// Performs the task that the environment sets for a process under callgrind; `false` without a task.
+pub fn run_as_child() -> bool {
+    let Ok(asked) = std::env::var(CHILD) else { return false };
+    let task: usize = asked.parse().expect("a number");
+    let ((kappa, edges), part) = (BODIES[task / PARTS.len()], PARTS[task % PARTS.len()]);
+    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: SPRINGS as u64 / 4, roll_off_mode: 0.0 };
+    let rough = spectrum.heights(1, SPRINGS).expect("memory for the line");
+    let line = Line::new(LENGTH, SPRINGS, None, Some(&rough), RMS_HEIGHT).expect("a finite line");
+    let foundation = Foundation::new(LENGTH, SPRINGS, EFFECTIVE_MODULUS);
+    let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
+    let work = RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa);
+    let hess = HessRule::from_works(foundation, work, work);
+    let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
+    let body = || Body::new(&Contact::new(Arc::clone(&line.gaps), edges, foundation, Some(hess)), SAMPLES);
+    match part {
+        Part::Line => drop(black_box(line.gaps.len())),
+        Part::Loop => {
+            let mut body = body();
+            for leg in [Move::ToForce(force), Move::ToSeparation] {
+                black_box(body.advance(leg).expect("a reachable leg"));
+            }
+        }
+        Part::Reversals => {
+            let turn = |turn: u32| Move::ToForce(force * f64::from(turn) / f64::from(REVERSALS));
+            let turns: Vec<Move> = (1..=REVERSALS).map(turn).collect();
+            let mut see = |_, reversal| {
+                black_box(reversal);
+                Ok(())
+            };
+            body().reversals(&turns, &[], &mut see).expect("reachable turning points");
+        }
+    }
+    true
+}
+
+/// Counts all bodies: a table, and a line for each with too many loops. `arguments` start the process as a child.
+pub fn count(arguments: &[&str]) -> (String, Vec<String>) {
+    let mut table = format!("{REVERSALS} reversals of {SPRINGS} springs, in loops\n");
+    let mut failures = Vec::new();
+    for (index, (kappa, edges)) in BODIES.into_iter().enumerate() {
+        let counted = |part: Part| {
+            let task = (PARTS.len() * index + part as usize).to_string();
+            callgrind::profile(arguments, &[(CHILD, &task)]).total()
+        };
+        let [line, one, all] = PARTS.map(counted);
+        let loops = (all - line) as f64 / (one - line) as f64;
+        let row = format!("κ = {kappa:>4}, {edges:?}: {loops:.2}");
+        if loops > MOST_LOOPS {
+            failures.push(format!("{row}, at most {MOST_LOOPS}"));
+        }
+        table += &format!("{row}\n");
+    }
+    (table, failures)
+}

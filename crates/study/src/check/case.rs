@@ -1,0 +1,167 @@
+//! A case of the catalogue of checks, and what its measurements share: adhesive rough bodies, loaded through the public
+//! interface.
+
+use asperity_contact::{Edges, Move};
+use asperity_scene::{CheckedScene, Contact, Cycle, Document, Material, Outcome, Profile, Simulation};
+use asperity_surface::{Line, SelfAffine, phases};
+use std::error::Error;
+use std::f64::consts::{PI, TAU};
+
+pub(super) const CLOSED_FORM: &str = "closed form";
+pub(super) const INDEPENDENT: &str = "independent computation";
+pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
+
+/// What a case computes, and the function that measures its error.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Subject {
+    /// A scene, by its text.
+    Scene(&'static str, fn(&CheckedScene) -> Measured),
+    /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The largest error counts.
+    Bodies(fn(&Body) -> Measured),
+}
+
+/// A case whose result is known.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Name of the case.
+    pub name: &'static str,
+    /// Family: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of the rules.
+    pub family: &'static str,
+    /// Statement that the case checks.
+    pub holds: &'static str,
+    /// Source of the known result.
+    pub evidence: &'static str,
+    /// Quantity whose error is compared with the bound.
+    pub error_of: &'static str,
+    pub(super) bounds: &'static [(Edges, f64)],
+    pub(super) subject: Subject,
+}
+
+impl Case {
+    pub(super) const fn row(
+        [family, evidence]: [&'static str; 2],
+        [name, holds, error_of]: [&'static str; 3],
+        bounds: &'static [(Edges, f64)],
+        subject: Subject,
+    ) -> Case {
+        Case { name, family, holds, evidence, error_of, bounds, subject }
+    }
+}
+
+/// Bounds for edges at springs and for edges between springs.
+pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
+    [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
+}
+
+pub(super) fn with(scene: &CheckedScene, path: &str, value: f64) -> Measured<CheckedScene> {
+    Ok(Document::from_scene(scene, "check")?.set(path, &format!("{value:e}"))?.scene().clone())
+}
+
+pub(super) fn outcome(scene: &CheckedScene) -> Measured<Outcome> {
+    Ok(Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(()))?)
+}
+
+pub(super) fn ensure(holds: bool, what: impl FnOnce() -> String) -> Measured<()> {
+    if holds { Ok(()) } else { Err(what().into()) }
+}
+
+pub(super) fn relative_error(found: f64, expected: f64) -> f64 {
+    (found / expected - 1.0).abs()
+}
+
+pub(super) fn relative_errors<const N: usize>(pairs: [(f64, f64); N]) -> Measured {
+    largest(pairs.map(|(found, expected)| Ok(relative_error(found, expected))))
+}
+
+/// Returns the largest error; NaN counts as infinite.
+pub(super) fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
+    errors.into_iter().try_fold(0.0, |most: f64, error| {
+        let error = error?;
+        Ok(if error.is_nan() { f64::INFINITY } else { most.max(error) })
+    })
+}
+
+/// Error of a case, or the reason why there is none.
+pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
+
+pub const RANDOM: u64 = 48;
+
+/// Effective modulus of random bodies, Pa; their length, m; and their rms height or largest height, m.
+const MODULUS: f64 = 2.0e6;
+const LENGTH: f64 = 1.0e-4;
+const HEIGHT: f64 = 1.0e-7;
+
+/// A rigid profile on an adhesive foundation: heights (m), length (m), effective modulus E* (Pa), work of adhesion γ (J/m²).
+#[derive(Clone, Debug)]
+pub struct Body {
+    pub heights: Vec<f64>,
+    pub length: f64,
+    pub modulus: f64,
+    pub work: f64,
+    pub edges: Edges,
+}
+
+impl Body {
+    /// Creates a body with one of several kinds of profiles. Its adhesion ranges from almost none to far more than full
+    /// contact needs; the seed determines the body on every machine.
+    pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
+        let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
+        let mut next = || numbers.next().unwrap_or(0.0);
+        let points = 20 + (300.0 * next()) as usize;
+        // γ for which the largest stretch of the whole profile is 1e−3 to 3 rms heights.
+        let reach = HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
+        let work = reach * reach * MODULUS / (PI * LENGTH);
+        let heights = match seed % 3 {
+            0 => {
+                let spectrum = SelfAffine {
+                    hurst: 0.1 + 0.8 * next(),
+                    first: 1,
+                    last: points as u64 / 2,
+                    roll_off_mode: 0.0,
+                };
+                let heights = spectrum.heights(seed, points)?;
+                Line::new(LENGTH, points, None, Some(&heights), HEIGHT)?.heights().collect()
+            }
+            1 => (0..points).map(|_| HEIGHT * next()).collect(),
+            _ => (0..points).map(|_| 0.25 * HEIGHT * (5.0 * next()).floor()).collect(),
+        };
+        Ok(Body { heights, length: LENGTH, modulus: MODULUS, work, edges })
+    }
+
+    /// Returns the height of the profile from its lowest to its highest point, m.
+    pub fn depth(&self) -> f64 {
+        let (least, most) =
+            self.heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), height| {
+                (height.min(least), height.max(most))
+            });
+        most - least
+    }
+
+    /// Returns the largest stretch, m, by eq. (10), of a patch as long as the whole profile.
+    pub fn stretch(&self) -> f64 {
+        (PI * self.length * self.work / self.modulus).sqrt()
+    }
+
+    /// Returns a force of the order of the forces that act, N.
+    pub fn force_unit(&self) -> f64 {
+        self.modulus * self.length * (self.depth() + self.stretch())
+    }
+
+    /// Returns irregular indentations from just before separation to full contact, m, as turning points.
+    pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
+        let (low, high) = (-0.9 * self.stretch(), 1.1 * self.depth() + 1e-3 * self.stretch());
+        let mut turns = phases(seed, 1).map(|phase| low + (high - low) * phase / TAU);
+        std::array::from_fn(|_| turns.next().unwrap_or(low))
+    }
+
+    /// Loads the separated body to one indentation after the other, and if it `separates` finally to separation; `samples`
+    /// is the number of curve points of each stage.
+    pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
+        let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
+        let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();
+        let profile = Profile::from_heights(&self.heights, self.length / self.heights.len() as f64)?;
+        let contact = Contact::builder(&profile, Material::effective(self.modulus));
+        let contact = contact.work_of_adhesion(self.work).edges(self.edges).samples(samples);
+        Ok(contact.build()?.load(&legs)?)
+    }
+}

@@ -1,0 +1,137 @@
+//! Cases with laws that hold for every body: reversibility without adhesion, memory, energy, scaling, and the agreement of
+//! both solvers.
+
+use super::case::Subject::{Bodies, Scene as OfScene};
+use super::case::{
+    Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with,
+};
+use asperity_contact::Edges;
+use asperity_contact::{CurvePoint, LegRecord};
+use asperity_scene::{CheckedScene, Cycle, Solver};
+
+const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
+const COMPUTED: [&str; 2] = ["laws", INDEPENDENT];
+const FORCE: &str = "force, over the scale";
+
+const ROUGH: &str = "(version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
+    roughness: SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 128), seed: 1), adhesion: (work: 2.0e-5),
+    loading: [ToTouch, ToIndentation(1.9e-7), ToIndentation(0.43e-7), ToIndentation(1.1e-7), ToIndentation(3.1e-7),
+    ToIndentation(-0.2e-7)], numerics: (points: 400, samples: 9), observe: [Fragments])";
+
+#[rustfmt::skip]
+pub const CASES: &[Case] = &[
+    Case::row(LAW, ["no-adhesion", "At γ = 0 unloading retraces loading bit for bit, and no energy is dissipated.",
+        "force, over the largest"], &both(0.0, 0.0), Bodies(no_adhesion)),
+    Case::row(LAW, ["return-point-memory", "A minor loop closes to the last bit, and a deeper load erases the memory of \
+        earlier turning points.", FORCE], &both(0.0, 0.0), Bodies(memory)),
+    Case::row(LAW, ["no-energy-for-nothing", "No closed loop gains energy, and the energy dissipated from separation to \
+        separation is ∮F dd.", "energy, over the scale"], &both(1e-4, 1e-4), Bodies(energy)),
+    Case::row(LAW, ["lengths-and-moduli", "Lengths from 2 nm to 6.6 m and E* from 2 Pa to 8.4 TPa, all else scaled \
+        alike, change no bit of contact and forces.", FORCE], &both(0.0, 0.0), Bodies(units)),
+    Case::row(COMPUTED, ["stepwise-solver", "On profiles from bare to sticky the stepwise solver, which applies the \
+        rules spring by spring, comes to the same contact and forces.", FORCE],
+        &[(Edges::Grid, 1e-15)], OfScene(ROUGH, stepwise)),
+];
+
+pub fn end(leg: &LegRecord) -> CurvePoint {
+    leg.curve.last().copied().unwrap_or_default()
+}
+
+fn no_adhesion(body: &Body) -> Measured {
+    let cycle = Body { work: 0.0, ..body.clone() }.load(&[0.8 * body.depth()], true, 301)?;
+    let [loading, unloading] = cycle.legs() else { return Ok(f64::NAN) };
+    let is_lossless = cycle.legs().iter().all(|leg| leg.released_energy == 0.0);
+    ensure(is_lossless, || "energy is lost".into())?;
+    ensure(loading.curve.len() == unloading.curve.len(), || "other points on the way back".into())?;
+    largest(loading.curve.iter().zip(unloading.curve.iter().rev()).map(|(one, other)| {
+        let place = |point: &CurvePoint| (point.indentation.to_bits(), point.springs, point.fragments);
+        ensure(place(one) == place(other), || format!("at {:e} m another contact", one.indentation))?;
+        Ok((one.force - other.force).abs() / loading.largest.force)
+    }))
+}
+
+fn memory(body: &Body) -> Measured {
+    let mut turns: [f64; 3] = body.turns(10);
+    turns.sort_by(f64::total_cmp);
+    let [low, middle, high] = turns;
+    let pairs: [(&[f64], &[f64]); 3] = [
+        (&[high], &[middle, low, middle, high]),
+        (&[high, low], &[high, low, middle, low]),
+        (&[high, low, middle], &[high, middle, high, low, middle, low, middle]),
+    ];
+    largest(pairs.map(|(short, long)| {
+        let (one, other) = (body.load(short, false, 2)?, body.load(long, false, 2)?);
+        ensure(one.patches() == other.patches(), || format!("{long:?} leaves another contact"))?;
+        let force = |legs: &[LegRecord]| legs.last().map_or(f64::NAN, |leg| end(leg).force);
+        Ok((force(one.legs()) - force(other.legs())).abs() / body.force_unit())
+    }))
+}
+
+fn energy(body: &Body) -> Measured {
+    let scale = body.force_unit() * (body.depth() + body.stretch());
+    let [a, b] = body.turns(12);
+    let (low, high) = (a.min(b), a.max(b).max(0.0));
+    let lost = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
+    let of_loop = lost(&body.load(&[high, low, high], false, 2)?.legs()[1..]);
+    ensure(of_loop >= -1e-14 * scale, || {
+        format!("a loop from {high:e} to {low:e} m gains {:e} J", -of_loop)
+    })?;
+    let cycle = body.load(&[high, low, high], true, 20_000)?;
+    // A jump may lie anywhere between two points of the curve: the error of the trapezia falls with their number.
+    let trapezium = |pair: &[CurvePoint]| {
+        0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
+    };
+    let done: f64 = cycle.legs().iter().flat_map(|leg| leg.curve.windows(2)).map(trapezium).sum();
+    Ok((lost(cycle.legs()) - done).abs() / scale)
+}
+
+/// Scales lengths along the profile, heights and stresses by these powers of two, which must not change a bit of any
+/// mantissa.
+pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
+    let turns: [f64; 6] = body.turns(15);
+    let one = body.load(&turns, false, 33)?;
+    // The sum with 0 makes −0 the same as 0.
+    let bits = |cycle: &Cycle, height: f64, force: f64| -> Vec<_> {
+        let points =
+            cycle.curve().map(|point| ([point.indentation * height, point.force * force], point.springs));
+        let lost = cycle.legs().iter().map(|leg| ([leg.released_energy * force * height, 0.0], leg.detached));
+        points
+            .chain(lost)
+            .map(|(values, springs)| (values.map(|value| (value + 0.0).to_bits()), springs))
+            .collect()
+    };
+    for factors in powers {
+        let [length, height, stress] = factors.map(|power| 2.0_f64.powi(power));
+        let other = Body {
+            heights: body.heights.iter().map(|point| height * point).collect(),
+            length: length * body.length,
+            modulus: stress * body.modulus,
+            // Δl² = π ℓ γ/E* scales with the square of heights, whose own square may overflow or underflow.
+            work: height * (height * body.work) * (stress / length),
+            edges: body.edges,
+        };
+        let cycle = other.load(&turns.map(|turn| height * turn), false, 33)?;
+        let is_same = bits(&one, height, length * height * stress) == bits(&cycle, 1.0, 1.0);
+        ensure(is_same, || format!("2 to the powers {factors:?}: other bits"))?;
+    }
+    Ok(0.0)
+}
+
+fn units(body: &Body) -> Measured {
+    only_scales(
+        body,
+        &[[-15, 0, 0], [16, 0, 0], [-15, -15, 0], [16, 16, 0], [0, 0, -20], [0, 0, 22], [7, -9, 5]],
+    )
+}
+
+fn stepwise(scene: &CheckedScene) -> Measured {
+    largest([0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3].into_iter().zip(1..).map(|(work, tenths)| {
+        let scene = with(&with(scene, "adhesion.work", work)?, "roughness.hurst", 0.1 * f64::from(tenths))?;
+        let exact = outcome(&scene)?;
+        let steps = outcome(&scene.with(|scene| scene.numerics.solver = Solver::Stepwise { step: 1.0e-8 })?)?;
+        ensure(exact.fragments == steps.fragments, || format!("γ = {work:e} J/m²: another contact"))?;
+        let unit = exact.governing.effective_modulus * scene.length * exact.line.deepest;
+        let legs = exact.history.legs.iter().zip(&steps.history.legs);
+        largest(legs.map(|(one, other)| Ok((end(one).force - end(other).force).abs() / unit)))
+    }))
+}

@@ -1,0 +1,102 @@
+//! The catalogue of checks: statements about scenes and profiles, each with its evidence and an error bound, computed on
+//! this machine through the public interface alone.
+//!
+//! A check computes one number, the error, and compares it with a bound stated beforehand. The evidence is a closed form,
+//! the stepwise solver, which applies the rules without tree and thresholds, or a law that holds for every body. A check
+//! that cannot be computed fails with a sentence that says why.
+
+pub(crate) mod case;
+pub(crate) mod closed_forms;
+pub(crate) mod hard_cases;
+pub(crate) mod laws;
+
+use asperity_contact::Edges;
+use asperity_scene::{CheckedScene, Document};
+use case::Case;
+use case::{Body, Measured, Subject, largest};
+use std::time::Instant;
+
+/// A case, with the edge model for which it is checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Check {
+    /// The case.
+    pub case: Case,
+    /// Edge model of the contact patches.
+    pub edges: Edges,
+    /// Largest allowed error.
+    pub bound: f64,
+}
+
+/// The result of a check.
+#[derive(Debug)]
+pub struct Verdict {
+    /// The check that was computed.
+    pub check: Check,
+    /// The error, or the reason why it could not be computed.
+    pub error: Result<f64, String>,
+    /// Time of the check, s.
+    pub seconds: f64,
+}
+
+impl Verdict {
+    /// Returns true if the error is within its bound.
+    pub fn passes(&self) -> bool {
+        // NaN is not within any bound.
+        self.error.as_ref().is_ok_and(|&error| error <= self.check.bound)
+    }
+}
+
+/// Returns all cases in the order of display.
+pub fn catalogue() -> Vec<Case> {
+    [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
+}
+
+/// Returns the checks of the chosen cases.
+pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
+    let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
+    catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()
+}
+
+/// Computes a check and its error.
+pub fn judge(check: Check) -> Verdict {
+    let (clock, edges) = (Instant::now(), check.edges);
+    let error = match check.case.subject {
+        Subject::Scene(text, measure) => scene(text, edges).and_then(|scene| measure(&scene)),
+        Subject::Bodies(measure) => {
+            largest((0..case::RANDOM).map(|seed| measure(&Body::random(seed, edges)?)))
+        }
+    };
+    Verdict { check, error: error.map_err(|error| error.to_string()), seconds: clock.elapsed().as_secs_f64() }
+}
+
+fn scene(text: &str, edges: Edges) -> Measured<CheckedScene> {
+    Ok(Document::parse(text, "check")?.scene().with(|scene| scene.numerics.edges = edges)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cases_have_names_of_their_own_and_sentences() {
+        let mut names: Vec<_> = catalogue().iter().map(|case| case.name).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        for case in catalogue() {
+            assert!(case.holds.ends_with('.') && !case.holds.contains("  "), "{}", case.holds);
+            assert!(!case.bounds.is_empty(), "{}", case.name);
+        }
+        assert!(checks(|_| true).iter().all(|check| check.bound >= 0.0));
+    }
+
+    #[test]
+    fn an_error_above_the_bound_fails() {
+        let check = checks(|case| case.name == "hertz-sphere")[0];
+        assert!(judge(check).passes());
+        assert!(!judge(Check { bound: 1e-12, ..check }).passes());
+        let nothing = Verdict { check, error: Ok(f64::NAN), seconds: 0.0 };
+        assert!(!nothing.passes());
+    }
+}
