@@ -31,13 +31,14 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     str::from_utf8(text).map_or_else(other, Cow::Borrowed)
 }
 
-/// Returns the size in bytes of compressed heights from their number in a header; refuses a size above the limits.
-pub(super) fn unpacked_size(points: usize, number: Number, place: Place) -> Result<usize, TopographyError> {
-    let bytes = points.saturating_mul(number.size());
+/// Returns the size in bytes of compressed points of `size` bytes from their number in a header; refuses a size above the
+/// limits.
+pub(super) fn unpacked_size(points: usize, size: usize, place: Place) -> Result<usize, TopographyError> {
+    let bytes = points.saturating_mul(size);
     if points <= MOST_POINTS && bytes <= MOST_BYTES {
         return Ok(bytes);
     }
-    let fault = format!("{points} compressed heights of {} bytes", number.size());
+    let fault = format!("{points} compressed heights of {size} bytes");
     Err(refused(place, fault, format!("at most {MOST_POINTS} heights and {MOST_BYTES} bytes")))
 }
 

@@ -7,6 +7,7 @@
 
 pub(crate) mod bytes;
 pub(crate) mod container;
+pub(crate) mod grid;
 pub(crate) mod gwy;
 pub(crate) mod missing;
 pub(crate) mod netcdf;

@@ -82,7 +82,7 @@ fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> 
 /// Decompresses heights: a table with the size of each part before and after compression, then the parts.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, TopographyError> {
     let place = data.place();
-    let expected = unpacked_size(points, number, place.clone())?;
+    let expected = unpacked_size(points, number.size(), place.clone())?;
     let parts = data.size(Number::U32)?;
     if parts > MOST_PARTS {
         return Err(refused(place, format!("{parts} compressed parts"), format!("at most {MOST_PARTS}")));

@@ -2,8 +2,10 @@
 
 use super::Unit;
 use super::bytes::{Archive, Bytes, Number, Order, unpacked_size};
+use super::grid::{Digits, map_of};
 use super::reading::Reading;
 use super::{Place, TopographyError, refused, shown};
+use asperity_data::{emptied, gathered, push};
 use encoding_rs::{Encoding, UTF_8};
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -29,25 +31,113 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, TopographyError>
     let root = document.root_element();
     let axis = |name: &str| find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"));
     let [x, y, z] = [axis("CX")?, axis("CY")?, axis("CZ")?];
-    let (along, between) = (number(x, "Increment")?, number(y, "Increment")?);
-    let (scale, offset) = (number(z, "Increment")?.unwrap_or(1.0), number(z, "Offset")?.unwrap_or(0.0));
-    if let Some(axis) = [x, y].into_iter().find(|axis| text(*axis, "AxisType") != "I") {
-        let kind = shown(text(axis, "AxisType"));
-        let fault = format!("the axis {} is of type {kind:?}", axis.tag_name().name());
-        return Err(wrong(fault, "\"I\", even distances"));
+    let axes = [Axis::of(x)?, Axis::of(y)?, Axis::of(z)?];
+    let link = find(root, "PointDataLink");
+    if !text(root, "ListDimension").is_empty() {
+        let points = count(root, "ListDimension")?;
+        if axes.iter().any(|axis| !axis.is_absolute) {
+            return Err(wrong("a list of points with an incremental axis", "absolute axes"));
+        }
+        return scattered(sorted(coordinates(&mut archive, root, link, points, &axes)?)?, points);
     }
     let (columns, rows) = (count(root, "SizeX")?, count(root, "SizeY")?);
     if count(root, "SizeZ")? != 1 {
         return Err(wrong("several layers", "SizeZ of 1"));
     }
     let points = columns.saturating_mul(rows);
-    let mut heights = match find(root, "PointDataLink") {
-        Some(link) => linked(&mut archive, root, trimmed(link), points, text(z, "DataType"))?,
-        None => listed(root, points)?,
-    };
-    heights.iter_mut().for_each(|height| *height = *height * scale + offset);
-    let spacing = along.zip(between).map(|(along, between)| [along, between]);
+    let mut found = coordinates(&mut archive, root, link, points, &axes)?;
+    if axes[0].is_absolute || axes[1].is_absolute {
+        for (axis, of) in axes.iter().enumerate().filter(|(_, of)| !of.is_absolute) {
+            let distance = of.increment.unwrap_or(1.0);
+            let place = |index: usize| if axis == 0 { index % columns } else { index / columns };
+            found[axis] = gathered(points, (0..points).map(|index| place(index) as f64 * distance))?;
+        }
+        return scattered(found, columns);
+    }
+    let spacing = axes[0].increment.zip(axes[1].increment).map(|(along, between)| [along, between]);
+    let [.., heights] = found;
     Ok(Reading::even("X3P", heights, columns, spacing, [Some(Unit::METRE); 3]))
+}
+
+/// How an axis is stored.
+struct Axis<'a> {
+    /// True if each point has its own coordinate, else the distance is the increment.
+    is_absolute: bool,
+    increment: Option<f64>,
+    offset: f64,
+    data_type: &'a str,
+}
+
+impl<'a> Axis<'a> {
+    fn of(axis: Node<'a, '_>) -> Result<Self, TopographyError> {
+        let kind = text(axis, "AxisType");
+        let name = axis.tag_name().name();
+        let is_absolute = match kind {
+            // Heights are always absolute.
+            _ if name == "CZ" => true,
+            "A" => true,
+            "I" => false,
+            _ => {
+                let fault = format!("the axis {name} is of type {:?}", shown(kind));
+                return Err(wrong(fault, "\"I\", even distances, or \"A\", a position of each point"));
+            }
+        };
+        let offset = number(axis, "Offset")?.unwrap_or(0.0);
+        Ok(Axis {
+            is_absolute,
+            increment: number(axis, "Increment")?,
+            offset,
+            data_type: text(axis, "DataType"),
+        })
+    }
+}
+
+/// Reads x, y and z of each point, m, from a binary file or a list in the index; without an axis that has no coordinates.
+fn coordinates(
+    archive: &mut Archive<'_>,
+    root: Node<'_, '_>,
+    link: Option<Node<'_, '_>>,
+    points: usize,
+    axes: &[Axis<'_>; 3],
+) -> Result<[Vec<f64>; 3], TopographyError> {
+    let mut found = match link {
+        Some(link) => linked(archive, root, trimmed(link), points, axes)?,
+        None => listed(root, points, axes)?,
+    };
+    for (values, axis) in found.iter_mut().zip(axes) {
+        let (scale, offset) = (axis.increment.unwrap_or(1.0), axis.offset);
+        values.iter_mut().for_each(|value| *value = *value * scale + offset);
+    }
+    Ok(found)
+}
+
+/// The points of a list without an order, by y and then by x.
+fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], TopographyError> {
+    let [x, y, _] = &found;
+    let mut order = gathered(x.len(), 0..x.len())?;
+    order.sort_unstable_by(|one, other| y[*one].total_cmp(&y[*other]).then(x[*one].total_cmp(&x[*other])));
+    let [x, y, heights] = found.map(|values| gathered(order.len(), order.iter().map(|index| values[*index])));
+    Ok([x?, y?, heights?])
+}
+
+/// The profile, in one row of points with the same y, or the map of points with positions of their own. A point without a
+/// position is left out.
+fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, TopographyError> {
+    let is_one_row = columns == found[2].len();
+    let [x, y, _] = &found;
+    let measured = x.iter().zip(y).map(|(x, y)| x.is_finite() && y.is_finite());
+    let measured = gathered(x.len(), measured)?;
+    for values in &mut found {
+        let mut is_measured = measured.iter();
+        values.retain(|_| is_measured.next() == Some(&true));
+    }
+    let [x, y, heights] = found;
+    let units = [Some(Unit::METRE); 3];
+    if is_one_row && y.iter().all(|position| *position == y[0]) {
+        return Ok(Reading::profile("X3P", x, heights, [units[0], units[2]]));
+    }
+    let map = map_of([&x, &y], &heights, [Digits::EXACT; 2], |index| Place::Point(index + 1))?;
+    Ok(Reading::even("X3P", map.heights, map.columns, map.distances, units))
 }
 
 /// Encoding that the XML declaration states, if it is one that contains ASCII.
@@ -76,52 +166,78 @@ fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
-/// Reads the heights of a binary file of an archive; heights marked invalid in the bit field are missing.
+/// Reads the coordinates of a binary file of an archive, point by point; points marked invalid in the bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,
     link: &str,
     points: usize,
-    kind: &str,
-) -> Result<Vec<f64>, TopographyError> {
-    let Some((_, number)) = TYPES.into_iter().find(|(letter, _)| *letter == kind) else {
-        return Err(wrong(format!("heights of type {:?}", shown(kind)), "I, L, F or D"));
+    axes: &[Axis<'_>; 3],
+) -> Result<[Vec<f64>; 3], TopographyError> {
+    let of_axis = |axis: &Axis<'_>| {
+        let found = TYPES.into_iter().find(|(letter, _)| *letter == axis.data_type);
+        let fault = || wrong(format!("coordinates of type {:?}", shown(axis.data_type)), "I, L, F or D");
+        found.map(|(_, number)| number).ok_or_else(fault)
     };
+    let absolute = axes.iter().enumerate().filter(|(_, axis)| axis.is_absolute);
+    let types = absolute.map(|(place, axis)| Ok((place, of_axis(axis)?)));
+    let types = types.collect::<Result<Vec<_>, TopographyError>>()?;
     let mut read = |name: &str, bytes: usize, allowed: String| match archive.unpacked_up_to(name, bytes)? {
         content if content.len() == bytes => Ok(content),
         content => Err(refused(Place::Part(name.to_owned()), format!("{} bytes", content.len()), allowed)),
     };
-    let expected = unpacked_size(points, number, Place::Part(INDEX.to_owned()))?;
+    let size = types.iter().map(|(_, number)| number.size()).sum();
+    let expected = unpacked_size(points, size, Place::Part(INDEX.to_owned()))?;
     let content = read(link, expected, format!("{expected} bytes for {points} points"))?;
-    let mut heights = Bytes::new(&content, Order::Little).numbers(points, number)?;
+    let mut data = Bytes::new(&content, Order::Little);
+    let mut found = [const { Vec::new() }; 3];
+    if let [(place, number)] = types[..] {
+        found[place] = data.numbers(points, number)?;
+    } else {
+        for (place, _) in &types {
+            found[*place] = emptied(Vec::new(), points)?;
+        }
+        for _ in 0..points {
+            for (place, number) in &types {
+                found[*place].push(data.number(*number)?);
+            }
+        }
+    }
     if let Some(link) = find(root, "ValidPointsLink") {
         let valid = read(trimmed(link), points.div_ceil(8), format!("a bit for each of {points} points"))?;
         let is_missing = |index: usize| valid[index / 8] >> (index % 8) & 1 == 0;
-        let missing = heights.iter_mut().enumerate().filter(|(index, _)| is_missing(*index));
-        missing.for_each(|(_, height)| *height = f64::NAN);
+        // What is stored for such a point, its position included, means nothing.
+        for values in &mut found {
+            let missing = values.iter_mut().enumerate().filter(|(index, _)| is_missing(*index));
+            missing.for_each(|(_, value)| *value = f64::NAN);
+        }
     }
-    Ok(heights)
+    Ok(found)
 }
 
-/// Reads the heights of a list in the index: the last number of each entry; an empty entry is a missing point.
-fn listed(root: Node<'_, '_>, points: usize) -> Result<Vec<f64>, TopographyError> {
+/// Reads the coordinates of a list in the index: the last number of each entry is a height; an empty entry is a missing point.
+fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Vec<f64>; 3], TopographyError> {
     let list =
         find(root, "DataList").ok_or_else(|| wrong("neither PointDataLink nor DataList", "one of them"))?;
-    let mut heights = Vec::new();
+    let mut found = [const { Vec::new() }; 3];
     for datum in list.children().filter(|node| node.tag_name().name() == "Datum") {
         let text = trimmed(datum);
-        let last = text.rsplit(';').next().unwrap_or_default().trim();
-        let height = if last.is_empty() { Ok(f64::NAN) } else { last.parse::<f64>() };
-        heights.push(
-            height
-                .map_err(|_| wrong(format!("Datum {} = {:?}", heights.len() + 1, shown(text)), "numbers"))?,
-        );
+        let mut cells = text.rsplit(';').map(str::trim);
+        let places = [2, 1, 0].into_iter().filter(|place| axes[*place].is_absolute);
+        for place in places {
+            let cell = cells.next().unwrap_or_default();
+            let is_missing = cell.is_empty() && (place == 2 || text.is_empty());
+            let value = if is_missing { Ok(f64::NAN) } else { cell.parse::<f64>() };
+            let number = found[place].len() + 1;
+            let fault = |_| wrong(format!("Datum {number} = {:?}", shown(text)), "numbers");
+            push(&mut found[place], value.map_err(fault)?)?;
+        }
     }
-    if heights.len() != points {
-        let fault = format!("{} heights in the list", heights.len());
-        return Err(wrong(fault, &format!("{points}, SizeX times SizeY")));
+    if found[2].len() != points {
+        let fault = format!("{} heights in the list", found[2].len());
+        return Err(wrong(fault, &format!("{points}, the number of points")));
     }
-    Ok(heights)
+    Ok(found)
 }
 
 /// Returns the first element of this name below a node, in any namespace.
@@ -250,7 +366,50 @@ mod tests {
         assert!((reading.heights[0] - 6e-9).abs() < 1e-20 && reading.heights[2].is_nan());
         let short = list.replace("<Datum>2</Datum>", "");
         let error = with(&format!("{before}{short}{after}")).unwrap_err();
-        assert_eq!(error, "main.xml: 5 heights in the list; allowed: 6, SizeX times SizeY");
+        assert_eq!(error, "main.xml: 5 heights in the list; allowed: 6, the number of points");
+    }
+
+    #[test]
+    fn points_with_positions_of_their_own_are_profiles_and_maps() {
+        let (before, rest) = MAIN.split_once("<MatrixDimension>").unwrap();
+        let (_, after) = rest.split_once("</DataLink>").unwrap();
+        let absolute = before.replacen("<CX><AxisType>I", "<CX><AxisType>A", 1);
+        let both = absolute.replacen("<CY><AxisType>I", "<CY><AxisType>A", 1);
+        let matrix = |columns: usize, rows: usize| {
+            format!(
+                "<MatrixDimension><SizeX>{columns}</SizeX><SizeY>{rows}</SizeY><SizeZ>1</SizeZ></MatrixDimension>"
+            )
+        };
+        let list = |datums: &str| {
+            let cells: String = datums.split(' ').map(|datum| format!("<Datum>{datum}</Datum>")).collect();
+            format!("<DataList>{cells}</DataList>")
+        };
+        let read = |head: &str, dimension: &str, datums: &str| {
+            with(&format!("{head}{dimension}{}{after}", list(datums)))
+        };
+        let found = read(&absolute, &matrix(3, 1), "1;5 3;6 7;7").unwrap();
+        assert_eq!((found.positions.unwrap()[2] * 1e6, found.columns), (7.0, 3));
+        // A point without a position is left out, of a list in any order.
+        let points = "<ListDimension>7</ListDimension>";
+        let found = read(&both, points, "1;0;1 0;0;0 0;1;3 1;1;4 2;1;5  2;0;2").unwrap();
+        assert_eq!((found.columns, found.spacing.unwrap()[0] * 1e6), (3, 1.0));
+        let steps =
+            |heights: &[f64]| heights.iter().map(|height| (height * 1e9).round() - 5.0).collect::<Vec<_>>();
+        assert_eq!(steps(&found.heights), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        // With rows that are even: positions along them.
+        let found = read(&absolute, &matrix(2, 2), "0;1 3;2 0;3 3;4").unwrap();
+        assert_eq!((found.columns, found.spacing.map(|[x, y]| (x * 1e6, y * 1e6))), (2, Some((3.0, 2.0))));
+        let numbers: Vec<u8> =
+            [0, 0, 10, 1, 0, 11].iter().flat_map(|number: &i16| number.to_le_bytes()).collect();
+        let linked = both.replace("<DataType>D", "<DataType>I")
+            + "<ListDimension>2</ListDimension><DataLink><PointDataLink>a</PointDataLink></DataLink>"
+            + after;
+        let bytes = archive(&[(INDEX, linked.as_bytes()), ("a", &numbers)]);
+        let found = super::read(Archive::new(&bytes).unwrap()).unwrap();
+        assert_eq!((steps(&found.heights), found.positions.unwrap()[1]), (vec![10.0, 11.0], 1e-6));
+        let uneven = read(&both, "<ListDimension>4</ListDimension>", "0;0;1 1;0;1 0;1;1 7;3;1").unwrap_err();
+        assert!(uneven.contains("is off the even grid") || uneven.contains("positions x"), "{uneven}");
+        assert!(read(&absolute, points, "1;1").unwrap_err().contains("incremental axis"));
     }
 
     #[test]
@@ -263,8 +422,13 @@ mod tests {
                 "<SizeX>99999999999",
                 "main.xml: 199999999998 compressed heights of 2 bytes; allowed: ",
             ),
-            ("<CX><AxisType>I", "<CX><AxisType>A", "main.xml: the axis CX is of type \"A\""),
-            ("<DataType>I", "<DataType>X", "main.xml: heights of type \"X\"; allowed: I, L, F or D"),
+            ("<CX><AxisType>I", "<CX><AxisType>Z", "main.xml: the axis CX is of type \"Z\""),
+            (
+                "<CX><AxisType>I",
+                "<CX><AxisType>A",
+                "bindata/data.bin: 12 bytes; allowed: 60 bytes for 6 points",
+            ),
+            ("<DataType>I", "<DataType>X", "main.xml: coordinates of type \"X\"; allowed: I, L, F or D"),
             ("bindata/data.bin", "data", "no file data in the archive"),
             ("<Increment>1e-6", "<Increment>wide", "main.xml: Increment of CX = \"wide\"; allowed: a number"),
             ("</Axes>", "", "main.xml: "),

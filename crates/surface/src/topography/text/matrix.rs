@@ -1,8 +1,8 @@
 //! Maps written row by row, with or without positions in the first row and the first column.
 
+use super::super::grid::{Digits, Map, move_to_printed_grid};
 use super::super::surface::first_uneven;
 use super::super::{Place, TopographyError, refused};
-use super::grid::{Digits, Map, move_to_printed_grid};
 use asperity_data::gathered;
 
 /// Smallest number of evenly spaced numbers that are taken for positions, if the numbers along the other axis are not

@@ -5,7 +5,6 @@
 //! of a map ([`columns::list_of`]). A header, or in rows of a map an empty line, amid the numbers begins another channel.
 
 pub(crate) mod columns;
-pub(crate) mod grid;
 pub(crate) mod header;
 pub(crate) mod layout;
 pub(crate) mod matrix;

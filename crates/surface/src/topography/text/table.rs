@@ -1,11 +1,11 @@
 //! Lines of numbers in a text, and their meaning: heights, a profile, or a map.
 
 use super::super::Unit;
+use super::super::grid::{Digits, Map, map_of, move_to_printed_grid};
 use super::super::reading::Reading;
 use super::super::surface::LARGEST;
 use super::super::{Place, TopographyError, refused, shown};
 use super::columns::{List, list_of};
-use super::grid::{Digits, Map, map_of, move_to_printed_grid};
 use super::header::{Column, Header, Role};
 use super::layout::{Cell, Decimal, Separator};
 use super::{matrix, warnings};

@@ -1,7 +1,7 @@
 //! Even grids whose positions are printed with few digits, and maps from lists of points.
 
-use super::super::surface::{UNEVEN, first_uneven};
-use super::super::{Place, TopographyError, refused};
+use super::surface::{UNEVEN, first_uneven};
+use super::{Place, TopographyError, refused};
 use asperity_data::{gathered, resized};
 
 /// Smallest number of positions whose digits show an even grid: fewer may be uneven by intention.
@@ -31,6 +31,9 @@ pub(super) struct Digits {
 }
 
 impl Digits {
+    /// Digits of binary numbers of 64 bits.
+    pub const EXACT: Digits = Digits { decimals: 400, significant: 15 };
+
     pub fn take(&mut self, cell: &str) {
         let (mut decimals, mut significant, mut is_behind) = (0, 0, false);
         for (index, byte) in cell.bytes().enumerate() {
