@@ -226,6 +226,11 @@ impl<'a> Archive<'a> {
         }))
     }
 
+    /// Names of all files in one spelling.
+    pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
+        self.places.keys().map(String::as_str)
+    }
+
     /// Returns the content of a file of unknown size, at most `most` bytes.
     pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
         let content = self.unpacked_up_to(name, most.min(self.most))?;

@@ -40,6 +40,23 @@ pub(super) struct Measurement {
     #[serde(default)]
     pub is_periodic: bool,
     fill_undefined_data_mode: Option<String>,
+    instrument: Option<Instrument>,
+}
+
+#[derive(Deserialize)]
+struct Instrument {
+    parameters: Option<Parameters>,
+}
+
+#[derive(Deserialize)]
+struct Parameters {
+    tip_radius: Option<Radius>,
+}
+
+#[derive(Deserialize)]
+struct Radius {
+    value: f64,
+    unit: String,
 }
 
 /// Name of the file as measured, and of the file with the same heights after scaling and detrending.
@@ -110,6 +127,13 @@ impl Measurement {
         })
     }
 
+    /// Message on the radius of the tip that the index states.
+    pub fn tip_radius(&self) -> Option<String> {
+        let Radius { value, unit } = self.instrument.as_ref()?.parameters.as_ref()?.tip_radius.as_ref()?;
+        let unit = unit.parse::<Unit>().ok()?;
+        Some(format!("the radius of the tip is {value} {unit}, which --tip-radius {value}{unit} uses"))
+    }
+
     fn is_original(&self) -> bool {
         self.datafile.squeezed.is_none()
     }
@@ -142,7 +166,8 @@ impl Measurement {
             let height = self.size.get(1).copied().unwrap_or(width);
             reading.spacing = Some([width / reading.columns as f64, height / rows]);
         }
-        match self.height_scale.filter(|_| self.is_original()) {
+        // A file with a unit of its heights has their scale.
+        match self.height_scale.filter(|_| self.is_original() && reading.units[2].is_none()) {
             Some(scale) => reading.scaled(|_| false, scale),
             None => reading,
         }
@@ -204,6 +229,37 @@ mod tests {
         let json = r#"{"surfaces": [{"name": "s", "topographies": [
             {"name": "p", "datafile": {"original": "profile.txt"}, "size": [2.0], "unit": "nm"}]}]}"#;
         assert_eq!(read(("index.json", json), None).unwrap()[0].heights[1], 3e-9);
+    }
+
+    #[test]
+    fn measurements_that_cannot_be_read_are_left_out_and_named() {
+        let yaml = "surfaces:
+- name: s
+  topographies:
+  - {datafile: {original: map.txt}, name: scan, unit: nm}
+  - {datafile: {original: map.spm}, name: afm, unit: nm, data_source: 0, height_scale: 7.0,
+     instrument: {type: contact, parameters: {tip_radius: {value: 10.0, unit: nm}}}}
+";
+        let spm = include_bytes!("../../../../fuzz/seeds/surface/map.spm");
+        let read = |text: &[u8], spm: &[u8]| {
+            let files = [("meta.yml", yaml.as_bytes()), ("map.txt", text), ("map.spm", spm)];
+            parse_all(&archive(&files), &ReadOptions::default()).map_err(|error| error.to_string())
+        };
+        let found = read(b"AliconaImaging\0", spm).unwrap();
+        assert_eq!((&*found[0].name, found.len(), (found[0].heights[0] * 1e14).round()), ("afm", 1, 125.0));
+        assert_eq!(
+            found[0].warnings,
+            [
+                "the radius of the tip is 10 nm, which --tip-radius 10nm uses",
+                "another measurement is left out: scan: AL3D of Alicona is not read; allowed: the same saved as GWY or X3P in \
+                 Gwyddion"
+            ]
+        );
+        // What an option supplies is asked for.
+        assert!(
+            read(b"1 2 3 4\n5 6 7 9\n", spm).unwrap_err().starts_with("scan: text matrix without a distance")
+        );
+        assert!(read(b"AliconaImaging\0", b"\0").unwrap_err().starts_with("scan: AL3D"));
     }
 
     #[test]

@@ -7,9 +7,11 @@
 
 pub(crate) mod bytes;
 pub(crate) mod container;
+pub(crate) mod foreign;
 pub(crate) mod grid;
 pub(crate) mod gwy;
 pub(crate) mod missing;
+pub(crate) mod nanoscope;
 pub(crate) mod netcdf;
 pub(crate) mod npy;
 pub(crate) mod open;

@@ -4,7 +4,7 @@ use super::bytes::{Archive, MOST_BYTES, MOST_EXPANSION, ZIP, most_expanded};
 use super::reading::{ReadOptions, Reading};
 use super::surface::Topography;
 use super::{Place, TopographyError, refused};
-use super::{container, gwy, netcdf, npy, sdf, sur, text, x3p};
+use super::{container, foreign, gwy, nanoscope, netcdf, npy, sdf, sur, text, x3p};
 use asperity_data::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
@@ -15,11 +15,12 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
 
 /// First bytes of the binary formats, with their readers. All other formats but SDF and archives are text.
-const SIGNATURES: [(&[u8], BinaryReader); 6] = [
+const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (asperity_data::SIGNATURE, |bytes, _| npy::read(bytes)),
     (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
     (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
     (gwy::SIGNATURE, |bytes, options| gwy::read(bytes, options.channel)),
+    (nanoscope::SIGNATURE, |bytes, options| nanoscope::read(bytes, options.channel)),
     (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
@@ -65,29 +66,44 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     }
     let mut archive = Archive::new(bytes)?;
     let [in_json, in_yaml] = container::INDICES;
-    let index = archive.index(&[x3p::INDEX, in_json, in_yaml])?.ok_or_else(|| {
-        let allowed = format!("{} of X3P, or {in_json} or {in_yaml} of a container", x3p::INDEX);
-        refused(Place::File, "an archive without an index", allowed)
-    })?;
+    let indices = [x3p::INDEX, in_json, in_yaml];
+    let index = archive.index(&indices)?.ok_or_else(|| foreign::archive(archive.names(), indices))?;
     if index == x3p::INDEX {
         return Ok(vec![resolved(x3p::read(archive)?, options)?]);
     }
     let content = archive.unpacked(index, container::LONGEST_INDEX)?;
     let measurements = container::measurements(index, &content, options.surface_name.as_deref())?;
-    let read = |measurement: container::Measurement| {
+    let (mut surfaces, mut unreadable) = (Vec::new(), Vec::new());
+    for measurement in measurements {
         let options = measurement.options(options)?;
-        let content = archive.unpacked(measurement.file()?, MOST_BYTES)?;
         let within = |error: TopographyError| error.within(&measurement.name);
-        let reading = measurement.completed(reading(&content, &options).map_err(within)?);
-        let surface = resolved(reading, &options).map_err(within)?;
-        Ok(Topography {
+        let content = archive.unpacked(measurement.file()?, MOST_BYTES)?;
+        let reading = match reading(&content, &options).map_err(within) {
+            Ok(reading) => measurement.completed(reading),
+            Err(TopographyError::OutOfMemory(error)) => return Err(error.into()),
+            Err(error) => {
+                unreadable.push(error);
+                continue;
+            }
+        };
+        let mut surface = resolved(reading, &options).map_err(within)?;
+        surface.warnings.extend(measurement.tip_radius());
+        surfaces.push(Topography {
             detrend: measurement.detrend(),
             periodic: measurement.is_periodic,
             name: measurement.name,
             ..surface
-        })
-    };
-    measurements.into_iter().map(read).collect()
+        });
+    }
+    match surfaces.first_mut() {
+        Some(first) => {
+            first
+                .warnings
+                .extend(unreadable.iter().map(|error| format!("another measurement is left out: {error}")));
+            Ok(surfaces)
+        }
+        None => Err(unreadable.swap_remove(0)),
+    }
 }
 
 /// Reads the numbers of a file with one surface.
@@ -101,6 +117,7 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyErr
     if sdf::is_sdf(&content) {
         return sdf::read(&content);
     }
+    foreign::check(&content)?;
     let reader = SIGNATURES.iter().find(|(signature, _)| content.starts_with(signature));
     reader.map_or_else(|| text::read(&content, options.channel), |(_, read)| read(&content, options))
 }

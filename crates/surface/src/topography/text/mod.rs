@@ -13,6 +13,7 @@ pub(crate) mod warnings;
 use header::Header;
 
 use super::Unit;
+use super::foreign::FORMATS;
 use super::reading::Reading;
 use super::{Place, TopographyError, refused, shown};
 use asperity_data::PROVENANCE;
@@ -194,8 +195,7 @@ fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, Topograp
     let (fault, allowed) = if line.len() > LONGEST_LINE {
         (format!("longer than {LONGEST_LINE} bytes"), format!("at most {LONGEST_LINE} bytes"))
     } else if let Some(at) = line.iter().position(|byte| *byte == 0) {
-        let formats = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, NetCDF, or these in gzip";
-        (format!("byte {at} of the line is zero, so this is no text"), formats.to_owned())
+        (format!("byte {at} of the line is zero, so this is no text"), FORMATS.to_owned())
     } else {
         let line = line.trim_ascii();
         let other = |_| WINDOWS_1252.decode_without_bom_handling(line).0;
