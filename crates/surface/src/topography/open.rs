@@ -190,7 +190,8 @@ mod tests {
     fn files_of_every_format_are_surfaces() {
         let mut found = String::new();
         let names = "binary.sdf text.sdf field.gsf map.npy columns.npy profile.npy linked.x3p listed.x3p map.gwy \
-                     plain.sur compressed.sur map.nc points.nc heights.txt matrix.txt points.txt latin1.txt utf16.txt descending.csv";
+                     plain.sur compressed.sur map.nc points.nc heights.txt matrix.txt points.txt latin1.txt utf16.txt descending.csv \
+                     map.spm points.x3p wyko.asc spip.asc";
         for name in names.split(' ') {
             let mut surface = parse(&file(name, b"", b""), &bare(name)).unwrap();
             surface.heights.truncate(12);

@@ -12,8 +12,8 @@ const LAST_LINES: usize = 64;
 const LONGEST_UNIT: usize = 5;
 
 /// Keys of sizes, channels and units in English and in the other languages of Gwyddion.
-const WIDTH: &str = "width šířka breite anchura largeur larghezza 幅 폭 largura ширина";
-const HEIGHT: &str = "height výška höhe altura hauteur altezza 高さ 높이 высота";
+const WIDTH: &str = "width x-length šířka breite anchura largeur larghezza 幅 폭 largura ширина";
+const HEIGHT: &str = "height y-length výška höhe altura hauteur altezza 高さ 높이 высота";
 const CHANNEL: &str = "channel kanál kanal canal canale チャネル 채널 канал";
 const UNIT: &str = "unit units einheit einheiten jednotka jednotky unité unités unità unidad unidades единицы 単位 단위 値の単位";
 
@@ -22,11 +22,20 @@ const OF_HEIGHTS: &str = "z value values height heights data hodnot valore valor
 const OF_POSITIONS: &str = "xy lateral position positions distance";
 const OF_ALL: &str = "length lengths de измерения";
 
-/// Keys of the distance between points of a map.
-const SPACING: [&str; 3] = ["xy calibration", "pixel size", "sampling distance"];
+/// Keys of the distance between points of a map, along both axes and along each.
+const SPACING: [&str; 4] = ["xy calibration", "pixel size", "sampling distance", "pixel_size"];
+const SPACING_OF_AXIS: [&str; 2] = ["scale x", "scale y"];
 
 /// Keys of the number of columns and of rows.
-const COUNTS: [&str; 2] = ["horizontal", "vertical"];
+const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
+
+/// First words of the header of Wyko, whose rows run along y, and whose heights are in nm or, by its second number, in
+/// wavelengths.
+const WYKO: &str = "wyko ascii data file format";
+
+/// Unit of lengths in headers of SPIP and Wyko.
+const NANOMETRE: &str = "nm";
+const MILLIMETRE: &str = "mm";
 
 /// Meaning of a column of a surface, by its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,6 +76,9 @@ pub struct Column {
     pub unit: Option<String>,
 }
 
+/// A length with its unit, if it has one of its own.
+type Length = (f64, Option<Unit>);
+
 /// The lines above the numbers of a text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Header {
@@ -78,12 +90,22 @@ pub struct Header {
     unit: Option<Unit>,
     /// Unit of the heights if it is not a unit of length.
     pub other_unit: Option<String>,
-    /// Width and height of a map, m.
-    pub sizes: [Option<f64>; 2],
-    /// Distance between points of a map along and between rows, m.
-    pub spacing: Option<f64>,
+    /// Width and height of a map.
+    sizes: [Option<Length>; 2],
+    /// Distances between points of a map along and between rows.
+    spacing: [Option<Length>; 2],
     /// Number of columns and number of rows.
     pub counts: [Option<usize>; 2],
+    /// Factor of the heights.
+    factor: Option<f64>,
+    /// Factor of the heights in nm, unless the file states a unit of heights.
+    nanometres: Option<f64>,
+    /// Factor of the heights that counts if another entry says so.
+    data_scale: (Option<f64>, bool),
+    /// True if the rows of numbers run along y.
+    pub is_along_y: bool,
+    /// True if heights are in wavelengths.
+    is_in_wavelengths: bool,
     /// The last lines that are no such entries and may name columns.
     lines: VecDeque<String>,
 }
@@ -119,24 +141,104 @@ impl Header {
                 (None, _) => return false,
             }
         } else if let Some(axis) = [WIDTH, HEIGHT].iter().position(|names| is_one_of(&key, names)) {
-            let Some(size) = length(&value) else { return false };
+            // Lengths of SPIP are in nm, unless it states a unit for the axis.
+            let bare = number(&value).filter(|_| key.ends_with("length")).map(|size| (size, None));
+            let Some(size) = length(&value).or(bare) else { return false };
             self.sizes[axis] = Some(size);
         } else if SPACING.contains(&&*key) {
-            let Some(spacing) = length(&value) else { return false };
-            self.spacing = Some(spacing);
-        } else if let Some(axis) = COUNTS.iter().position(|name| *name == key) {
+            let Some(spacing) = length(&value) else { return self.take_wyko(&key, &value) };
+            self.spacing = [Some(spacing); 2];
+        } else if let Some(axis) = SPACING_OF_AXIS.iter().position(|name| *name == key) {
+            let Some(spacing) = number(&value) else { return false };
+            self.spacing[axis] = Some((spacing, None));
+        } else if let Some(axis) = COUNTS.iter().position(|names| is_one_of(&key, names)) {
             let Ok(count) = value.parse() else { return false };
             self.counts[axis] = Some(count);
+        } else {
+            return self.take_factor(&key, &value) || self.take_wyko(&key, &value);
+        }
+        true
+    }
+
+    /// Reads a factor of the heights.
+    fn take_factor(&mut self, key: &str, value: &str) -> bool {
+        let Some(factor) = number(value) else {
+            let is_needed = key == "datascaleneeded";
+            self.data_scale.1 |= is_needed && value.eq_ignore_ascii_case("yes");
+            return is_needed;
+        };
+        if let Some(unit) = key.strip_prefix("height conversion factor") {
+            self.units[2] = unit.trim_matches([' ', '(', ')', '-', '>']).parse().ok();
+            self.factor = Some(factor);
+        } else if key == "bit2nm" {
+            self.nanometres = Some(factor);
+        } else if key == "scale data" {
+            self.data_scale.0 = Some(factor);
         } else {
             return false;
         }
         true
     }
 
+    /// Reads an entry of the header of Wyko: a name, two numbers and a value.
+    fn take_wyko(&mut self, key: &str, value: &str) -> bool {
+        if key.starts_with(WYKO) {
+            self.is_along_y = true;
+            self.is_in_wavelengths = !value.starts_with('1');
+            self.units[2] = NANOMETRE.parse().ok();
+            return true;
+        }
+        let Some(number) = value.rsplit(' ').next().and_then(number).filter(|_| self.is_along_y) else {
+            return false;
+        };
+        let unit: Option<Unit> = MILLIMETRE.parse().ok();
+        let factor = self.factor.unwrap_or(1.0);
+        match key {
+            "x size" => self.counts[1] = Some(number as usize),
+            "y size" => self.counts[0] = Some(number as usize),
+            "pixel_size" => {
+                let aspect = self.spacing[0].map_or(1.0, |(aspect, _)| aspect);
+                self.spacing = [Some((number * aspect, unit)), Some((number, unit))];
+            }
+            "aspect" => {
+                let pixel = self.spacing[0].map_or(1.0, |(pixel, _)| pixel);
+                self.spacing[0] = Some((number * pixel, unit));
+            }
+            "wavelength" if self.is_in_wavelengths => self.factor = Some(factor * number),
+            "mult" if self.is_in_wavelengths => self.factor = Some(factor / number),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Distances along and between rows of a map of so many columns and rows, m.
+    pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
+        let metres = |lengths: &[Option<Length>; 2], axis: usize, usual: Option<Unit>| {
+            let (length, unit) = lengths[axis]?;
+            Some(unit.or(self.unit(axis, None)).or(usual)?.to_metres(length))
+        };
+        let nanometre = NANOMETRE.parse().ok();
+        let size = |axis: usize| metres(&self.sizes, axis, nanometre);
+        let of_sizes =
+            size(0).zip(size(1)).map(|(width, height)| [width / columns as f64, height / rows as f64]);
+        of_sizes.or_else(|| {
+            metres(&self.spacing, 0, None).zip(metres(&self.spacing, 1, None)).map(<[f64; 2]>::from)
+        })
+    }
+
+    /// Factor of the heights.
+    pub fn scale(&self) -> f64 {
+        let of_unit = self.nanometres.filter(|_| self.units[2].is_none());
+        let of_data = self.data_scale.0.filter(|_| self.data_scale.1);
+        [self.factor, of_unit, of_data].into_iter().flatten().product()
+    }
+
     /// Unit of x (0), y (1) or heights (2): as the column states, else as a key states.
     pub fn unit(&self, axis: usize, column: Option<&Column>) -> Option<Unit> {
         let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
-        of_column.or(self.units[axis]).or(self.unit)
+        let of_axis =
+            self.units[axis].or_else(|| self.nanometres.filter(|_| axis == 2).and(NANOMETRE.parse().ok()));
+        of_column.or(of_axis).or(self.unit)
     }
 
     /// Names and units of the columns, from the last line with a name for each of `count` columns, and a row of units. Lines
@@ -225,16 +327,20 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     if key == "値の単位" { Some(vec![2]) } else { Some(axes) }
 }
 
-/// Length in m of a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
-fn length(text: &str) -> Option<f64> {
-    let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
-    let (number, unit) = text.split_at(end);
-    let unit = unit.split('/').next()?.trim().trim_matches(['[', ']', '(', ')']);
-    let unit: Unit = unit.parse().ok()?;
-    match Decimal::default().read(number, Separator::SPACE) {
-        Cell::Number(value) if value.is_finite() => Some(unit.to_metres(value)),
+/// Number of a text in any notation.
+fn number(text: &str) -> Option<f64> {
+    match Decimal::default().read(text, Separator::SPACE) {
+        Cell::Number(value) if value.is_finite() => Some(value),
         _ => None,
     }
+}
+
+/// Length and unit of a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
+fn length(text: &str) -> Option<Length> {
+    let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
+    let (value, unit) = text.split_at(end);
+    let unit = unit.split('/').next()?.trim().trim_matches(['[', ']', '(', ')']);
+    Some((number(value)?, Some(unit.parse().ok()?)))
 }
 
 /// The cells of a line of names, if there are `count` of them, or with the separator of the numbers up to `most`. They are
@@ -379,8 +485,8 @@ mod tests {
 
     #[test]
     fn sizes_distances_and_channels_are_entries() {
-        let sizes = header(&["# Width: 2,5 µm", "# Height: 1.0mm", "# Width of nothing: 5"]).sizes;
-        assert_eq!(sizes, [Some(2.5e-6), Some(1e-3)]);
+        let sizes = header(&["# Width: 2,5 µm", "# Height: 1.0mm", "# Width of nothing: 5"]).distances(1, 1);
+        assert_eq!(sizes, Some([2.5e-6, 1e-3]));
         for [width, height, channel, unit] in [
             ["Breite: 4,0 µm", "Höhe: 3 µm", "Kanal: A", "Einheiten: nm"],
             ["Šířka: 4 µm", "Výška: 3 (µm)", "Kanál: A", "Jednotky hodnot: nm"],
@@ -388,7 +494,7 @@ mod tests {
             ["幅：4 µm", "高さ：3 µm", "チャネル：A", "値の単位：nm"],
         ] {
             let found = header(&[width, height, channel, unit]);
-            assert_eq!(found.sizes, [Some(4e-6), Some(3e-6)], "{width}");
+            assert_eq!(found.distances(1, 1), Some([4e-6, 3e-6]), "{width}");
             assert_eq!(
                 (found.channel.as_deref(), found.unit(2, None).map(Unit::name)),
                 (Some("A"), Some("nm"))
@@ -401,7 +507,7 @@ mod tests {
             "\"Unit\",\"um\"",
             "\"Height\"",
         ]);
-        assert_eq!((keyence.spacing, keyence.counts), (Some(5e-7), [Some(40), None]));
+        assert_eq!((keyence.distances(40, 2), keyence.counts), (Some([5e-7; 2]), [Some(40), None]));
         assert_eq!(keyence.unit(2, None).map(Unit::name), Some("µm"));
         assert_eq!(header(&["Value units: deg"]).other_unit.as_deref(), Some("deg"));
     }

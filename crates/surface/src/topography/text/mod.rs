@@ -340,6 +340,56 @@ mod tests {
     }
 
     #[test]
+    fn headers_of_programs_state_sizes_units_and_factors() {
+        let nova = "File Format = ASCII\nNX = 4\nNY = 2\nScale X = 0.5\nScale Y = 0.25\nUnit X = um\nUnit Y = um\nUnit Data = nm\n\
+                    Scale Data = 0.1\nDataScaleNeeded = ";
+        let wyko = |first: &str| {
+            format!(
+                "Wyko ASCII Data File Format 0\t{first}\t1\nX Size\t2\nY Size\t4\nWavelength\t7\t4\t600\nAspect\t7\t4\t2\n\
+                 Pixel_size\t7\t4\t0.00025\nMult\t7\t4\t60\nRAW_DATA\t3\t48\t"
+            )
+        };
+        for (header, spacing, factor) in [
+            (
+                "# x-pixels = 4\n# y-pixels = 2\n# x-length = 2000\n# y-length = 500\n# z-unit = nm",
+                [0.5, 0.25],
+                1.0,
+            ),
+            ("# x-length = 2000\n# y-length = 500\n# Bit2nm = 0.1", [0.5, 0.25], 0.1),
+            ("# x-length: 2\n# y-length: 0.5\n# x-unit: um\n# y-unit: um\n# z-unit: nm", [0.5, 0.25], 1.0),
+            (&format!("{nova}no"), [0.5, 0.25], 1.0),
+            (&format!("{nova}yes"), [0.5, 0.25], 0.1),
+            (
+                "h=2 w=4\nx-pixels = 4\npixel size=2.5e-007 m\ndata unit=rad\nheight conversion factor (-> nm)=0.1",
+                [0.25; 2],
+                0.1,
+            ),
+            ("Width=2µm\nHeight: 0.5 (µm)\nValue units: nm", [0.5, 0.25], 1.0),
+            (&wyko("1"), [0.25, 0.5], 1.0),
+            (&wyko("0"), [0.25, 0.5], 10.0),
+        ] {
+            let found = text(&format!("{header}\n1\t2\t3\t4\n5\t7\t6\t8\n"))
+                .map_err(|error| format!("{header}: {error}"))
+                .unwrap();
+            let lateral = found.units[0].unwrap();
+            let distances =
+                found.spacing.unwrap().map(|distance| (lateral.to_metres(distance) * 1e9).round() / 1e3);
+            assert_eq!((distances, found.units[2].map(Unit::name)), (spacing, Some("nm")), "{header}");
+            // Lines of Wyko run along y.
+            let (columns, order) = if header.starts_with("Wyko") {
+                (2, [1.0, 5.0, 2.0, 7.0, 3.0, 6.0, 4.0, 8.0])
+            } else {
+                (4, [1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 6.0, 8.0])
+            };
+            assert_eq!(
+                (found.columns, found.heights),
+                (columns, order.map(|height| height * factor).to_vec()),
+                "{header}"
+            );
+        }
+    }
+
+    #[test]
     fn maps_have_the_distances_that_the_file_states() {
         let keyence = "\"XY calibration\",\"500\",\"nm/pixel\"\n\"Horizontal\",\"4\"\n\"Vertical\",\"2\"\n\"Unit\",\"um\"\n\"Height\"\n\
                        \"1\",\"2\",\"3\",\"4\"\n\"5\",\"6\",\"7\",\"9\"\n";

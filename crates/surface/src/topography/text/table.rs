@@ -246,7 +246,9 @@ impl Table {
             self.lines = vec![(0, self.line(rows.start))];
         }
         let columns = header.columns(self.columns(), cells, self.separator, Unit::is_name);
-        let Some(list) = list_of(&columns)? else { return self.map(header, is_open) };
+        let Some(list) = list_of(&columns)? else {
+            return Ok(self.map(header, is_open)?.scaled(|_| false, header.scale()));
+        };
         self.check_counts(&[])?;
         let place = |row: usize| Place::Line(self.line(row));
         let mut heights = self.column(list.height)?;
@@ -265,6 +267,7 @@ impl Table {
         let first_missing = heights.iter().position(|height| height.is_nan()).map(place);
         let warnings = warnings::of_heights(&heights, is_open, place);
         let reading = self.points(header, &columns, list, heights)?;
+        let reading = reading.scaled(|_| false, header.scale());
         Ok(Reading { first_missing, warnings, ..reading })
     }
 
@@ -338,9 +341,7 @@ impl Table {
         }
         let warnings = warnings::of_heights(&heights, is_open, line_of);
         let first_missing = heights.iter().position(|height| height.is_nan()).map(line_of);
-        let [width, height] = header.sizes;
-        let of_sizes = width.zip(height).map(|(width, height)| [width / found as f64, height / rows as f64]);
-        let stated = of_sizes.or(header.spacing.map(|spacing| [spacing; 2]));
+        let stated = header.distances(found, rows);
         // Sizes are in m.
         let of_axes = if stated.is_some() {
             [Some(Unit::METRE); 2]
@@ -351,6 +352,12 @@ impl Table {
             check_both(of_axes)?;
         }
         let units = [of_axes[0], of_axes[1], header.unit(2, None)];
+        let (heights, found, stated) = if header.is_along_y {
+            let turned = (0..found).flat_map(|y| heights.iter().skip(y).step_by(found).copied());
+            (gathered(heights.len(), turned)?, rows, stated.map(|[y, x]| [x, y]))
+        } else {
+            (heights, found, stated)
+        };
         let reading = Reading::even("text matrix", heights, found, stated.or(distances), units);
         Ok(Reading { first_missing, warnings, ..reading })
     }
