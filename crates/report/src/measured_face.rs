@@ -11,6 +11,9 @@ use std::path::{Path, PathBuf};
 /// Share of the squared height in long waves above which the rms height depends on the length of the scan.
 const MANY_LONG_WAVES: f64 = 0.3;
 
+/// Share of the squared height in long waves above which they are likely to be those of a body or of a bow of the scanner.
+const FORM: f64 = 0.9;
+
 /// Number of profiles from which on moments are as accurate as the moments of a map.
 const MANY_PROFILES: u64 = 100;
 
@@ -156,9 +159,15 @@ impl MeasuredFace {
         }
         let long = analysis.long_wave_share();
         if long > MANY_LONG_WAVES {
+            let form = if long > FORM {
+                "; where they are the form of a curved body or a bow of the scanner, --detrend curvature, in a scene \
+                 roughness.detrend, removes it"
+            } else {
+                ""
+            };
             warnings.push(format!(
                 "waves longer than a quarter of the scan carry {:.0} % of the squared height: rms height and elastic \
-                 energy depend on the length of the scan",
+                 energy depend on the length of the scan{form}",
                 100.0 * long
             ));
         }

@@ -213,8 +213,8 @@ fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {
 
 fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     let statistics = &analysis.statistics;
-    sheet.quantity("rms height Rq, Sq", statistics.rms_height, "m");
-    sheet.quantity("rms slope RΔq", statistics.rms_slope, "1");
+    sheet.quantity("rms height Pq, Sq", statistics.rms_height, "m");
+    sheet.quantity("rms slope PΔq", statistics.rms_slope, "1");
     sheet.quantity("rms gradient Sdq", statistics.rms_gradient, "1");
     sheet.quantity("skewness", statistics.skewness, "1");
     sheet.row("kurtosis", format!("{} (3: normal)", format_quantity(statistics.kurtosis, "1")));

@@ -7,9 +7,9 @@ use serde::Serialize;
 pub struct PointStatistics {
     /// Number of points.
     pub points: usize,
-    /// Root mean square height about the mean (Rq of profiles, Sq of maps), m.
+    /// Root mean square height about the mean (Pq of profiles, Sq of maps; neither is filtered), m.
     pub rms_height: f64,
-    /// Root mean square slope along rows, from differences between neighbours (RΔq).
+    /// Root mean square slope along rows, from differences between neighbours (PΔq).
     pub rms_slope: f64,
     /// Root mean square gradient of maps, from the slopes along and between rows (Sdq); `None` for profiles.
     pub rms_gradient: Option<f64>,

@@ -10,6 +10,7 @@ pub(crate) mod container;
 pub(crate) mod foreign;
 pub(crate) mod grid;
 pub(crate) mod gwy;
+pub(crate) mod levels;
 pub(crate) mod missing;
 pub(crate) mod nanoscope;
 pub(crate) mod netcdf;

@@ -364,6 +364,24 @@ mod tests {
     }
 
     #[test]
+    fn a_row_needs_its_own_points_alone() {
+        let read = |cut: Cut| {
+            let options = ReadOptions { spacing: Some(1.0), cut: Some(cut), ..metres() };
+            parse(b"1 2 3 4\n5 nan 6 7\n2 3 4 5\n", &options)
+                .map(|surface| (surface.heights.clone(), surface.interpolated()))
+        };
+        assert_eq!(read(Cut::Row(1)).unwrap(), (vec![1.0, 2.0, 3.0, 4.0], 0));
+        assert_eq!(read(Cut::Column(4)).unwrap(), (vec![4.0, 7.0, 5.0], 0));
+        for cut in [Cut::Row(2), Cut::Column(2)] {
+            let error = read(cut).unwrap_err().to_string();
+            assert!(
+                error.starts_with("line 2: 1 of 12 points are missing (8.33 %), the first here"),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
     fn empty_rows_and_columns_at_the_border_are_left_out_and_counted() {
         let spaced = ReadOptions { spacing: Some(1.0), ..metres() };
         let read = |text: &str, cut: Option<Cut>| {

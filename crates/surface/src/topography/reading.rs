@@ -2,7 +2,7 @@
 
 use super::surface::{Cropped, Cut, LARGEST, Layout, Topography};
 use super::{Place, TopographyError, refused};
-use super::{Unit, missing};
+use super::{Unit, levels, missing};
 use std::ops::Range;
 
 /// Limit of the number of points of a surface: 2 GiB of heights.
@@ -115,7 +115,8 @@ impl Reading {
         self.heights.iter_mut().for_each(|height| *height = height_unit.to_metres(*height));
         check_range("height", &self.heights, f64::is_finite)?;
         let cropped = self.crop();
-        let missing = self.has_missing(&cropped, options.interpolate)?;
+        let missing = self.has_missing(&cropped, options)?;
+        self.warnings.extend(levels::warning(&self.heights, self.columns));
         let Reading { format, mut heights, columns, positions, spacing, warnings, .. } = self;
         let unit = |name: &str, stated: Option<Unit>| {
             let option = if stated.is_none() { options.unit } else { of_positions };
@@ -199,10 +200,22 @@ impl Reading {
         Cropped { before: [across.start, down.start], after: [columns - across.end, rows - down.end] }
     }
 
-    /// Returns true if points are missing; an error if they are not to be interpolated.
-    fn has_missing(&self, cropped: &Cropped, interpolate: bool) -> Result<bool, TopographyError> {
-        let first = self.heights.iter().position(|height| !height.is_finite());
-        let (Some(first), false) = (first, interpolate) else { return Ok(first.is_some()) };
+    /// Returns true if points are missing; an error if they are not to be interpolated and are part of what is read.
+    fn has_missing(&self, cropped: &Cropped, options: &ReadOptions) -> Result<bool, TopographyError> {
+        let is_missing = |index: &usize| !self.heights[*index].is_finite();
+        let is_read = |index: &usize| {
+            let [column, row] = [index % self.columns, index / self.columns];
+            match options.cut {
+                None => true,
+                Some(Cut::Row(number)) => (row + cropped.before[1] + 1) as u64 == number,
+                Some(Cut::Column(number)) => (column + cropped.before[0] + 1) as u64 == number,
+            }
+        };
+        let points = 0..self.heights.len();
+        let (Some(first), false) = (points.clone().filter(is_missing).find(is_read), options.interpolate)
+        else {
+            return Ok(points.into_iter().any(|index| is_missing(&index)));
+        };
         let (missing, points) = (missing::count(&self.heights), self.heights.len());
         let share = 100.0 * missing as f64 / points as f64;
         let in_file = cropped.place_in_file(first, self.columns);
