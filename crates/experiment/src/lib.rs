@@ -5,6 +5,7 @@
 mod baseline;
 mod columns;
 mod curve;
+mod ensemble;
 mod error;
 mod fit;
 mod free;
@@ -28,6 +29,11 @@ mod coverage;
 mod made;
 
 pub use curve::MeasuredCurve;
+pub use ensemble::find::fit_ensemble;
+pub use ensemble::posterior::Estimate;
+pub use ensemble::result::{
+    CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares, SummaryDeviation,
+};
 pub use error::ExperimentError;
 pub use fit::{Fit, FittedParameter, fit};
 pub use options::{CurveOptions, Drift, Negate, Tilt};

@@ -36,11 +36,11 @@ pub(crate) struct Model<'a> {
 
 /// The instrument, and the points at which a curve is computed.
 #[derive(Clone, Copy)]
-struct Sampling {
-    stiffness: f64,
-    points: usize,
+pub(crate) struct Sampling {
+    pub stiffness: f64,
+    pub points: usize,
     /// Smallest jump of the force that gets points at both of its ends, N.
-    least_jump: f64,
+    pub least_jump: f64,
 }
 
 impl<'a> Model<'a> {
@@ -138,7 +138,7 @@ impl Sampling {
     }
 
     /// Curve of an unloading from an indentation, m, to separation.
-    fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
+    pub fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = leg.end().min(from);
         // Close to separation the force may fall as the root of the indentation.
         self.over(leg, [end, from], 2, Some(CurvePoint { indentation: end, ..CurvePoint::default() }))
@@ -146,7 +146,7 @@ impl Sampling {
 
     /// Curve of a leg between two indentations over the displacement, with points that are dense near the lower end for a
     /// high `power`, points at the ends of all jumps that are resolved, and the point `free` without contact.
-    fn over(
+    pub fn over(
         self,
         leg: &Leg,
         [low, high]: [f64; 2],

@@ -1,0 +1,188 @@
+//! Summaries of the curves of a random profile, measured as a measured curve was.
+
+use super::branches::{Branches, Point};
+use super::summary::{Summaries, summaries};
+use crate::error::ExperimentError;
+use crate::model::Sampling;
+use asperity_contact::{Body, ContactError, CurvePoint, HessRule, Move, Solver};
+use asperity_scene::{DisplacementCurve, Scene, Simulation};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Number of points of a computed branch, besides points at jumps.
+const SAMPLES: usize = 128;
+/// Smallest jump of the force that gets points at both of its ends, in units of the noise.
+const NOTABLE: f64 = 1.0;
+/// Largest number of points by which a retraction is extended to the loss of contact, over the number of its own points.
+const LONGEST: usize = 8;
+/// First of the seeds of profiles and of noise. No scene that people write uses such seeds.
+const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
+
+/// How a curve was measured.
+pub(crate) struct Protocol {
+    /// Force at the turning point, N.
+    pub preload: f64,
+    pub noise: f64,
+    /// Displacements relative to the turning point, m.
+    pub approach: Vec<f64>,
+    pub retraction: Vec<f64>,
+    /// Number of the first points of the approach from which the zero of the force is taken.
+    pub free: usize,
+}
+
+impl Protocol {
+    pub fn of(branches: &Branches, preload: f64) -> Self {
+        let places = |branch: &[Point]| branch.iter().map(|point| point.0).collect();
+        Protocol {
+            preload,
+            noise: branches.noise,
+            approach: places(&branches.approach),
+            retraction: places(&branches.retraction),
+            free: branches.free,
+        }
+    }
+}
+
+/// A place in the table: ln(γ/E*), with γ/E* in m, and ln E*, with E* in Pa.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub range: f64,
+    pub modulus: f64,
+}
+
+impl Place {
+    /// ln γ and ln E*.
+    pub fn parameters(self) -> [f64; 2] {
+        [self.range + self.modulus, self.modulus]
+    }
+}
+
+/// What is common to all computed curves.
+#[derive(Clone, Copy)]
+pub(crate) struct Specimen<'a> {
+    pub scene: &'a Scene,
+    pub stiffness: f64,
+    /// Work of adhesion on closing over that on opening.
+    pub closing: f64,
+    pub protocols: &'a [Protocol],
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Specimen<'_> {
+    /// Summaries of the curves of one random profile: for each ln(γ/E*) of `ranges` and, inside, each ln E* of `moduli`
+    /// (ascending).
+    ///
+    /// The force over E* and the indentation depend on γ/E* alone, but for the turning point and the instrument, so that all
+    /// moduli share one approach.
+    pub fn curves(
+        &self,
+        simulation: &mut Simulation,
+        line: u64,
+        ranges: &[f64],
+        moduli: &[f64],
+    ) -> Result<Vec<Summaries>, ExperimentError> {
+        let mut scene = self.scene.clone();
+        scene.set_seed(FIRST_SEED.wrapping_add(line));
+        let (bare, _) = simulation.contact(&scene)?;
+        let protocol = &self.protocols[line as usize % self.protocols.len()];
+        let mut noise = Noise::new(FIRST_SEED.wrapping_add(line), protocol);
+        let mut all = Vec::with_capacity(ranges.len() * moduli.len());
+        for range in ranges {
+            let work = range.exp() * bare.foundation().effective_modulus;
+            let rule = HessRule::from_works(bare.foundation(), self.closing * work, work);
+            let contact = bare.with_rule(bare.foundation(), (work > 0.0).then_some(rule));
+            let first = all.len();
+            let mut approach = Body::new(&contact, 2);
+            // The largest modulus has the smallest indentation.
+            for modulus in moduli.iter().rev() {
+                if (self.stop)() {
+                    return Err(ContactError::Interrupted.into());
+                }
+                let scale = modulus.exp() / contact.foundation().effective_modulus;
+                let loop_ = Loop { stiffness: self.stiffness / scale, scale, protocol };
+                let branches = loop_.branches(&mut approach, &mut noise)?;
+                all.push(summaries(&branches, protocol.preload));
+            }
+            all[first..].reverse();
+        }
+        Ok(all)
+    }
+}
+
+/// One computed curve: forces of the contact are in units of `scale`, and so is the stiffness of the instrument.
+struct Loop<'a> {
+    stiffness: f64,
+    scale: f64,
+    protocol: &'a Protocol,
+}
+
+impl Loop<'_> {
+    /// Presses the body, which is on its approach, to the preload; the body stays there.
+    fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
+        let protocol = self.protocol;
+        body.move_to(Move::ToForce(protocol.preload / self.scale))?;
+        let (approach, turn) = (body.leg(), body.point().indentation);
+        let retraction = approach.turn(turn)?;
+        let sampling = Sampling {
+            stiffness: self.stiffness,
+            points: SAMPLES,
+            least_jump: NOTABLE * protocol.noise / self.scale,
+        };
+        let pressed = sampling.over(&approach, [0.0, turn], 1, Some(CurvePoint::default()))?;
+        let pulled = sampling.pull(&retraction, turn)?;
+        let top = pressed.points().last().map_or(turn, |point| point.displacement);
+        let force = |curve: &DisplacementCurve, place: f64| {
+            curve.at(top + place).map_or_else(
+                // At the turning point itself, by rounding.
+                || if place > -1e-9 * top.abs() { protocol.preload } else { 0.0 },
+                |point| self.scale * point.force,
+            )
+        };
+        let approach: Vec<Point> = protocol
+            .approach
+            .iter()
+            .enumerate()
+            .map(|(index, &place)| (place, force(&pressed, place) + noise.at(index)))
+            .collect();
+        let first = approach.len();
+        let end = pulled.points().last().map_or(0.0, |point| point.displacement) - top;
+        let (count, last) = (protocol.retraction.len(), protocol.retraction[protocol.retraction.len() - 1]);
+        let step = (last - protocol.retraction[0]) / (count - 1) as f64;
+        // A retraction that is too short for this curve goes on until contact is lost.
+        let more = if end < last { (((end - last) / step) as usize + 4).min(LONGEST * count) } else { 0 };
+        let beyond = (1..=more).map(|index| last + step * index as f64);
+        let places = protocol.retraction.iter().copied().chain(beyond).enumerate();
+        let retraction =
+            places.map(|(index, place)| (place, force(&pulled, place) + noise.at(first + index))).collect();
+        Ok(Branches { approach, retraction, noise: protocol.noise, free: protocol.free })
+    }
+}
+
+/// The noise of a curve: normally distributed, the same for all places in the table, without its mean before contact, which
+/// the zero of the force takes off.
+struct Noise {
+    generator: ChaCha8Rng,
+    deviation: f64,
+    values: Vec<f64>,
+    zero: f64,
+}
+
+impl Noise {
+    fn new(seed: u64, protocol: &Protocol) -> Self {
+        let generator = ChaCha8Rng::seed_from_u64(seed);
+        let mut noise = Noise { generator, deviation: protocol.noise, values: Vec::new(), zero: 0.0 };
+        let free = protocol.free.max(1);
+        noise.zero = (0..free).map(|index| noise.at(index)).sum::<f64>() / free as f64;
+        noise
+    }
+
+    fn at(&mut self, index: usize) -> f64 {
+        while self.values.len() <= index {
+            let [one, other]: [f64; 2] = [self.generator.random(), self.generator.random()];
+            let size = self.deviation * (-2.0 * (1.0 - one).ln()).sqrt();
+            let (sine, cosine) = (std::f64::consts::TAU * other).sin_cos();
+            self.values.extend([size * cosine, size * sine]);
+        }
+        self.values[index] - self.zero
+    }
+}

@@ -1,0 +1,134 @@
+//! Whether random profiles describe the curves: the means of all summaries against those of the table.
+
+use super::computed::Place;
+use super::result::SummaryDeviation;
+use super::scatter::Scatter;
+use super::summary::{NAMES, SUMMARIES, Summaries};
+use super::table::Table;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Number of ensembles that are drawn from the lines of the table, and share of them that counts as described.
+const DRAWS: usize = 1000;
+const DESCRIBED: f64 = 0.99;
+/// Difference of a logarithm over which means are differentiated.
+const STEP: f64 = 0.05;
+
+/// How learned values and parameters change together at a place.
+pub(crate) struct Response {
+    /// Derivatives of both learned values with respect to ln γ, and to ln E*.
+    slopes: [[f64; 2]; 2],
+    inverse: [f64; 3],
+    is_modulus_free: bool,
+}
+
+/// Derivatives of the means with respect to ln γ and to ln E*.
+fn slopes(scatter: &Scatter, place: Place) -> [[f64; 2]; 2] {
+    let between = |range: f64, modulus: f64| {
+        let at = |sign: f64| {
+            let place = Place {
+                range: place.range + sign * range * STEP,
+                modulus: place.modulus + sign * modulus * STEP,
+            };
+            scatter.at(place).mean
+        };
+        let [high, low] = [at(1.0), at(-1.0)];
+        [0, 1].map(|index| (high[index] - low[index]) / (2.0 * STEP))
+    };
+    // At a constant γ, γ/E* falls as E* grows.
+    [between(1.0, 0.0), between(-1.0, 1.0)]
+}
+
+impl Response {
+    pub fn at(scatter: &Scatter, place: Place, is_modulus_free: bool) -> Self {
+        let inverse = scatter.at(place).inverse().0;
+        Response { slopes: slopes(scatter, place), inverse, is_modulus_free }
+    }
+
+    /// Changes of ln γ and ln E* that explain a change of the learned values.
+    pub fn explain(&self, change: [f64; 2]) -> [f64; 2] {
+        let [work, modulus] = self.slopes;
+        if self.is_modulus_free {
+            let determinant = work[0] * modulus[1] - work[1] * modulus[0];
+            return [
+                (change[0] * modulus[1] - change[1] * modulus[0]) / determinant,
+                (work[0] * change[1] - work[1] * change[0]) / determinant,
+            ];
+        }
+        let product = |of: [f64; 2]| {
+            let [one, both, other] = self.inverse;
+            work[0] * (one * of[0] + both * of[1]) + work[1] * (both * of[0] + other * of[1])
+        };
+        [product(change) / product(work), 0.0]
+    }
+}
+
+/// The curves that are compared: the mean of their summaries, and their number.
+pub(crate) struct Mean {
+    pub summaries: Summaries,
+    pub curves: usize,
+}
+
+/// Compares the means of all summaries with those of the table at the most probable place; `learned` has the learned values
+/// of each line at each node. What counts as a deviation is drawn from the lines of the table itself.
+pub(crate) fn deviations(
+    table: &Table,
+    learned: &dyn Fn(usize, usize) -> [f64; 2],
+    response: &Response,
+    place: Place,
+    mean: &Mean,
+) -> Vec<SummaryDeviation> {
+    let scatters: Vec<Scatter> =
+        (0..SUMMARIES).map(|index| Scatter::of(table, |line, node| [table.lines[line][node][index], 0.0])).collect();
+    let (count, lines) = (mean.curves as f64, table.lines.len());
+    let rows: Vec<(f64, f64, [f64; 2])> = scatters
+        .iter()
+        .map(|scatter| {
+            let moments = scatter.at(place);
+            let slopes = slopes(scatter, place).map(|slope| slope[0]);
+            (moments.mean[0], moments.covariance[0].max(f64::MIN_POSITIVE).sqrt(), slopes)
+        })
+        .collect();
+    // The node nearest to the place.
+    let away = |one: &Place| (one.range - place.range).abs() + (one.modulus - place.modulus).abs();
+    let nearest = table.places().enumerate().min_by(|one, other| away(&one.1).total_cmp(&away(&other.1)));
+    let node = nearest.map_or(0, |(node, _)| node);
+    let at_node: Vec<(Summaries, [f64; 2])> =
+        (0..lines).map(|line| (table.lines[line][node], learned(line, node))).collect();
+    let average = |of: &dyn Fn(usize) -> f64, chosen: &[usize]| {
+        chosen.iter().map(|&line| of(line)).sum::<f64>() / chosen.len() as f64
+    };
+    let all: Vec<usize> = (0..lines).collect();
+    let centre: Summaries = std::array::from_fn(|index| average(&|line| at_node[line].0[index], &all));
+    let learned_centre = [0, 1].map(|index| average(&|line| at_node[line].1[index], &all));
+    let mut generator = ChaCha8Rng::seed_from_u64(lines as u64);
+    let mut largest: Vec<f64> = (0..DRAWS)
+        .map(|_| {
+            let chosen: Vec<usize> = (0..mean.curves).map(|_| generator.random_range(0..lines)).collect();
+            let change =
+                [0, 1].map(|index| average(&|line| at_node[line].1[index], &chosen) - learned_centre[index]);
+            let explained = response.explain(change);
+            let deviation = |index: usize| {
+                let (_, error, slopes) = rows[index];
+                let change = average(&|line| at_node[line].0[index], &chosen) - centre[index];
+                let rest = change - slopes[0] * explained[0] - slopes[1] * explained[1];
+                (rest / (error / count.sqrt())).abs()
+            };
+            (0..SUMMARIES).map(deviation).fold(0.0, f64::max)
+        })
+        .collect();
+    largest.sort_by(f64::total_cmp);
+    let threshold = largest[((DESCRIBED * DRAWS as f64) as usize).min(DRAWS - 1)];
+    let of = |index: usize| {
+        let (expected, error, _) = rows[index];
+        let logarithm = mean.summaries[index] - expected;
+        let deviation = logarithm / (error * (1.0 / count + 1.0 / lines as f64).sqrt());
+        SummaryDeviation {
+            summary: NAMES[index],
+            logarithm,
+            deviation,
+            deviates: deviation.abs() > threshold,
+        }
+    };
+    (0..SUMMARIES).map(of).collect()
+}

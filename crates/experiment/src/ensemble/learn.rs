@@ -1,0 +1,124 @@
+//! The combinations of summaries that predict the parameters, by least squares over computed curves.
+
+use super::summary::{SUMMARIES, Summaries};
+use asperity_data::{mean, standard_deviation};
+
+/// Largest deviation of a summary from its mean that counts, in standard deviations.
+const LARGEST: f64 = 4.0;
+/// Weight of the size of the coefficients, over the mean weight of the curves.
+const RIDGE: f64 = 1e-5;
+
+/// Summaries of a curve, and the logarithm of its preload if the preloads differ.
+#[derive(Clone, Copy)]
+pub(crate) struct Described {
+    pub summaries: Summaries,
+    pub preload: Option<f64>,
+}
+
+impl Described {
+    fn values(&self) -> impl Iterator<Item = f64> {
+        self.summaries.into_iter().chain(self.preload)
+    }
+}
+
+/// Two polynomials of second degree in the summaries, each learned from one half of the lines of the table, so that a line is
+/// never judged by a polynomial that was fitted to it.
+pub(crate) struct Learned {
+    /// Mean and standard deviation of each summary.
+    standard: Vec<(f64, f64)>,
+    halves: [Vec<[f64; 2]>; 2],
+    centre: [f64; 2],
+}
+
+impl Learned {
+    /// Learns from curves, each with the number of its line and its parameters ln γ and ln E*.
+    pub fn from(curves: &[(u64, Described, [f64; 2])]) -> Self {
+        let standard = (0..SUMMARIES + 1)
+            .map_while(|index| {
+                let of: Option<Vec<f64>> = curves.iter().map(|curve| curve.1.values().nth(index)).collect();
+                let of = of?;
+                let mean = mean(&of);
+                Some((mean, standard_deviation(&of, mean).max(f64::MIN_POSITIVE)))
+            })
+            .collect();
+        let of_parameter =
+            |index: usize| mean(&curves.iter().map(|curve| curve.2[index]).collect::<Vec<f64>>());
+        let centre = [of_parameter(0), of_parameter(1)];
+        let mut learned = Learned { standard, halves: [Vec::new(), Vec::new()], centre };
+        learned.halves = [0, 1].map(|half| learned.coefficients(curves, half));
+        learned
+    }
+
+    fn coefficients(&self, curves: &[(u64, Described, [f64; 2])], half: u64) -> Vec<[f64; 2]> {
+        let columns = self.terms(&curves[0].1).len();
+        let (mut products, mut right) = (vec![vec![0.0; columns]; columns], vec![[0.0; 2]; columns]);
+        for (_, described, parameters) in curves.iter().filter(|curve| curve.0 % 2 == half) {
+            let terms = self.terms(described);
+            for (row, one) in terms.iter().enumerate() {
+                products[row][..=row].iter_mut().zip(&terms).for_each(|(sum, other)| *sum += one * other);
+                for (parameter, sum) in right[row].iter_mut().enumerate() {
+                    *sum += one * (parameters[parameter] - self.centre[parameter]);
+                }
+            }
+        }
+        let trace: f64 = (0..columns).map(|index| products[index][index]).sum();
+        (0..columns).for_each(|index| products[index][index] += RIDGE * trace / columns as f64);
+        solved(products, right)
+    }
+
+    /// 1, the standardised summaries and all their products.
+    fn terms(&self, described: &Described) -> Vec<f64> {
+        let standardised = described.values().zip(&self.standard);
+        let all: Vec<f64> = std::iter::once(1.0)
+            .chain(
+                standardised.map(|(value, (mean, deviation))| {
+                    ((value - mean) / deviation).clamp(-LARGEST, LARGEST)
+                }),
+            )
+            .collect();
+        (0..all.len()).flat_map(|one| (0..=one).map(move |other| (one, other))).map(|(one, other)| all[one] * all[other]).collect()
+    }
+
+    fn by_half(&self, terms: &[f64], half: usize) -> [f64; 2] {
+        let sum = |parameter: usize| {
+            terms.iter().zip(&self.halves[half]).map(|(term, of)| term * of[parameter]).sum::<f64>()
+        };
+        [self.centre[0] + sum(0), self.centre[1] + sum(1)]
+    }
+
+    /// Predicted ln γ and ln E* of a curve of a line of the table, by the polynomial of the other lines.
+    pub fn of_line(&self, line: u64, described: &Described) -> [f64; 2] {
+        self.by_half(&self.terms(described), 1 - (line % 2) as usize)
+    }
+
+    /// Predicted ln γ and ln E* of another curve, the mean over both polynomials.
+    pub fn of_curve(&self, described: &Described) -> [f64; 2] {
+        let terms = self.terms(described);
+        let [one, other] = [0, 1].map(|half| self.by_half(&terms, half));
+        [0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])]
+    }
+}
+
+/// Solution of symmetric equations, of which the lower triangle is given, for two right sides (Cholesky).
+fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let count = matrix.len();
+    for row in 0..count {
+        for column in 0..=row {
+            let sum: f64 = (0..column).map(|at| matrix[row][at] * matrix[column][at]).sum();
+            let rest = matrix[row][column] - sum;
+            matrix[row][column] =
+                if row == column { rest.max(f64::MIN_POSITIVE).sqrt() } else { rest / matrix[column][column] };
+        }
+    }
+    for side in 0..2 {
+        for row in 0..count {
+            let sum: f64 = (0..row).map(|at| matrix[row][at] * right[at][side]).sum();
+            right[row][side] = (right[row][side] - sum) / matrix[row][row];
+        }
+        for row in (0..count).rev() {
+            let sum: f64 = (row + 1..count).map(|at| matrix[at][row] * right[at][side]).sum();
+            right[row][side] = (right[row][side] - sum) / matrix[row][row];
+        }
+    }
+    right
+}

@@ -1,0 +1,161 @@
+//! The probability of the parameters, from the mean of learned values over measured curves.
+
+use super::computed::Place;
+use super::scatter::{Moments, Scatter, distance};
+use super::table::{End, Table};
+
+/// Steps of the grid over ln(γ/E*) and ln E*, and over ln(γ/E*) alone.
+const STEPS: [f64; 2] = [0.01, 0.0125];
+const STEP_ALONE: f64 = 0.002;
+/// Share of the probability within `EDGE` of an end of the table above which the table is too short.
+const MOST_AT_END: f64 = 2e-3;
+const EDGE: f64 = 0.1;
+/// Quantiles of the result and of its 95 % interval.
+const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
+
+/// A parameter with its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Estimate {
+    /// Median.
+    pub value: f64,
+    /// Lower end of the 95 % interval.
+    pub low: f64,
+    /// Upper end of the 95 % interval.
+    pub high: f64,
+}
+
+impl Estimate {
+    /// Half the width of the interval, of the natural logarithm.
+    pub fn half_width(&self) -> f64 {
+        0.5 * (self.high / self.low).ln()
+    }
+
+    pub(crate) fn known(value: f64) -> Self {
+        Estimate { value, low: value, high: value }
+    }
+
+    fn map(self, of: impl Fn(f64) -> f64) -> Self {
+        Estimate { value: of(self.value), low: of(self.low), high: of(self.high) }
+    }
+
+    /// With further errors of the natural logarithm, as half-widths of 95 % intervals, added in quadrature.
+    pub(crate) fn widened(self, half_width: f64) -> Self {
+        let factor = |end: f64| (end / self.value).ln().hypot(half_width).exp();
+        Estimate { value: self.value, low: self.value / factor(self.low), high: self.value * factor(self.high) }
+    }
+}
+
+/// The moments of the table at the places of a fine grid.
+pub(crate) struct Grid {
+    places: Vec<(Place, Moments, [f64; 3], f64)>,
+    ends: [f64; 4],
+    /// Number of lines of the table.
+    lines: f64,
+}
+
+/// Probabilities of the places of a grid.
+pub(crate) struct Posterior<'g> {
+    grid: &'g Grid,
+    weights: Vec<f64>,
+}
+
+impl Grid {
+    /// A grid over the table; for a known ln E* along it alone.
+    pub fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
+        let ends = |axis: &[f64]| [axis[0], axis[axis.len() - 1]];
+        let ([low, high], [soft, hard]) = (ends(&table.ranges), ends(&table.moduli));
+        let along = |low: f64, high: f64, step: f64| {
+            let count = ((high - low) / step).ceil().max(1.0) as usize;
+            (0..=count).map(move |index| low + (high - low) * index as f64 / count as f64)
+        };
+        let at = |range: f64, modulus: f64| {
+            let place = Place { range, modulus };
+            let moments = scatter.at(place);
+            let (inverse, determinant) = moments.inverse();
+            (place, moments, inverse, determinant)
+        };
+        let places = match known {
+            Some(modulus) => along(low, high, STEP_ALONE).map(|range| at(range, modulus)).collect(),
+            None => along(low, high, STEPS[0])
+                .flat_map(|range| along(soft, hard, STEPS[1]).map(move |modulus| at(range, modulus)))
+                .collect(),
+        };
+        Grid { places, ends: [low, high, soft, hard], lines: table.lines.len() as f64 }
+    }
+
+    /// Posterior for the mean `at` of learned values over a number of curves: a flat prior over ln γ and ln E*, and errors
+    /// of the mean by the curves and, common to all of them, by the lines of the table. The covariance of few lines is
+    /// itself uncertain, which the power in place of an exponential allows for.
+    pub fn posterior(&self, at: [f64; 2], curves: f64) -> Posterior<'_> {
+        let variance = 1.0 / curves + 1.0 / self.lines;
+        let logarithm = |(_, moments, inverse, determinant): &(Place, Moments, [f64; 3], f64)| {
+            let square = distance(moments.mean, *inverse, at) / variance;
+            -0.5 * determinant - 0.5 * self.lines * (square / (self.lines - 1.0)).ln_1p()
+        };
+        let mut weights: Vec<f64> = self.places.iter().map(logarithm).collect();
+        let largest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        weights.iter_mut().for_each(|weight| *weight = (*weight - largest).exp());
+        let sum: f64 = weights.iter().sum();
+        weights.iter_mut().for_each(|weight| *weight /= sum);
+        Posterior { grid: self, weights }
+    }
+}
+
+impl Posterior<'_> {
+    /// The most probable place.
+    pub fn best(&self) -> Place {
+        let most = self.weights.iter().zip(&self.grid.places).max_by(|one, other| one.0.total_cmp(other.0));
+        most.map_or(Place { range: 0.0, modulus: 0.0 }, |(_, (place, ..))| *place)
+    }
+
+    /// γ, J/m², or for the parameter 1 E*, Pa.
+    pub fn estimate(&self, parameter: usize) -> Estimate {
+        let places = self.weights.iter().zip(&self.grid.places);
+        let mut values: Vec<(f64, f64)> =
+            places.map(|(weight, (place, ..))| (place.parameters()[parameter], *weight)).collect();
+        values.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let [low, value, high] = QUANTILES.map(|share| {
+            let mut sum = 0.0;
+            let (mut before, mut reached) = (values[0].0, 0.0);
+            for (value, weight) in &values {
+                // The weight of a place lies to both sides of it.
+                let next = sum + 0.5 * weight;
+                if next >= share {
+                    let part = if next > reached { (share - reached) / (next - reached) } else { 1.0 };
+                    return before + part.clamp(0.0, 1.0) * (value - before);
+                }
+                (before, reached, sum) = (*value, next, sum + weight);
+            }
+            before
+        });
+        Estimate { value, low, high }.map(f64::exp)
+    }
+
+    /// Correlation of ln γ and ln E*; 0 for a known E*.
+    pub fn correlation(&self) -> f64 {
+        let all = || self.weights.iter().zip(self.grid.places.iter().map(|(place, ..)| place.parameters()));
+        let mean = [0, 1].map(|index| all().map(|(weight, of)| weight * of[index]).sum::<f64>());
+        let product = |one: usize, other: usize| {
+            all().map(|(weight, of)| weight * (of[one] - mean[one]) * (of[other] - mean[other])).sum::<f64>()
+        };
+        let both = product(0, 0) * product(1, 1);
+        if both > 1e-20 { product(0, 1) / both.sqrt() } else { 0.0 }
+    }
+
+    /// Ends of the table that the parameters may lie beyond.
+    pub fn beyond(&self) -> Vec<End> {
+        let [low, high, soft, hard] = self.grid.ends;
+        let is_near = |place: &Place, end: End| match end {
+            End::LowRange => place.range < low + EDGE,
+            End::HighRange => place.range > high - EDGE,
+            End::LowModulus => hard > soft && place.modulus < soft + EDGE,
+            End::HighModulus => hard > soft && place.modulus > hard - EDGE,
+        };
+        let share = |end: End| {
+            let all = self.weights.iter().zip(&self.grid.places);
+            all.filter(|(_, (place, ..))| is_near(place, end)).map(|(weight, _)| weight).sum::<f64>()
+        };
+        let ends = [End::LowRange, End::HighRange, End::LowModulus, End::HighModulus];
+        ends.into_iter().filter(|end| share(*end) > MOST_AT_END).collect()
+    }
+}

@@ -1,0 +1,104 @@
+//! Mean and covariance over the lines of a table, at its nodes and between them.
+
+use super::computed::Place;
+use super::table::Table;
+
+/// Mean and covariance of two values over the lines at a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moments {
+    pub mean: [f64; 2],
+    /// Variance of the first value, covariance, variance of the second value.
+    pub covariance: [f64; 3],
+}
+
+impl Moments {
+    pub fn of(values: &[[f64; 2]]) -> Self {
+        let count = values.len() as f64;
+        let mean = [0, 1].map(|index| values.iter().map(|value| value[index]).sum::<f64>() / count);
+        let product = |one: usize, other: usize| {
+            let of = values.iter().map(|value| (value[one] - mean[one]) * (value[other] - mean[other]));
+            of.sum::<f64>() / (count - 1.0).max(1.0)
+        };
+        Moments { mean, covariance: [product(0, 0), product(0, 1), product(1, 1)] }
+    }
+
+    /// Inverse of the covariance, in the same order, and the logarithm of its determinant. A second value that does not
+    /// vary does not count.
+    pub fn inverse(&self) -> ([f64; 3], f64) {
+        let [one, both, other] = self.covariance;
+        if other == 0.0 {
+            let one = one.max(f64::MIN_POSITIVE);
+            return ([1.0 / one, 0.0, 0.0], one.ln());
+        }
+        let determinant = (one * other - both * both).max(f64::MIN_POSITIVE);
+        ([other / determinant, -both / determinant, one / determinant], determinant.ln())
+    }
+}
+
+/// (x − mean)ᵀ Σ⁻¹ (x − mean).
+pub(crate) fn distance(mean: [f64; 2], inverse: [f64; 3], at: [f64; 2]) -> f64 {
+    let [one, other] = [at[0] - mean[0], at[1] - mean[1]];
+    inverse[0] * one * one + 2.0 * inverse[1] * one * other + inverse[2] * other * other
+}
+
+/// Mean and covariance over the lines at all nodes.
+pub(crate) struct Scatter {
+    ranges: Vec<f64>,
+    moduli: Vec<f64>,
+    nodes: Vec<Moments>,
+}
+
+/// First of the nodes that surround a place, and their weights.
+struct Weights<const COUNT: usize> {
+    first: usize,
+    of: [f64; COUNT],
+}
+
+/// Weights of the polynomial through the nearest nodes of an axis; of fewer nodes than COUNT, through all.
+fn weights<const COUNT: usize>(axis: &[f64], at: f64) -> Weights<COUNT> {
+    let count = COUNT.min(axis.len());
+    let next = axis.partition_point(|node| *node < at);
+    let first = next.saturating_sub(count.div_ceil(2)).min(axis.len() - count);
+    let mut of = [0.0; COUNT];
+    for (index, weight) in of.iter_mut().enumerate().take(count) {
+        let node = axis[first + index];
+        let others = (first..first + count).filter(|other| *other != first + index);
+        *weight = others.map(|other| (at - axis[other]) / (node - axis[other])).product();
+    }
+    Weights { first, of }
+}
+
+impl Scatter {
+    /// Moments of two values of each curve, computed from the number of its line and its node.
+    pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
+        let node = |node: usize| {
+            Moments::of(&(0..table.lines.len()).map(|line| value(line, node)).collect::<Vec<_>>())
+        };
+        let nodes = (0..table.ranges.len() * table.moduli.len()).map(node).collect();
+        Scatter { ranges: table.ranges.clone(), moduli: table.moduli.clone(), nodes }
+    }
+
+    /// Moments at a place: the mean cubic, the covariance linear between nodes.
+    pub fn at(&self, place: Place) -> Moments {
+        let of = |one: usize, other: usize| &self.nodes[one * self.moduli.len() + other];
+        let mut moments = Moments { mean: [0.0; 2], covariance: [0.0; 3] };
+        let (range, modulus) =
+            (weights::<4>(&self.ranges, place.range), weights::<4>(&self.moduli, place.modulus));
+        for (one, first) in range.of.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+            for (other, second) in modulus.of.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                let node = of(range.first + one, modulus.first + other);
+                (0..2).for_each(|index| moments.mean[index] += first * second * node.mean[index]);
+            }
+        }
+        let inside = |axis: &[f64], at: f64| at.clamp(axis[0], axis[axis.len() - 1]);
+        let range = weights::<2>(&self.ranges, inside(&self.ranges, place.range));
+        let modulus = weights::<2>(&self.moduli, inside(&self.moduli, place.modulus));
+        for (one, first) in range.of.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+            for (other, second) in modulus.of.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                let node = of(range.first + one, modulus.first + other);
+                (0..3).for_each(|index| moments.covariance[index] += first * second * node.covariance[index]);
+            }
+        }
+        moments
+    }
+}
