@@ -1,8 +1,9 @@
 //! `asperity fit`: fits the parameters of a scene to a measured force curve.
 
+use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
-use super::scene::{MOST_LINES, Overrides, threads};
+use super::scene::{Overrides, threads};
 use asperity_data::path_name;
 use asperity_data::write_new;
 use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as find};
@@ -19,7 +20,8 @@ Examples:
   asperity fit curve.csv jkr-sphere --free work,offset
   asperity fit curve.txt my-scene.ron --free work,modulus,offset --units nm,nN --tilt remove
   asperity fit curve.csv my-scene.ron --free work,modulus,offset --segments 2
-  asperity fit curve.csv rough.ron --free work=1mJ/m^2..1J/m^2,offset --lines 16 -o fit.json
+  asperity fit curve.csv my-scene.ron --free work=1mJ/m^2..1J/m^2,offset -o fit.json
+  asperity fit places/*.csv rough.ron --free work,modulus --lines 128 --height-error 5%
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
@@ -32,9 +34,9 @@ parameters.";
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct FitArguments {
-    /// File of the measured force curve
-    #[arg(value_name = "CURVE")]
-    pub curve: PathBuf,
+    /// Files of measured force curves, or folders of them
+    #[arg(value_name = "CURVE", required = true)]
+    pub curves: Vec<PathBuf>,
     /// A scene file or a built-in scene: form, roughness and all values that are known
     #[arg(value_name = "SCENE")]
     pub model: String,
@@ -45,11 +47,10 @@ pub struct FitArguments {
     pub free: Vec<Free>,
     #[command(flatten)]
     pub reading: CurveOptions,
-    /// Repeat the fit on COUNT random profiles, for the scatter over them
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES))]
-    pub lines: Option<u32>,
-    /// Threads that share the profiles; default: one for each core
-    #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[command(flatten)]
+    pub ensemble: EnsembleArguments,
+    /// Threads that share curves or profiles; default: one for each core
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
     /// Write the scene with the values found to FILE
     #[arg(long, value_name = "FILE", group = "written")]
@@ -59,16 +60,21 @@ pub struct FitArguments {
 }
 
 pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    if let Some(lines) = arguments.ensemble.lines {
+        return ensemble(arguments, lines, stdout);
+    }
+    let [path] = &arguments.curves[..] else {
+        return Err(CliError::named("--lines", "missing; several curves are compared with random profiles"));
+    };
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
         check_file(file, "ron", arguments.output.force)?;
     }
     let document = arguments.overrides.apply(open_argument(&arguments.model)?)?;
-    let title = path_name(&arguments.curve);
-    let curve = MeasuredCurve::read(&arguments.curve, &arguments.reading)
-        .map_err(|error| CliError::named(&title, error))?;
-    let lines = arguments.lines.map_or(1, u64::from);
-    let options = FitOptions { free: arguments.free.clone(), lines, jobs: threads(arguments.jobs) };
+    let title = path_name(path);
+    let curve =
+        MeasuredCurve::read(path, &arguments.reading).map_err(|error| CliError::named(&title, error))?;
+    let options = FitOptions { free: arguments.free.clone(), lines: 1, jobs: threads(arguments.jobs) };
     let found = find(&curve, &document, &options, &|| false, &mut |_| ());
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     if let Some(file) = &arguments.scene {

@@ -8,6 +8,7 @@ mod check;
 mod completions;
 mod cost;
 mod demo;
+mod ensemble;
 mod error;
 mod explore;
 mod fit;

@@ -5,6 +5,7 @@ mod boundary;
 mod check;
 mod cost;
 mod ensemble;
+mod ensemble_fit;
 mod fit;
 mod loop_chart;
 mod map;
@@ -29,6 +30,7 @@ mod work_precision;
 
 pub use cost::CostReport;
 pub use ensemble::LinesReport;
+pub use ensemble_fit::EnsembleFitReport;
 pub use fit::FitReport;
 pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
 pub use measured_face::{MeasuredFace, SurfaceFile};

@@ -9,6 +9,8 @@ const NEAR_TURN: f64 = 0.02;
 const FEWEST_NEAR_TURN: usize = 5;
 /// Force at the end of the retraction, in standard deviations of the noise of its mean, above which contact is not lost.
 const LOST: f64 = 5.0;
+/// Share of the largest force up to which a force without contact may be off zero, by drift.
+const NEAR_ZERO: f64 = 0.03;
 /// Number of points at the end of the retraction that have lost the contact.
 const FEWEST_FREE: usize = 5;
 
@@ -26,15 +28,14 @@ pub(crate) struct Branches {
 }
 
 impl Branches {
-    /// Takes approach and retraction out of a measured curve, without pauses.
+    /// Takes approach and retraction out of a measured curve,.
     ///
     /// # Errors
     /// The curve lacks one of them, or ends before the loss of contact.
     pub fn of(curve: &MeasuredCurve) -> Result<Self, ExperimentError> {
         let turn = curve.turns[0];
         let branch = |number: usize| -> Vec<Point> {
-            let all = curve.points().zip(curve.segment.iter().zip(&curve.is_still));
-            let of = all.filter(|(_, (segment, is_still))| **segment == number && !**is_still);
+            let of = curve.points().zip(&curve.segment).filter(|(_, segment)| **segment == number);
             of.map(|((displacement, force), _)| (displacement - turn, force)).collect()
         };
         let (approach, retraction) = (branch(0), branch(1));
@@ -55,8 +56,8 @@ impl Branches {
     fn ends_in_contact(&self) -> bool {
         let end = &self.retraction[self.retraction.len() - FEWEST_FREE..];
         let mean = end.iter().map(|point| point.1).sum::<f64>() / FEWEST_FREE as f64;
-        mean.abs() > LOST * self.noise / (FEWEST_FREE as f64).sqrt()
-            && end.iter().all(|point| point.1.abs() > self.noise)
+        let largest = self.retraction.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
+        mean.abs() > (LOST * self.noise / (FEWEST_FREE as f64).sqrt()).max(NEAR_ZERO * largest)
     }
 
     /// Largest force, N, by straight lines through the points of both branches beside the turning point.
@@ -74,8 +75,8 @@ impl Branches {
     /// Standard deviation of the preload due to the noise, N.
     pub fn preload_error(&self) -> f64 {
         // The end of a line through n points has a variance of 4/n.
-        let count = (NEAR_TURN * self.approach.len().min(self.retraction.len()) as f64)
-            .max(FEWEST_NEAR_TURN as f64);
+        let count =
+            (NEAR_TURN * self.approach.len().min(self.retraction.len()) as f64).max(FEWEST_NEAR_TURN as f64);
         self.noise * (2.0 / count).sqrt()
     }
 }

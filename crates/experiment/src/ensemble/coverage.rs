@@ -20,9 +20,12 @@ fn intervals_of_ensembles_hold_the_truth() {
     let most = number("CURVES", 32);
     let which = number("WHICH", 3);
     for name in ["rough-sphere", "pressure-sensitive"] {
+        if std::env::var("SCENE").is_ok_and(|one| one != name) {
+            continue;
+        }
         let base = scene(name);
         let mut rows = vec![(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); 4];
-        for specimen in 0..count {
+        for specimen in number("FIRST", 0)..number("FIRST", 0) + count {
             let mut generator = ChaCha8Rng::seed_from_u64(specimen);
             let mut between = |factor: f64| factor.powf(generator.random::<f64>() - 0.5);
             let (work, modulus) = (
@@ -74,8 +77,22 @@ fn intervals_of_ensembles_hold_the_truth() {
                 of.6 += f64::from(u8::from(fit.described));
                 of.7 += fit.computed as f64;
                 of.8 += error * error;
+                {
+                    println!(
+                        "{name} {specimen} {places} {is_modulus_free} error {error:+.4} half {:.4} E {:+.4} half {:.4} scatter {:.2} described {} {:.1}s",
+                        fit.work.half_width(),
+                        (fit.modulus.value / modulus).ln(),
+                        fit.modulus.half_width(),
+                        fit.scatter_ratio.unwrap_or(0.0),
+                        fit.described,
+                        seconds
+                    );
+                }
                 if holds(fit.work, work) == 0.0 {
-                    println!("{name} {specimen} M {places} free {is_modulus_free}: {:?} truth {work:.4} E {modulus:.4e} {:?}, at end {}", fit.work, fit.modulus, fit.at_end_of_table);
+                    println!(
+                        "{name} {specimen} M {places} free {is_modulus_free}: {:?} truth {work:.4} E {modulus:.4e} {:?}, at end {}",
+                        fit.work, fit.modulus, fit.at_end_of_table
+                    );
                 }
             }
         }
@@ -83,7 +100,15 @@ fn intervals_of_ensembles_hold_the_truth() {
         for (row, label) in rows.iter().zip(["8 known", "M known", "8 free", "M free"]) {
             println!(
                 "{name} {label}: γ {:.1} % / {:.4} / bias {:+.4} rms {:.4}; E* {:.1} % / {:.3}; {:.2} s, described {:.2}, {:.0} curves",
-                100.0 * row.0 / n, row.1 / n, row.2 / n, (row.8 / n).sqrt(), 100.0 * row.3 / n, row.4 / n, row.5 / n, row.6 / n, row.7 / n
+                100.0 * row.0 / n,
+                row.1 / n,
+                row.2 / n,
+                (row.8 / n).sqrt(),
+                100.0 * row.3 / n,
+                row.4 / n,
+                row.5 / n,
+                row.6 / n,
+                row.7 / n
             );
         }
     }

@@ -78,8 +78,9 @@ pub(crate) fn deviations(
     place: Place,
     mean: &Mean,
 ) -> Vec<SummaryDeviation> {
-    let scatters: Vec<Scatter> =
-        (0..SUMMARIES).map(|index| Scatter::of(table, |line, node| [table.lines[line][node][index], 0.0])).collect();
+    let scatters: Vec<Scatter> = (0..SUMMARIES)
+        .map(|index| Scatter::of(table, |line, node| [table.lines[line][node][index], 0.0]))
+        .collect();
     let (count, lines) = (mean.curves as f64, table.lines.len());
     let rows: Vec<(f64, f64, [f64; 2])> = scatters
         .iter()

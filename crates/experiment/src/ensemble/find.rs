@@ -111,7 +111,9 @@ pub fn fit_ensemble(
             let curves = others.curves(options.lines, &[best.range], &[best.modulus])?;
             let of = |(line, curve): (usize, &Vec<Summaries>)| compared.of_line(line, &curve[0], &measured);
             let all: Vec<[f64; 2]> = curves.iter().enumerate().map(of).collect();
-            Ok::<_, ExperimentError>([0, 1].map(|index| mean(&all.iter().map(|of| of[index]).collect::<Vec<_>>())))
+            Ok::<_, ExperimentError>(
+                [0, 1].map(|index| mean(&all.iter().map(|of| of[index]).collect::<Vec<_>>())),
+            )
         };
         let [low, high] = [at(-1.0)?, at(1.0)?];
         // A model whose values are larger needs parameters that make them smaller again.
@@ -293,8 +295,10 @@ fn placed(
     known: Option<f64>,
 ) -> Result<Place, ExperimentError> {
     let target = measured.mean().summaries;
-    let (mut low, mut soft) =
-        (start.range - 2.0 * ROUGH_STEPS[0], start.modulus - 0.5 * (ROUGH_NODES[1] - 1) as f64 * ROUGH_STEPS[1]);
+    let (mut low, mut soft) = (
+        start.range - 2.0 * ROUGH_STEPS[0],
+        start.modulus - 0.5 * (ROUGH_NODES[1] - 1) as f64 * ROUGH_STEPS[1],
+    );
     for last in (0..MOST_MOVES).rev() {
         let ranges = nodes(low, ROUGH_STEPS[0], ROUGH_NODES[0]);
         let moduli =
@@ -396,12 +400,10 @@ impl Compared {
     fn scatter_ratio(&self, measured: &Measured, best: Place) -> Option<f64> {
         let count = self.of_curves.len();
         let inverse = self.scatter.at(best).inverse().0;
-        let centre =
-            [0, 1].map(|index| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>()));
+        let centre = [0, 1].map(|index| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>()));
         let sum: f64 = self.of_curves.iter().map(|of| distance(centre, inverse, *of)).sum();
         let values = if self.has_one_modulus { 1.0 } else { 2.0 };
-        (measured.summaries.len() >= FEWEST_FOR_SCATTER)
-            .then(|| (sum / (count as f64 - 1.0) / values).sqrt())
+        (measured.summaries.len() >= FEWEST_FOR_SCATTER).then(|| (sum / (count as f64 - 1.0) / values).sqrt())
     }
 
     fn rows(

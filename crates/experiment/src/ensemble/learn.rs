@@ -71,12 +71,14 @@ impl Learned {
         let standardised = described.values().zip(&self.standard);
         let all: Vec<f64> = std::iter::once(1.0)
             .chain(
-                standardised.map(|(value, (mean, deviation))| {
-                    ((value - mean) / deviation).clamp(-LARGEST, LARGEST)
-                }),
+                standardised
+                    .map(|(value, (mean, deviation))| ((value - mean) / deviation).clamp(-LARGEST, LARGEST)),
             )
             .collect();
-        (0..all.len()).flat_map(|one| (0..=one).map(move |other| (one, other))).map(|(one, other)| all[one] * all[other]).collect()
+        (0..all.len())
+            .flat_map(|one| (0..=one).map(move |other| (one, other)))
+            .map(|(one, other)| all[one] * all[other])
+            .collect()
     }
 
     fn by_half(&self, terms: &[f64], half: usize) -> [f64; 2] {
@@ -106,11 +108,14 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<[f64; 2]>) -> Vec<[f64; 2]> 
         for column in 0..=row {
             let sum: f64 = (0..column).map(|at| matrix[row][at] * matrix[column][at]).sum();
             let rest = matrix[row][column] - sum;
-            matrix[row][column] =
-                if row == column { rest.max(f64::MIN_POSITIVE).sqrt() } else { rest / matrix[column][column] };
+            matrix[row][column] = if row == column {
+                rest.max(f64::MIN_POSITIVE).sqrt()
+            } else {
+                rest / matrix[column][column]
+            };
         }
     }
-    for side in 0..2 {
+    for side in [0, 1] {
         for row in 0..count {
             let sum: f64 = (0..row).map(|at| matrix[row][at] * right[at][side]).sum();
             right[row][side] = (right[row][side] - sum) / matrix[row][row];

@@ -41,7 +41,11 @@ impl Estimate {
     /// With further errors of the natural logarithm, as half-widths of 95 % intervals, added in quadrature.
     pub(crate) fn widened(self, half_width: f64) -> Self {
         let factor = |end: f64| (end / self.value).ln().hypot(half_width).exp();
-        Estimate { value: self.value, low: self.value / factor(self.low), high: self.value * factor(self.high) }
+        Estimate {
+            value: self.value,
+            low: self.value / factor(self.low),
+            high: self.value * factor(self.high),
+        }
     }
 }
 

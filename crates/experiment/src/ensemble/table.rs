@@ -84,12 +84,7 @@ impl Table {
     }
 
     /// Adds `count` nodes at an end.
-    pub fn extend(
-        &mut self,
-        workers: &Workers<'_>,
-        end: End,
-        count: usize,
-    ) -> Result<(), ExperimentError> {
+    pub fn extend(&mut self, workers: &Workers<'_>, end: End, count: usize) -> Result<(), ExperimentError> {
         let axis = match end {
             End::LowRange | End::HighRange => &self.ranges,
             End::LowModulus | End::HighModulus => &self.moduli,
@@ -125,9 +120,7 @@ impl Table {
 
     /// Nodes in the order of the curves of a line.
     pub fn places(&self) -> impl Iterator<Item = Place> {
-        self.ranges
-            .iter()
-            .flat_map(|&range| self.moduli.iter().map(move |&modulus| Place { range, modulus }))
+        self.ranges.iter().flat_map(|&range| self.moduli.iter().map(move |&modulus| Place { range, modulus }))
     }
 
     /// Summaries of all lines at the node with this number.

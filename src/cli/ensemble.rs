@@ -1,0 +1,104 @@
+//! `asperity fit … --lines`: the work of adhesion of a rough body by comparison with random profiles.
+
+use super::error::CliError;
+use super::fit::FitArguments;
+use super::output::Origin;
+use super::progress::ProgressLine;
+use super::scene::threads;
+use asperity_data::{grouped, path_name};
+use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
+use asperity_report::{EnsembleFitReport, Format};
+use asperity_scene::open_argument;
+use clap::Args;
+use std::io::Write;
+use std::sync::Mutex;
+
+/// Number of random profiles without a number of one's own.
+const LINES: &str = "128";
+
+/// Arguments of a comparison with random profiles.
+#[derive(Args, Debug)]
+pub struct EnsembleArguments {
+    /// Compare the curves with COUNT random profiles of the roughness; default: 128
+    ///
+    /// One work of adhesion for all curves of a rough body, each at a place of its own, whose
+    /// profile is unknown. --free work, or work,modulus; the displacement at first touch does
+    /// not matter.
+    #[arg(
+        long,
+        value_name = "COUNT",
+        num_args = 0..=1,
+        default_missing_value = LINES,
+        value_parser = clap::value_parser!(u32).range(16..=4096)
+    )]
+    pub lines: Option<u32>,
+    /// Standard error of the rms height, as a share: 0.05, 5%
+    #[arg(long, value_name = "SHARE", requires = "lines", value_parser = share)]
+    pub height_error: Option<f64>,
+    /// Standard error of the Hurst exponent: 0.03
+    #[arg(long, value_name = "ERROR", requires = "lines", value_parser = share)]
+    pub hurst_error: Option<f64>,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |number| (number.trim_end(), 0.01));
+    let value = number.parse().ok().map(|value: f64| unit * value);
+    value
+        .filter(|value| (0.0..=0.5).contains(value))
+        .ok_or_else(|| "allowed: from 0 to 0.5, such as 0.05 or 5%".to_owned())
+}
+
+/// Whether the modulus is free; an error for parameters that random profiles do not determine.
+fn is_modulus_free(free: &[Free]) -> Result<bool, CliError> {
+    use Parameter::{Modulus, Offset, Work};
+    let allowed = "allowed with --lines: work, modulus, offset, each without a range";
+    for one in free {
+        if ![Work, Modulus, Offset].contains(&one.parameter) || one.range.is_some() {
+            return Err(CliError::named("--free", format!("{}; {allowed}", one.parameter.name())));
+        }
+    }
+    if !free.iter().any(|one| one.parameter == Work) {
+        return Err(CliError::named("--free", format!("work is missing; {allowed}")));
+    }
+    Ok(free.iter().any(|one| one.parameter == Modulus))
+}
+
+/// Compares the curves of `fit` with `lines` random profiles.
+pub(super) fn ensemble(arguments: &FitArguments, lines: u32, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(&Format::ALL, Format::Text)?;
+    let is_modulus_free = is_modulus_free(&arguments.free)?;
+    let document = arguments.overrides.apply(open_argument(&arguments.model)?)?;
+    let read = |path: &std::path::PathBuf| {
+        let name = path_name(path);
+        match MeasuredCurve::read(path, &arguments.reading) {
+            Ok(curve) => Ok((name, curve)),
+            Err(error) => Err(CliError::named(&name, error)),
+        }
+    };
+    let curves = arguments.curves.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let EnsembleArguments { height_error, hurst_error, .. } = arguments.ensemble;
+    let options = EnsembleOptions {
+        lines: u64::from(lines),
+        is_modulus_free,
+        height_error,
+        hurst_error,
+        jobs: threads(arguments.jobs),
+    };
+    let progress = Mutex::new(ProgressLine::default());
+    let report = |computed: usize| {
+        if let Ok(mut line) = progress.try_lock() {
+            line.show(&format!("{} curves computed", grouped(computed as u64)), None);
+        }
+    };
+    let found = fit_ensemble(&curves, &document, &options, &|| false, &report);
+    if let Ok(line) = progress.lock() {
+        line.clear();
+    }
+    let found = found.map_err(|error| CliError::named(document.name(), error))?;
+    let report = EnsembleFitReport {
+        title: document.title(),
+        fit: &found,
+        has_roughness_errors: height_error.is_some() || hurst_error.is_some(),
+    };
+    arguments.output.write(stdout, &report, format, Origin::Scene(&document, document.scene()))
+}
