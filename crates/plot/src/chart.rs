@@ -228,6 +228,8 @@ pub enum Sign {
     Cross,
     /// Open diamond.
     HollowDiamond,
+    /// The smallest mark of the output: a single Braille dot in cells. Thousands of them leave the lines above legible.
+    Point,
 }
 
 impl Sign {

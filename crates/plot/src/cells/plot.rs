@@ -4,7 +4,7 @@ use super::map;
 use super::shapes::LayerShape;
 use super::style::{CellStyle, glyph};
 use crate::axis::Axis;
-use crate::chart::{Chart, Layer, Shape};
+use crate::chart::{Chart, Layer, Shape, Sign};
 use crate::colour::Ink;
 use crate::ticks::Tick;
 use ratatui::buffer::Buffer;
@@ -155,6 +155,10 @@ impl CellPlot {
     fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
         for layer in &chart.layers {
             let Shape::Curve { points, sign: Some(sign), .. } = &layer.shape else { continue };
+            // A point is a dot, which the canvas draws.
+            if *sign == Sign::Point {
+                continue;
+            }
             // At most one sign in every other column.
             let every = (2 * points.len()).div_ceil(usize::from(self.plot.width)).max(1);
             for point in points.iter().step_by(every) {
@@ -275,7 +279,7 @@ mod tests {
     use super::*;
     use crate::cells::style::Colours;
     use crate::chart::HeatMap;
-    use crate::chart::{Sign, Stroke};
+    use crate::chart::Stroke;
     use crate::colour::Shades;
     use crate::scale::Span;
     use asperity_data::AxisScale;
@@ -404,6 +408,24 @@ mod tests {
             }
         }
         assert!(found > 10, "{found}");
+    }
+
+    /// Of thousands of points each paints its dot, and a line above them keeps its cells.
+    #[test]
+    fn points_are_dots_below_a_line() {
+        let cloud = (0..2000).map(|at| (3e-10 * f64::from(at), -1.5e-5 + 2.4e-8 * f64::from(at * 7 % 1000)));
+        let cloud = Layer::unnamed(Ink::Kept, Shape::signs(cloud.collect(), Sign::Point));
+        let line = curve(&[(0.0, 0.0), (6e-7, -1e-5)], None);
+        let symbols = |layers: Vec<Layer>| {
+            let (_, buffer) = drawn(&chart(layers), (60, 20));
+            buffer.content.iter().map(|cell| cell.symbol().to_owned()).collect::<Vec<_>>()
+        };
+        let (both, alone) = (symbols(vec![cloud.clone(), line.clone()]), symbols(vec![line]));
+        let is_dots = |symbol: &String| symbol.chars().all(|c| ('\u{2801}'..='\u{28ff}').contains(&c));
+        assert!(alone.iter().zip(&both).all(|(line, both)| !is_dots(line) || line == both));
+        let dots = symbols(vec![cloud]).iter().filter(|symbol| is_dots(symbol)).count();
+        assert!(dots > 150 && alone.iter().filter(|symbol| is_dots(symbol)).count() > 20, "{dots} cells");
+        assert!(!both.iter().any(|symbol| symbol == glyph(Sign::Dot)));
     }
 
     #[test]

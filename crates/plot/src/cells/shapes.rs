@@ -1,7 +1,7 @@
 //! Layers of a chart as Braille dots on a canvas with coordinates from 0 to 1.
 
 use crate::axis::{Axes, Share};
-use crate::chart::{Chart, Shape, Stroke};
+use crate::chart::{Chart, Shape, Sign, Stroke};
 use ratatui::style::Color;
 use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
 
@@ -38,6 +38,15 @@ impl LayerShape<'_> {
         }
     }
 
+    /// One dot for each point.
+    fn points(&self, painter: &mut Painter<'_, '_>, points: &[(f64, f64)]) {
+        for (x, y) in points.iter().filter_map(|point| self.axes().place(*point)) {
+            if let Some(dot) = painter.get_point(x, y) {
+                self.paint(painter, dot);
+            }
+        }
+    }
+
     /// Dots of the area inside a closed line, every other one. A dot is inside if the line crosses the column below it an
     /// odd number of times.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
@@ -67,6 +76,7 @@ impl LayerShape<'_> {
 impl CanvasShape for LayerShape<'_> {
     fn draw(&self, painter: &mut Painter<'_, '_>) {
         match self.shape {
+            Shape::Curve { points, stroke: None, sign: Some(Sign::Point) } => self.points(painter, points),
             Shape::Curve { points, stroke: Some(stroke), .. } => {
                 self.lines(painter, &self.axes().runs(points.iter().copied()), *stroke);
             }

@@ -49,5 +49,6 @@ pub fn glyph(sign: Sign) -> &'static str {
         Sign::Right => "▶",
         Sign::Cross => "×",
         Sign::HollowDiamond => "◇",
+        Sign::Point => "⠪",
     }
 }

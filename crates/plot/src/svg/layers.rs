@@ -112,6 +112,7 @@ fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rg
 pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, (x, y): Place, r: f64, colour: Rgb) {
     match sign {
         Sign::Dot => svg.circle((x, y), r, colour, None),
+        Sign::Point => svg.circle((x, y), 0.4 * r, colour, None),
         Sign::Ring => svg.circle((x, y), r, PAPER, Some(Pen::solid(colour, 0.45 * r))),
         Sign::Square => svg.rectangle((x - 0.9 * r, y - 0.9 * r), (x + 0.9 * r, y + 0.9 * r), colour),
         Sign::Up | Sign::Down | Sign::Left | Sign::Right => {
