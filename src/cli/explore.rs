@@ -14,8 +14,7 @@ use crate::explorer::session::Options;
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::view;
 use asperity_data::path_name;
-use asperity_experiment::{CurveOptions, MeasuredCurve};
-use asperity_report::brief_summary;
+use asperity_experiment::CurveOptions;
 use asperity_scene::Simulation;
 use asperity_scene::{did_you_mean, open_argument, quoted};
 use clap::Args;
@@ -190,9 +189,8 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
     }
     if let Some(path) = &arguments.measured {
         let name = path_name(path);
-        let curve = MeasuredCurve::read(path, &arguments.reading);
-        let curve = curve.map_err(|error| CliError::named(&name, error))?;
-        opening.measured = Some(Measured::new(name, curve, &arguments.reading));
+        let measured = Measured::read(path, arguments.reading.clone());
+        opening.measured = Some(measured.map_err(|error| CliError::named(&name, error))?);
     }
     Ok(opening)
 }

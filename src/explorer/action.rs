@@ -1,10 +1,12 @@
 //! Everything that can happen to the explorer, and the tasks outside of its state that follow.
 
 use super::keys::bindings::Command;
-use super::opening::Opening;
+use super::measured::Measured;
+use super::opening::Opened;
 use super::snapshot::Reply;
 use super::studies::Finding;
-use asperity_report::Format;
+use crate::export::report::Format;
+use asperity_experiment::CurveOptions;
 use asperity_scene::Entry;
 use crossterm::event::KeyEvent;
 use std::path::PathBuf;
@@ -27,8 +29,10 @@ pub enum Action {
     Listed(Vec<Entry>),
     /// Paths that begin as the typed path have been found.
     Completed(Vec<String>),
-    /// A scene or study, by its path, was opened; or the reason why it was not.
-    Opened(String, Result<Box<Opening>, String>),
+    /// A scene, study or force curve, by its path, was opened; or the reason why it was not.
+    Opened(String, Result<Opened, String>),
+    /// The measured curve was read with other options; or the reason why it was not.
+    Read(Reading, Result<Box<Measured>, String>),
     Mouse(Mouse),
 }
 
@@ -43,9 +47,19 @@ pub enum Task {
     List,
     Complete(String),
     Open(String),
+    /// Read the measured curve with other options.
+    Read(Reading),
     Copy(String),
     Redraw,
     Suspend,
+}
+
+/// A request for the measured curve as read with other options.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    pub options: CurveOptions,
+    /// The typed value that is asked for; `None` for a choice of the arrows.
+    pub typed: Option<String>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]

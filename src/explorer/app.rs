@@ -7,7 +7,6 @@ use super::ghost::Ghost;
 use super::keys::bindings::{Command, Context};
 use super::map::Live;
 use super::map::MapState;
-use super::measured::Measured;
 use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
 use super::player::Player;
@@ -81,7 +80,7 @@ pub enum Message {
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane in place of profile and close-up; `None` if these two are shown.
+    /// Pane in place of profile and close-up, which may be that of the force; `None` if these two are shown.
     pub large: Option<Pane>,
     pub zoomed: bool,
     pub size: (u16, u16),
@@ -115,7 +114,6 @@ pub struct App {
     pub studies: Findings,
     pub map: MapState,
     pub ghosts: Vec<Ghost>,
-    pub measured: Option<Measured>,
     /// The scene with the value being typed, whose outcome is awaited.
     pub tried: Option<Document>,
     pub prompt: Option<Prompt>,
@@ -157,7 +155,6 @@ impl App {
             studies: Findings::default(),
             map: MapState::default(),
             ghosts: Vec::new(),
-            measured: None,
             tried: None,
             prompt: None,
             message: None,
@@ -320,6 +317,7 @@ impl App {
     /// The selectable panes, the most important first.
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
+            Some(Pane::Force) => vec![Pane::Force, Pane::Parameters],
             Some(large) => vec![Pane::Force, large, Pane::Parameters],
             None => vec![Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp],
         }
@@ -335,6 +333,17 @@ impl App {
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
         if self.is_shown(pane) && is_in_use { self.show_large(None, Pane::Force) } else { self.show(pane) }
+    }
+
+    /// Shows the force curve in place of profile and close-up.
+    pub fn show_large_force(&mut self) {
+        self.show_large(Some(Pane::Force), Pane::Force);
+    }
+
+    /// Shows the force curve in place of profile and close-up, or these two again.
+    pub fn toggle_large_force(&mut self) {
+        let is_large = self.view.large == Some(Pane::Force);
+        if is_large { self.show_large(None, Pane::Force) } else { self.show_large_force() }
     }
 
     /// Shows a pane at its place and selects it.
@@ -414,7 +423,7 @@ impl App {
                     _ => None,
                 }
             }
-            Setting::Heading => None,
+            Setting::Heading | Setting::Reading(_) => None,
         }
     }
 

@@ -1,6 +1,8 @@
 //! The scene as edited: its list of parameters, its history, and whether it is saved.
 
+use super::measured::Measured;
 use super::parameters::{Parameter, parameters};
+use super::reading;
 use asperity_scene::{CheckedScene, Document};
 use std::collections::BTreeMap;
 use std::iter::successors;
@@ -10,15 +12,36 @@ use std::sync::Arc;
 
 const UNDO_DEPTH: usize = 1000;
 
+/// The scene and the measured curve before or after an edit.
+#[derive(Clone, Debug)]
+pub struct Edited {
+    pub document: Document,
+    pub measured: Option<Measured>,
+}
+
+impl Edited {
+    /// Returns true if an edit from one to the other changes something that an undo restores.
+    fn differs(&self, other: &Edited) -> bool {
+        let options = |one: &Edited| {
+            one.measured.as_ref().map(|measured| (measured.path.clone(), measured.options.clone()))
+        };
+        self.document.name() != other.document.name()
+            || self.document.text() != other.document.text()
+            || options(self) != options(other)
+    }
+}
+
 /// The scene as edited, its history, and its list of parameters.
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
+    /// The measured curve beside the scene.
+    pub measured: Option<Measured>,
     /// The checked scene of the document, with its files named from the working folder.
     pub scene: Arc<CheckedScene>,
-    /// Documents before each edit, the newest last.
-    pub past: Vec<Document>,
-    future: Vec<Document>,
+    /// What was edited before each edit, the newest last.
+    pub past: Vec<Edited>,
+    future: Vec<Edited>,
     /// For each scene by its name, the document on disk or as opened.
     pub saved: BTreeMap<String, Document>,
     /// Number of times that a scene was saved or opened.
@@ -33,7 +56,8 @@ pub struct Editor {
 impl Editor {
     pub fn new(document: Document) -> Self {
         let mut editor = Editor {
-            parameters: parameters(&document),
+            parameters: parameters(&document, None),
+            measured: None,
             scene: scene_of(&document),
             document,
             past: Vec::new(),
@@ -75,8 +99,13 @@ impl Editor {
 
     /// Makes a document the explored one; an undo returns to the former document, unless both are the same.
     pub fn adopt(&mut self, document: Document) {
-        let before = replace(&mut self.document, document);
-        if before.name() != self.document.name() || before.text() != self.document.text() {
+        self.adopt_all(Edited { document, measured: self.measured.clone() });
+    }
+
+    /// Makes a document and a measured curve the explored ones, in one edit.
+    pub fn adopt_all(&mut self, edited: Edited) {
+        let before = self.exchange(edited);
+        if before.differs(&self.edited()) {
             self.past.push(before);
         }
         if self.past.len() > UNDO_DEPTH {
@@ -84,6 +113,18 @@ impl Editor {
         }
         self.future.clear();
         self.renew();
+    }
+
+    fn edited(&self) -> Edited {
+        Edited { document: self.document.clone(), measured: self.measured.clone() }
+    }
+
+    /// Puts document and measured curve in the place of the present ones, which are returned.
+    fn exchange(&mut self, Edited { document, measured }: Edited) -> Edited {
+        Edited {
+            document: replace(&mut self.document, document),
+            measured: replace(&mut self.measured, measured),
+        }
     }
 
     /// Continues the last edit: the new document replaces the result of the edit.
@@ -96,16 +137,25 @@ impl Editor {
     /// Undoes the last edit or, unless `back`, redoes the last undone edit. Returns the change in words; `None` without
     /// such an edit.
     pub fn undo(&mut self, back: bool) -> Option<String> {
-        let (from, to) =
-            if back { (&mut self.past, &mut self.future) } else { (&mut self.future, &mut self.past) };
-        let before = replace(&mut self.document, from.pop()?);
+        let next = if back { self.past.pop()? } else { self.future.pop()? };
+        let before = self.exchange(next);
+        let to = if back { &mut self.future } else { &mut self.past };
         to.push(before.clone());
-        let changes = before.changes_to(&self.document);
-        let mut what = changes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        if before.name() != self.document.name() {
-            self.document.name().clone_into(&mut what);
-            self.leave(before);
+        let changes = before.document.changes_to(&self.document);
+        let mut changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
+        if before.document.name() != self.document.name() {
+            changes = vec![self.document.name().to_owned()];
+            self.leave(before.document);
         }
+        changes.extend(match (&before.measured, &self.measured) {
+            (Some(before), Some(now)) if before.path == now.path => {
+                reading::changes(&before.options, &now.options)
+            }
+            (None, None) => Vec::new(),
+            (_, Some(now)) => vec![format!("measured curve {}", now.name)],
+            (Some(before), None) => vec![format!("without the measured curve {}", before.name)],
+        });
+        let what = changes.join(", ");
         self.renew();
         Some(what)
     }
@@ -122,7 +172,7 @@ impl Editor {
         // A scene left before is the present one again.
         let document = &self.document;
         self.left.retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
-        self.parameters = parameters(&self.document);
+        self.parameters = parameters(&self.document, self.measured.as_ref());
         self.scene = scene_of(&self.document);
         self.select(self.row_of(&selected));
         self.generation += 1;
@@ -159,6 +209,17 @@ impl Editor {
                 self.left.insert(document.name().to_owned(), document.clone());
             }
         }
+    }
+
+    /// Shows a measured curve from the beginning, which no undo removes.
+    pub fn begin_with(&mut self, measured: Measured) {
+        self.measured = Some(measured);
+        self.renew();
+    }
+
+    /// Selects the row of the measured curve, if there is one.
+    pub fn select_measured(&mut self) {
+        self.select(self.row_of(reading::GROUP));
     }
 
     /// Marks the scene as saved to a file, which becomes its own file.

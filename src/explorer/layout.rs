@@ -89,6 +89,12 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
         let left = (u32::from(body.width) * 58 / 100) as u16;
         let upper = body.height / 2;
         let part = |x: u16, y: u16, width: u16, height: u16| Rect::new(body.x + x, body.y + y, width, height);
+        if app.view.large == Some(Pane::Force) {
+            return vec![
+                (Pane::Force, part(0, 0, left, body.height)),
+                (Pane::Parameters, part(left, 0, body.width - left, body.height)),
+            ];
+        }
         if let Some(pane) = app.view.large {
             return vec![
                 (pane, part(0, 0, left, body.height)),
@@ -105,7 +111,10 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     }
     // Too small for four: the most important ones, side by side or one above the other.
     let second = match app.view.pane {
-        Pane::Force => app.view.large.unwrap_or(Pane::Profile),
+        Pane::Force => match app.view.large {
+            Some(Pane::Force) => Pane::Parameters,
+            large => large.unwrap_or(Pane::Profile),
+        },
         chosen => chosen,
     };
     if body.width >= 36 && body.height >= 6 {

@@ -2,22 +2,40 @@
 
 use super::studies::Findings;
 use asperity_contact::CurvePoint;
-use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve};
+use asperity_data::path_name;
+use asperity_experiment::{CurveOptions, ExperimentError, Fit, Free, MeasuredCurve};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
+    /// Path of the file without control characters, for the screen.
     pub name: String,
+    pub path: PathBuf,
     pub curve: Arc<MeasuredCurve>,
-    /// Options with which the curve was read, as arguments of a command.
-    pub options: String,
+    /// Options with which the curve was read.
+    pub options: CurveOptions,
     /// Measured displacement at first touch, m.
     pub offset: f64,
 }
 
 impl Measured {
-    pub fn new(name: String, curve: MeasuredCurve, options: &CurveOptions) -> Self {
-        Measured { name, offset: curve.touch, curve: curve.into(), options: options.to_string() }
+    /// Reads a curve from a file.
+    ///
+    /// # Errors
+    /// The reason why the file is not read with these options.
+    pub fn read(path: &Path, options: CurveOptions) -> Result<Self, ExperimentError> {
+        let curve = MeasuredCurve::read(path, &options)?;
+        let (name, offset) = (path_name(path), curve.touch);
+        Ok(Measured { name, path: path.to_owned(), curve: curve.into(), options, offset })
+    }
+
+    /// The curve as read with other options. First touch stays where it was found if the displacements are the same.
+    pub fn read_again(&self, options: CurveOptions) -> Result<Self, ExperimentError> {
+        let other = Measured::read(&self.path, options)?;
+        let is_same = other.curve.displacement == self.curve.displacement;
+        let offset = if is_same { self.offset } else { other.offset };
+        Ok(Measured { offset, ..other })
     }
 
     /// The measured points as points of a force curve, for an instrument of this stiffness, N/m.
@@ -27,6 +45,12 @@ impl Measured {
             CurvePoint { indentation, force: *force, ..CurvePoint::default() }
         };
         self.curve.displacement.iter().zip(&self.curve.force).map(point).collect()
+    }
+
+    /// Differences of the measured forces from those of a model, N, in units of the noise.
+    pub fn residuals(&self, model: &[f64]) -> Vec<f64> {
+        let residual = |(force, model): (&f64, &f64)| (force - model) / self.curve.noise;
+        self.curve.force.iter().zip(model).map(residual).collect()
     }
 }
 

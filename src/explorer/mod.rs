@@ -30,6 +30,8 @@ pub mod parameters;
 pub mod picture;
 pub mod player;
 pub mod prompt;
+pub mod reading;
+pub mod recognition;
 pub mod request;
 pub mod runtime;
 mod search;

@@ -1,7 +1,9 @@
-//! What the explorer opens on: a scene, or a finished study with its scene.
+//! What the explorer opens on: a scene, or a finished study with its scene; and what a path is opened as later.
 
 use super::ghost::Ghost;
 use super::measured::Measured;
+use super::recognition::Content;
+use asperity_experiment::CurveOptions;
 use asperity_scene::{Document, SceneErrors, open, open_argument};
 use asperity_study::{Folder, StudyError, StudyMap};
 use std::path::Path;
@@ -61,5 +63,38 @@ impl Opening {
             return Ok(Opening { study_map: Some(Arc::new(study_map)), ..Opening::from(document) });
         }
         open(name).map(Opening::from).map_err(|_| OpeningError::Folder(name.to_owned()))
+    }
+}
+
+/// What a path was opened as while the explorer runs.
+#[derive(Clone, Debug)]
+pub enum Opened {
+    Scene(Box<Opening>),
+    /// A measured force curve, shown beside the present scene.
+    Curve(Box<Measured>),
+}
+
+impl Opened {
+    /// Opens a scene, the folder of a study, or a measured force curve.
+    ///
+    /// # Errors
+    /// The reason why it is not opened; for a surface the way to a scene with it.
+    pub fn of(name: &str) -> Result<Self, String> {
+        let error = match Opening::of(name) {
+            Ok(opening) => return Ok(Opened::Scene(Box::new(opening))),
+            Err(error) => error,
+        };
+        match Content::of(Path::new(name)) {
+            Some(Content::Curve) => {
+                let measured = Measured::read(Path::new(name), CurveOptions::default());
+                let opened = measured.map(|measured| Opened::Curve(Box::new(measured)));
+                opened.map_err(|error| error.to_string())
+            }
+            Some(Content::Surface) => Err(
+                "a surface; its name, typed on the row of the roughness, makes it the roughness of the scene"
+                    .to_owned(),
+            ),
+            None => Err(error.to_string()),
+        }
     }
 }

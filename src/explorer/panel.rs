@@ -38,6 +38,8 @@ pub struct Plot {
     pub names: Vec<((f64, f64), String, Ink)>,
     /// A second chart on the right, with the same vertical axis.
     pub beside: Option<Chart>,
+    /// A low chart below, with the same horizontal axis and its own vertical axis; shown where there is room.
+    pub below: Option<Chart>,
     /// True for each spring in contact along the horizontal axis, shown by a row of signs; empty without such a row.
     pub contact: Vec<bool>,
 }
@@ -46,12 +48,15 @@ pub struct Plot {
 const FEWEST_ROWS: u16 = 6;
 /// Largest number of rows for which the scales beside a chart are laid out; the plot has the rows of the chart.
 const MOST_BESIDE: u16 = 15;
+/// Smallest number of rows of an area with a chart below its chart, and the numbers of rows of the chart below.
+pub const WITH_BELOW: u16 = 11;
+const BELOW: std::ops::RangeInclusive<u16> = 3..=7;
 /// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
 impl Panel {
     pub fn of_chart(title: String, chart: Chart) -> Panel {
-        let plot = Plot { chart, names: Vec::new(), beside: None, contact: Vec::new() };
+        let plot = Plot { chart, names: Vec::new(), beside: None, below: None, contact: Vec::new() };
         Panel { body: Body::Chart(Box::new(plot)), ..Panel::of_text(title, "") }
     }
 
@@ -100,7 +105,9 @@ impl Panel {
                 _ => {}
             }
         }
-        layers.insert(0, asperity_plot::Layer::unnamed(Ink::Cursor, Shape::Upright(x)));
+        let upright = || asperity_plot::Layer::unnamed(Ink::Cursor, Shape::Upright(x));
+        layers.insert(0, upright());
+        plot.below.iter_mut().for_each(|below| below.layers.insert(0, upright()));
         let style = look.theme.style(Meaning::Cursor);
         let parts: Vec<Part> = parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect();
         let lines = filled(parts.clone(), "  ", usize::from(width.saturating_sub(2)));
@@ -246,11 +253,46 @@ pub fn spaced(parts: Vec<Part>, columns: usize) -> Option<Line<'static>> {
 }
 
 impl Plot {
-    /// Division of an area into the chart and the area of the second chart.
+    /// Division of an area into the chart and the area of the chart beside it.
     fn places(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() { split_profile(area) } else { (area, None) };
         let signs = u16::from(!self.contact.is_empty() && area.height >= WITH_CONTACT);
-        (CellPlot::within(Rect { height: left.height - signs, ..left }, &self.chart), right)
+        let height = left.height - signs - self.rows_below(area);
+        (CellPlot::within(Rect { height, ..left }, &self.chart), right)
+    }
+
+    /// Number of rows of the chart below.
+    fn rows_below(&self, area: Rect) -> u16 {
+        let has_room = self.below.is_some() && area.height >= WITH_BELOW;
+        if has_room { (area.height / 4).clamp(*BELOW.start(), *BELOW.end()) } else { 0 }
+    }
+
+    /// Draws the chart below under the columns of the plot, with the ends of its vertical axis on the left.
+    fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
+        let height = self.rows_below(area);
+        let Some(below) = self.below.as_ref().filter(|_| height > 0) else { return };
+        let place = Rect { y: area.bottom() - height, height, ..plot };
+        // Numbers without a blank behind them if they need its column.
+        let columns = usize::from(plot.x - area.x).saturating_sub(1);
+        for row in (place.y..place.bottom()).filter(|_| columns > 0) {
+            let end = match (row == place.y, row + 1 == place.bottom()) {
+                (true, _) => Some(below.y.span.high),
+                (_, true) => Some(below.y.span.low),
+                _ => None,
+            };
+            let number = end.map_or_else(String::new, |end| format_rounded(end, 2, &below.y.unit));
+            let number = match columns.checked_sub(number.len()) {
+                None => String::new(),
+                Some(0) => number,
+                Some(_) => format!("{number} "),
+            };
+            let mark = if end.is_some() { '┤' } else { '│' };
+            let text = format!("{number:>columns$}{mark}");
+            buffer.set_string(area.x, row, text, (style.ink)(Ink::Quiet));
+        }
+        let mut cells = CellPlot::within(Rect { height: 1, ..place }, below);
+        cells.plot = place;
+        cells.draw(buffer, below, style);
     }
 
     fn draw(&self, area: Rect, look: Appearance, buffer: &mut Buffer) {
@@ -259,6 +301,7 @@ impl Plot {
         in_theme(look, |style| {
             place.draw(buffer, &self.chart, style);
             place.draw_names(buffer, &self.chart, style, &self.names);
+            self.draw_below(plot, area, style, buffer);
             if let Some((chart, right)) = self.beside.as_ref().zip(right) {
                 (plot.y..plot.bottom()).for_each(|y| {
                     buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));

@@ -1,5 +1,7 @@
 //! The list of parameters: the fields of the present scene that can be changed, in groups.
 
+use super::measured::Measured;
+use super::reading;
 use asperity_contact::Move;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
@@ -9,8 +11,10 @@ use asperity_scene::{
 };
 
 /// Groups in the order of the list. Parameters that are varied most come first: adhesion, load, roughness, and the number
-/// of springs that resolves the roughness. Form and material are usually chosen once for a scene.
-const GROUPS: [&str; 7] = ["adhesion", "loading", "roughness", "numerics", "form", "material", "title"];
+/// of springs that resolves the roughness. Form and material are usually chosen once for a scene, and a measured curve is
+/// beside the scene.
+const GROUPS: [&str; 8] =
+    ["adhesion", "loading", "roughness", "numerics", "form", "material", "title", reading::GROUP];
 
 /// Fields of the scene file without a row in the list; the choice of a tolerance sets the edges.
 const HIDDEN: [&str; 5] = ["version", "observe", "numerics.samples", "numerics.edges", "numerics.solver"];
@@ -50,6 +54,8 @@ pub enum Setting {
     RoughnessParameter(RoughnessParameter),
     /// γ, in place of any of γ, κ and e_el/γ that the scene states.
     WorkOfAdhesion,
+    /// Option of reading the measured curve, by its index in [`reading::OPTIONS`].
+    Reading(usize),
 }
 
 impl Parameter {
@@ -78,8 +84,13 @@ impl Parameter {
     /// Returns true if the value is typed as a number.
     pub fn takes_number(&self) -> bool {
         let is_text = matches!(self.field.range, Range::Choice(_) | Range::List { .. } | Range::Text { .. });
-        // A stage in words may become one with a number.
-        self.setting != Setting::Heading && (self.leg.is_some() || !is_text)
+        match self.setting {
+            Setting::Heading => false,
+            // Numbers of segments and of points are typed as texts.
+            Setting::Reading(_) => !matches!(self.field.range, Range::Choice(_)),
+            // A stage in words may become one with a number.
+            _ => self.leg.is_some() || !is_text,
+        }
     }
 
     /// The stated quantity from which the shown value follows, and which typing a value replaces; `None` for a stated value.
@@ -143,7 +154,8 @@ pub fn replaced_by(path: &str) -> Option<&'static str> {
     })
 }
 
-pub fn parameters(document: &Document) -> Vec<Parameter> {
+/// The rows for a scene and the measured curve beside it.
+pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {
         if HIDDEN.iter().any(|hidden| field.path.starts_with(hidden)) {
@@ -183,6 +195,7 @@ pub fn parameters(document: &Document) -> Vec<Parameter> {
         }
     }
     add_other_adhesion(&mut parameters);
+    parameters.extend(measured.into_iter().flat_map(reading_rows));
     parameters.sort_by_key(|parameter| {
         let group = GROUPS.iter().position(|group| *group == parameter.group);
         let first = FIRST.iter().position(|path| *path == parameter.path);
@@ -228,6 +241,16 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
         "roughness.roll_off" => Some(longest),
         _ => None,
     }
+}
+
+/// A row with the name of the measured curve, and one for each option of reading.
+fn reading_rows(measured: &Measured) -> impl Iterator<Item = Parameter> {
+    let row = |field, setting, shown| Parameter { setting, shown, ..Parameter::new(field, field.path) };
+    let option = move |(index, option): (usize, &'static reading::ReadingOption)| {
+        row(&option.field, Setting::Reading(index), option.shown(measured))
+    };
+    let head = row(&reading::HEAD, Setting::Heading, measured.name.clone());
+    [head].into_iter().chain(reading::OPTIONS.iter().enumerate().map(option))
 }
 
 /// A row for each loading stage, at the path of its number if it has one.

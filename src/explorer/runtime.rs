@@ -6,7 +6,7 @@ use super::app::App;
 use super::commands::accuracy::studies;
 use super::completion::complete;
 use super::keys::bindings::Context;
-use super::opening::Opening;
+use super::opening::Opened;
 use super::request::Request;
 use super::solver::{Solve, Solver, SolverThread};
 use super::studies::{Study, StudyThread};
@@ -120,8 +120,13 @@ impl Runtime {
             Task::List => Action::Listed(scenes(None, folder)),
             Task::Complete(typed) => Action::Completed(complete(&typed)),
             Task::Open(name) => {
-                let opened = Opening::of(&name).map(Box::new).map_err(|error| error.to_string());
+                let opened = Opened::of(&name);
                 Action::Opened(name, opened)
+            }
+            Task::Read(reading) => {
+                let Some(measured) = &app.edit.measured else { return Vec::new() };
+                let read = measured.read_again(reading.options.clone()).map(Box::new);
+                Action::Read(reading, read.map_err(|error| error.to_string()))
             }
             Task::Copy(_) | Task::Redraw | Task::Suspend => return Vec::new(),
         };

@@ -3,6 +3,7 @@
 use crate::explorer::app::App;
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
+use crate::explorer::reading::OPTIONS;
 use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_scene::{kind_and_number, loading_text, pressing_force, read_stage, target_field};
 
@@ -34,6 +35,9 @@ pub fn unit_of_force(app: &App) -> String {
 
 /// A typed value of a parameter, with the unit of its row if it has none. A number for a stage without one is a force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
+    if let (Setting::Reading(index), Some(measured)) = (parameter.setting, &app.edit.measured) {
+        return OPTIONS[index].with_unit(measured, typed);
+    }
     match parameter.leg {
         Some(_) if parameter.field.unit.is_empty() => in_unit(typed, &unit_of_force(app)),
         _ => parameter.field.in_shown_units(typed, &shown(app, parameter)),

@@ -39,11 +39,12 @@ fn apply(app: &mut App, action: Action) {
         Action::Written(file, result) => files::written(app, file, result),
         Action::Listed(entries) => dialogue::listed(app, entries),
         Action::Completed(paths) => dialogue::completed(app, paths),
-        Action::Opened(_, Ok(opening)) => opening::open(app, *opening),
+        Action::Opened(_, Ok(opened)) => opening::open(app, opened),
         Action::Opened(path, Err(why)) => {
             app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
             app.effects.push(Task::List);
         }
+        Action::Read(reading, read) => measured::read(app, &reading, read),
         Action::Mouse(mouse) => mouse::act(app, mouse),
     }
 }

@@ -246,7 +246,7 @@ impl Explorer {
             assert_eq!(Scene::clone(document.scene()).checked().as_ref(), Ok(document.scene()));
             let again = Document::parse(document.text(), document.name()).expect("the text is a scene");
             assert_eq!(again.scene(), document.scene());
-            assert_eq!(app.edit.parameters, parameters(document));
+            assert_eq!(app.edit.parameters, parameters(document, app.edit.measured.as_ref()));
             assert!(!app.is_refused(), "a changed scene is not refused");
         }
         assert!(app.edit.parameter().is_some());

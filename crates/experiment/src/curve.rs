@@ -66,6 +66,11 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::read(path, options)?, options)
     }
 
+    /// Returns true if a file has displacements and forces, whether or not they are used as a curve.
+    pub fn is_in(path: &Path) -> bool {
+        Columns::read(path, &CurveOptions::default()).is_ok_and(|columns| !columns.force.is_empty())
+    }
+
     fn prepare(columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         let Columns { displacement, force, segment: labels, missing, mut statements, .. } = columns;
         let count = displacement.len();

@@ -95,6 +95,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     let typed = prompt.line.text();
     let nothing = || "nothing in the list fits".to_owned();
     match &prompt.purpose {
+        Purpose::Value if measured::is_option(app) => return measured::accept_option(app, typed),
         Purpose::Value => return edit::accept_value(app, typed),
         Purpose::Force => return movement::accept_force(app, typed),
         Purpose::Tolerance => return accuracy::accept_tolerance(app, typed),

@@ -2,11 +2,13 @@
 
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget, Message};
+use crate::explorer::editor::Edited;
 use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::{Parameter, Setting, replaced_by, text_of};
 use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
+use crate::explorer::reading;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
@@ -49,7 +51,7 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
             app.set_done(way);
         }
         Setting::Heading => app.set_done(way_of_changing(parameter)),
-        Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
+        Setting::Field | Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion | Setting::Reading(_) => {
             let text = editable(app, parameter);
             app.ask(Purpose::Value, &text);
             // No preview of an earlier edit.
@@ -79,9 +81,10 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
 }
 
 /// States how a parameter without a number is changed.
-fn way_of_changing(parameter: &Parameter) -> String {
+pub fn way_of_changing(parameter: &Parameter) -> String {
     let way = match (parameter.setting, parameter.field.step, parameter.field.range) {
         (Setting::Heading, ..) => "a group: its fields are in the rows below",
+        (Setting::Reading(_), _, Range::Choice(_)) => "a choice: ← → change it",
         (_, Step::Choice, _) => "a choice: ← → change it",
         (.., Range::Text { .. }) => "a text: Enter types it",
         (.., Range::List { .. }) => "a list: Enter types it",
@@ -131,7 +134,10 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
 }
 
 /// The value of a parameter when its editor opens: in the shown unit, with all digits.
-fn editable(app: &App, parameter: &Parameter) -> String {
+pub fn editable(app: &App, parameter: &Parameter) -> String {
+    if let (Setting::Reading(index), Some(measured)) = (parameter.setting, &app.edit.measured) {
+        return reading::OPTIONS[index].editable(&measured.options);
+    }
     let written = app.written(parameter).unwrap_or_default();
     match parameter.field.range {
         _ if parameter.group == "loading" => {
@@ -161,6 +167,9 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
 /// The scene with a typed value of the selected parameter, or the reason why it is refused. A stage may be typed as any kind.
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
+    if let Setting::Reading(_) = parameter.setting {
+        return Err("an option of reading is no part of the scene".to_owned());
+    }
     let document = &app.edit.document;
     let typed = &typed::with_unit(app, parameter, typed);
     let Some(leg) = parameter.leg else {
@@ -204,7 +213,7 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let number = || parse_quantity(written, selected.field.unit).map_err(|error| error.to_string());
     let adhesion = document.scene().adhesion;
     let changed = match selected.setting {
-        Setting::Field | Setting::Heading => {
+        Setting::Field | Setting::Heading | Setting::Reading(_) => {
             let other = replaced_by(&selected.path);
             let other = other.filter(|path| document.value(path).is_some_and(|value| value != "None"));
             let pair = |path: &str, value: &str| (path.to_owned(), value.to_owned());
@@ -286,7 +295,7 @@ pub fn toggle_effect(app: &mut App) {
     apply(app, changed)
 }
 
-fn refuse(app: &mut App, why: String) {
+pub fn refuse(app: &mut App, why: String) {
     app.message = Some(Message::Refused(why));
 }
 
@@ -326,6 +335,12 @@ pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
 /// Makes a document the explored one; an undo returns to the former document.
 pub fn adopt(app: &mut App, document: Document) {
     app.edit.adopt(document);
+    after_edit(app);
+}
+
+/// Makes a document and a measured curve the explored ones, in one edit.
+pub fn adopt_all(app: &mut App, edited: Edited) {
+    app.edit.adopt_all(edited);
     after_edit(app);
 }
 

@@ -4,10 +4,10 @@ use super::edit;
 use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
 use crate::explorer::editor::Editor;
+use crate::explorer::measured::Measured;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
-use asperity_report::{Format, check_extension};
-use asperity_scene::{Document, Preset, command_line, presets};
+use asperity_scene::{Document, Preset, command_line, presets, quoted};
 use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {
@@ -103,7 +103,12 @@ pub fn ask_quit(app: &mut App) {
 }
 
 pub fn copy_command(app: &mut App) {
-    let command = command_line("asperity", app.edit.document.name(), app.edit.document.overrides());
+    let measured =
+        app.edit.measured.as_ref().map_or_else(String::new, |Measured { path, options, .. }| {
+            format!(" --measured={}{options}", quoted(path))
+        });
+    let program = format!("asperity{measured}");
+    let command = command_line(&program, app.edit.document.name(), app.edit.document.overrides());
     if command.contains(is_control) {
         // Pasted into a shell they would act on its terminal.
         app.set_error("not copied: control characters in the name of the file; allowed: a name without any");

@@ -1,10 +1,13 @@
 //! A measured force curve beside the scene: its first touch, the residual of the scene, and fits of parameters.
 
 use super::edit;
-use crate::explorer::action::Task;
+use crate::explorer::action::{Reading, Task};
 use crate::explorer::app::App;
-use crate::explorer::measured::{Fitting, fitted};
+use crate::explorer::editor::Edited;
+use crate::explorer::measured::{Fitting, Measured, fitted};
+use crate::explorer::parameters::Setting;
 use crate::explorer::prompt::Purpose;
+use crate::explorer::reading::{OPTIONS, ReadingOption};
 use crate::explorer::studies::Study;
 use asperity_data::{format_quantity, one_unit};
 use asperity_experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
@@ -15,7 +18,7 @@ const REPORTED: usize = 64;
 
 /// The study of the measured curve: the requested fit, or else the position of the curve and the residual.
 pub fn study(app: &App) -> Option<Study> {
-    let (curve, document) = (Arc::clone(&app.measured.as_ref()?.curve), app.edit.document.clone());
+    let (curve, document) = (Arc::clone(&app.edit.measured.as_ref()?.curve), app.edit.document.clone());
     let options = |free| FitOptions { free, lines: 1, jobs: 1 };
     Some(match app.studies.value::<Fitting>() {
         Some(Fitting { free, .. }) => {
@@ -42,9 +45,9 @@ pub fn study(app: &App) -> Option<Study> {
 }
 
 pub fn ask_fit(app: &mut App) {
-    match app.measured {
+    match app.edit.measured {
         Some(_) => app.ask(Purpose::Fit, "work,offset"),
-        None => app.set_error("there is no measured curve; asperity SCENE --measured CURVE shows one"),
+        None => app.set_error("there is no measured curve; o opens one by its path"),
     }
 }
 
@@ -73,8 +76,65 @@ pub fn found(app: &mut App) {
     }
     let is_offset = |one: &&FittedParameter| one.parameter == Parameter::Offset;
     let offset = fitted(&app.studies).and_then(|fit| Some(fit.parameters.iter().find(is_offset)?.value));
-    if let Some((measured, offset)) = app.measured.as_mut().zip(offset) {
+    if let Some((measured, offset)) = app.edit.measured.as_mut().zip(offset) {
         measured.offset = offset;
+    }
+}
+
+/// The option of reading in the selected row, with the curve that it belongs to.
+fn selected(app: &App) -> Option<(&'static ReadingOption, &Measured)> {
+    match (app.edit.parameter()?.setting, &app.edit.measured) {
+        (Setting::Reading(index), Some(measured)) => Some((OPTIONS.get(index)?, measured)),
+        _ => None,
+    }
+}
+
+/// Returns true if the selected row is an option of reading.
+pub fn is_option(app: &App) -> bool {
+    selected(app).is_some()
+}
+
+/// Takes a typed value of the selected option; the curve is then read anew.
+pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
+    let Some((option, measured)) = selected(app) else { return Ok(()) };
+    let options = option.with(&measured.options, &option.with_unit(measured, typed))?;
+    if options != measured.options {
+        app.effects.push(Task::Read(Reading { options, typed: Some(typed.to_owned()) }));
+    }
+    Ok(())
+}
+
+/// Changes the selected option to the next choice; forces that are given change as those of a scene do.
+pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
+    edit::show_parameters(app);
+    let Some((option, measured)) = selected(app) else { return };
+    let next = option.next_choice(&measured.options, steps > 0).map(str::to_owned);
+    let written = || option.field.stepped(&option.value(&measured.options)?, steps, coarse);
+    let Some(next) = next.or_else(written) else {
+        let name = option.field.name;
+        return edit::refuse(app, format!("{name}: {}; Enter types a value", option.shown(measured)));
+    };
+    match option.with(&measured.options, &next) {
+        Ok(options) => app.effects.push(Task::Read(Reading { options, typed: None })),
+        Err(why) => edit::refuse(app, why),
+    }
+}
+
+/// Shows the curve as read with other options, in one edit with its loading; or states why it was not read.
+pub fn read(app: &mut App, reading: &Reading, read: Result<Box<Measured>, String>) {
+    let loaded = |measured: Box<Measured>| {
+        let document = measured.curve.load(&app.edit.document, measured.offset);
+        let document = document.map_err(|errors| errors.to_string())?;
+        Ok(Edited { document, measured: Some(*measured) })
+    };
+    match (read.and_then(loaded), &reading.typed) {
+        (Ok(edited), _) => {
+            edit::adopt_all(app, edited);
+            let statements = app.edit.measured.as_ref().map(|measured| measured.curve.statements.join(" "));
+            statements.into_iter().for_each(|statements| app.set_done(statements));
+        }
+        (Err(why), Some(typed)) => app.ask_again(Purpose::Value, typed, &why),
+        (Err(why), None) => edit::refuse(app, why),
     }
 }
 

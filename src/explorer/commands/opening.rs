@@ -3,9 +3,10 @@
 use super::edit;
 use crate::explorer::app::App;
 use crate::explorer::config::Config;
+use crate::explorer::editor::Edited;
 use crate::explorer::map::OpenStudy;
 use crate::explorer::measured::Measured;
-use crate::explorer::opening::Opening;
+use crate::explorer::opening::{Opened, Opening};
 use crate::explorer::pane::Pane;
 use crate::explorer::theme::Appearance;
 use asperity_report::LoopQuantities;
@@ -18,15 +19,23 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     let mut app = App::new(document, size, appearance, config);
     app.ghosts.extend(ghost);
     study_map.into_iter().for_each(|study_map| show_study(&mut app, study_map));
-    measured.into_iter().for_each(|measured| show_measured(&mut app, measured));
+    if let Some(measured) = measured {
+        app.edit.begin_with(measured.clone());
+        show_measured(&mut app, measured);
+    }
     app
 }
 
-/// Explores a scene or a study that was opened by its path.
-pub fn open(app: &mut App, opening: Opening) {
-    let Opening { document, study_map, .. } = opening;
-    edit::open(app, document);
-    study_map.into_iter().for_each(|study_map| show_study(app, study_map));
+/// Explores a scene or a study that was opened by its path, or shows a measured curve beside the present scene.
+pub fn open(app: &mut App, opened: Opened) {
+    match opened {
+        Opened::Scene(opening) => {
+            let Opening { document, study_map, .. } = *opening;
+            edit::open(app, document);
+            study_map.into_iter().for_each(|study_map| show_study(app, study_map));
+        }
+        Opened::Curve(measured) => show_measured(app, *measured),
+    }
 }
 
 fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
@@ -35,15 +44,21 @@ fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
     app.show(Pane::Map);
 }
 
-/// Shows a measured curve. The scene gets the loading of the curve, as an edit that can be undone.
+/// Shows a measured curve with its options of reading. The scene gets the loading of the curve, in the same edit.
 fn show_measured(app: &mut App, measured: Measured) {
-    match measured.curve.load(&app.edit.document, measured.offset) {
-        Ok(loaded) => {
-            app.edit.adopt(loaded);
-            app.set_done("the scene has the loading of the measured curve; u returns to its own");
-        }
-        Err(errors) => app.set_error(errors.to_string()),
+    let is_new = app.edit.measured.as_ref() != Some(&measured);
+    let (name, present) = (measured.name.clone(), app.edit.document.clone());
+    let (document, wrong) = match measured.curve.load(&present, measured.offset) {
+        Ok(document) => (document, None),
+        Err(errors) => (present, Some(errors)),
+    };
+    edit::adopt_all(app, Edited { document, measured: Some(measured) });
+    let undone = if is_new { "u closes it" } else { "u returns to its own" };
+    match wrong {
+        None => app.set_done(format!("{name}: the scene has the loading of the measured curve; {undone}")),
+        Some(errors) => app.set_error(errors.to_string()),
     }
     app.view.curve.quantities = LoopQuantities::ForceDisplacement;
-    app.measured = Some(measured);
+    app.show_large_force();
+    app.edit.select_measured();
 }

@@ -1,7 +1,8 @@
 //! Edits of the loading: of single stages, and by the path of manual loading.
 
-use super::edit;
+use super::{edit, measured};
 use crate::explorer::app::App;
+use crate::explorer::parameters::Setting;
 use crate::explorer::player::{At, Player};
 use asperity_contact::Move;
 use asperity_data::round_to;
@@ -105,7 +106,8 @@ pub fn change_kind(app: &mut App, forwards: bool) {
 /// Largest force of the loading or of the loading before the last edits, N; otherwise a force that suits the computed scene.
 fn pressing_force(app: &App) -> f64 {
     let name = app.edit.document.name();
-    let before = app.edit.past.iter().rev().filter(|document| document.name() == name);
+    let before = app.edit.past.iter().rev().map(|edited| &edited.document);
+    let before = before.filter(|document| document.name() == name);
     let given = [&app.edit.document]
         .into_iter()
         .chain(before)
@@ -119,10 +121,11 @@ fn pressing_force(app: &App) -> f64 {
     given.chain([computed]).find(|force| *force > 0.0).unwrap_or(1e-5)
 }
 
-/// Steps the selected value; for a stage without a number its kind.
+/// Steps the selected value; for a stage without a number its kind, for an option of reading the next choice.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else { return };
     match parameter.leg {
+        None if matches!(parameter.setting, Setting::Reading(_)) => measured::step_option(app, steps, coarse),
         Some(_) if parameter.field.unit.is_empty() => change_kind(app, steps > 0),
         _ => edit::step_value(app, steps, coarse),
     }

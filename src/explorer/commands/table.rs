@@ -180,7 +180,7 @@ static TABLE: &[Entry] = &[
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
-    row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.measured.is_some()),
+    row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.edit.measured.is_some()),
 
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or patches", LOOK),
     row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
@@ -195,6 +195,7 @@ static TABLE: &[Entry] = &[
     row("(", EXPLORE, "pan-left", Do(|app| view::pan(app, -1)), "", "pan left along the profile", LOOK),
     row(")", EXPLORE, "pan-right", Do(|app| view::pan(app, 1)), "", "pan right along the profile", LOOK),
     row("Z", EXPLORE, "reset-zoom", Do(view::reset_zoom), "", "show the whole profile", LOOK),
+    row("w", EXPLORE, "toggle-large-force", Do(App::toggle_large_force), "", "show the force curve in place of profile and close-up, or these two", LOOK),
     row("A", EXPLORE, "toggle-accuracy", Do(|app| app.toggle(Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
     row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
     row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
@@ -229,7 +230,7 @@ static TABLE: &[Entry] = &[
     row("P PageDown", MAP_PANE, "next-slice", Do(|app| map::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
     row("PageUp", MAP_PANE, "previous-slice", Do(|app| map::step_slice(app, -1)), "", "show the previous one", MAP),
 
-    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene: built-in, by its name or number, your own, or by path; or the folder of a study", SCENE).rank(2),
+    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene by name, number or path; or the folder of a study, or a measured force curve", SCENE).rank(2),
     row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
     row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane: table (.csv, .npy, .json), figure (.svg, .png, .pdf), screen (.txt)", SCENE),
     row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),

@@ -8,7 +8,7 @@ use crate::explorer::action::{Action, Task};
 use crate::explorer::app::App;
 use crate::explorer::commands::table::bindings;
 use crate::explorer::config::Config;
-use crate::explorer::opening::Opening;
+use crate::explorer::opening::{Opened, Opening};
 use crate::explorer::runtime::{Engine, Runtime};
 use crate::explorer::theme::Appearance;
 use asperity_scene::Simulation;
@@ -107,7 +107,7 @@ impl Demo {
             Cue::Wait(seconds) => self.pause = seconds,
             Cue::Do(command) => drop(self.explorer.command(command)),
             Cue::Open(name) => {
-                let opened = open(name).map(|document| Box::new(Opening::from(document)));
+                let opened = open(name).map(|document| Opened::Scene(Box::new(Opening::from(document))));
                 let opened = opened.map_err(|errors| errors.to_string());
                 self.explorer.act(Action::Opened(name.to_owned(), opened));
             }

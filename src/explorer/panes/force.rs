@@ -5,15 +5,12 @@ use crate::explorer::app::App;
 use crate::explorer::caption::caption;
 use crate::explorer::ghost::{Ghost, letter};
 use crate::explorer::measured::{Measured, fitted};
-use crate::explorer::panel::{Body, Panel, meaning, names, spaced};
+use crate::explorer::panel::{Body, Panel, WITH_BELOW, meaning, names, spaced};
 use crate::explorer::text::filled;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction};
-use asperity_data::format_rounded;
-use asperity_plot::{Chart, Figure, Ink, Label, Layer, Shape, Sign, Stroke, glyph};
-use asperity_report::FitReport;
-use asperity_report::Report;
-use asperity_report::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
+use asperity_data::{AxisScale, format_rounded};
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph};
 use asperity_scene::quoted;
 use asperity_scene::{LEAST_TABOR_NUMBER, Mark, marks};
 use ratatui::layout::Size;
@@ -29,20 +26,21 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Curve",
         "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-             ◆ now; letters and colours are ghosts, dashes are the path of manual loading",
+             ◆ now; letters and colours are ghosts, dashes are the path of manual loading. A measured curve is drawn in dots \
+             under the model; below it, where there is room, its residuals in units of the noise",
     )],
     ..PaneRow::EMPTY
 };
 
 /// The measured curve with the model and the residuals; `None` without a measured curve.
 fn fit_report(app: &App) -> Option<FitReport<'_>> {
-    let Measured { name, curve, .. } = app.measured.as_ref()?;
+    let Measured { name, curve, .. } = app.edit.measured.as_ref()?;
     Some(FitReport { title: name, curve, fit: fitted(&app.studies).filter(|_| app.is_current())? })
 }
 
 /// The report of the measured curve, with the command that computes the fit.
 fn fit(app: &App) -> Exported<'_> {
-    let (report, options) = (fit_report(app)?, &app.measured.as_ref()?.options);
+    let (report, options) = (fit_report(app)?, &app.edit.measured.as_ref()?.options);
     let names: Vec<_> = report.fit.parameters.iter().map(|one| one.parameter.name()).collect();
     let command = format!("asperity fit {}{options} --free={}", quoted(report.title), names.join(","));
     Some((command.into(), Box::new(report)))
@@ -60,7 +58,7 @@ fn panel(app: &App, size: Size) -> Panel {
     };
     let (theme, width, units) = (app.view.appearance.theme, usize::from(size.width), units(app));
     let legend = names(&chart, app.view.appearance);
-    let edge = legend.iter().take(usize::from(size.height < WITH_HEAD)).cloned().collect();
+    let mut edge: Vec<_> = legend.iter().take(usize::from(size.height < WITH_HEAD)).cloned().collect();
     let mut head: Vec<Line<'static>> = spaced(legend, width).into_iter().collect();
     let mut texts = Vec::new();
     if app.is_current() {
@@ -78,9 +76,13 @@ fn panel(app: &App, size: Size) -> Panel {
         }
         texts.extend(marked(ghost).map(|at| (units.place(&at), letter(number).to_owned(), ink)));
     }
+    let below = residuals(app, &chart.x);
+    if below.is_some() && usize::from(size.height) >= head.len() + usize::from(WITH_BELOW) {
+        edge.push(vec![Text::styled("below: residual over noise", theme.style(Meaning::Quiet))]);
+    }
     let mut panel = Panel { head, edge, ..Panel::of_chart(title(app), chart) };
     if let Body::Chart(plot) = &mut panel.body {
-        plot.names = texts;
+        (plot.names, plot.below) = (texts, below);
     }
     panel
 }
@@ -135,6 +137,41 @@ pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
 /// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
+/// The residuals of the measured curve over this horizontal axis, in units of the noise; without points until they are
+/// computed, and `None` without a curve or an axis of the force.
+fn residuals(app: &App, x: &Axis) -> Option<Chart> {
+    let units = units(app);
+    let measured = app.edit.measured.as_ref().filter(|_| units.shows_force())?;
+    let fit = fitted(&app.studies).filter(|_| app.is_current());
+    let residuals: Vec<f64> = fit.map_or_else(Vec::new, |fit| measured.residuals(&fit.model));
+    let points = measured.points(stiffness(app)?);
+    let points: Vec<_> =
+        points.iter().zip(&residuals).map(|(point, residual)| (units.place(point).0, *residual)).collect();
+    let half = half_range(residuals);
+    let y = Axis::new(AxisScale::Linear, Span { low: -half, high: half }, "residual over noise", "", "1");
+    let dots = Layer::unnamed(Ink::Kept, Shape::signs(points, Sign::Point));
+    Some(Chart::new(x.clone(), y, vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0)), dots]))
+}
+
+/// Share of the residuals in the range of their strip; the few others, as at a jump of the contact, are at its edge.
+const IN_RANGE: f64 = 0.98;
+
+/// The smallest of 5, 10, 20, 50 and so on that is as large as nearly all residuals.
+fn half_range(mut residuals: Vec<f64>) -> f64 {
+    residuals.iter_mut().for_each(|residual| *residual = residual.abs());
+    residuals.sort_by(f64::total_cmp);
+    let last = (IN_RANGE * residuals.len() as f64) as usize;
+    let most = residuals.get(last).or(residuals.last()).copied().unwrap_or(0.0);
+    let steps = (0..12).flat_map(|power| [5.0, 10.0, 20.0].map(|step| step * 10_f64.powi(power)));
+    steps.into_iter().find(|step| *step >= most).unwrap_or(most)
+}
+
+/// Stiffness of the instrument of the shown scene, N/m; `None` before a scene is computed.
+fn stiffness(app: &App) -> Option<f64> {
+    let outcome = &app.solved.as_ref()?.outcome;
+    Some(outcome.instrument.map_or(f64::INFINITY, |instrument| instrument.stiffness))
+}
+
 /// The chart without the names that the pane writes elsewhere: of marks, kept scenes and axes.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
@@ -162,10 +199,14 @@ fn chart(app: &App) -> Option<Chart> {
         ..unmarked(outcome)
     });
     let outcome = &app.solved.as_ref()?.outcome;
+    let points = app.edit.measured.as_ref().filter(|_| units.shows_force());
+    let points = points.zip(stiffness(app)).map(|(measured, stiffness)| measured.points(stiffness));
+    // Over dots a line without gaps is legible.
+    let stroke = points.is_some().then_some(Stroke::Solid);
     // A curve of a scene changed since stays in the background until the new one is there.
     let present = match app.is_current() {
-        true => ForceLoop::of_outcome(outcome),
-        false => ForceLoop { ink: Some(Ink::Quiet), ..unmarked(outcome) },
+        true => ForceLoop { stroke, ..ForceLoop::of_outcome(outcome) },
+        false => ForceLoop { ink: Some(Ink::Quiet), stroke, ..unmarked(outcome) },
     };
     let manual = app.manual.as_ref().map(|manual| ForceLoop {
         curves: vec![(Direction::Unloading, &manual.path)],
@@ -174,9 +215,7 @@ fn chart(app: &App) -> Option<Chart> {
         stroke: Some(Stroke::Dashed),
         ..ForceLoop::new(&[])
     });
-    let stiffness = outcome.instrument.map_or(f64::INFINITY, |instrument| instrument.stiffness);
-    let points = app.measured.as_ref().map(|measured| measured.points(stiffness));
-    let data = points.as_ref().filter(|_| units.shows_force()).map(|points| ForceLoop {
+    let data = points.as_ref().map(|points| ForceLoop {
         curves: vec![(Direction::Unloading, points)],
         name: Some(MEASURED.into()),
         ink: Some(Ink::Kept),
@@ -186,7 +225,7 @@ fn chart(app: &App) -> Option<Chart> {
         data.into_iter().chain(ghosts).chain(tried).chain([present]).chain(manual).collect();
     let mut chart = loop_chart(&loops, units);
     for layer in chart.layers.iter_mut().filter(|layer| layer.name.to_string() == MEASURED) {
-        layer.shape = Shape::signs(layer.shape.points(), Sign::Dot);
+        layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
     }
     // Below the curves, which stay whole.
     if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {

@@ -6,6 +6,7 @@ use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::{Prompt, Purpose};
+use crate::explorer::reading;
 use crate::explorer::search::find;
 use crate::explorer::text::{filled, fitted, wrapped_within};
 use crate::explorer::text_line::TextLine;
@@ -40,13 +41,16 @@ fn panel(app: &App, size: Size) -> Panel {
         None => Line::styled(not_listed(app), quiet),
     };
     let help_rows = if size.height >= 9 { 3 } else { u16::from(size.height >= 3) };
-    // The list makes room for the whole reason of a refusal.
+    // The list makes room for the whole reason of a refusal, and for all that was done to a measured curve.
     let is_refused = refusal(app).is_some();
-    let help_rows = if is_refused { help_rows.max(size.height / 2) } else { help_rows };
+    let is_of_curve =
+        rows.get(selected).is_some_and(|index| app.edit.parameters[*index].path == reading::GROUP);
+    let help_rows = if is_refused || is_of_curve { help_rows.max(size.height / 2) } else { help_rows };
     let mut explained = wrapped_within(&explained, size.width, help_rows);
     // The list keeps its place whatever the explanation.
     if !is_refused {
-        explained.resize(help_rows.into(), Line::default());
+        let kept = if is_of_curve { explained.len().max(3) } else { help_rows.into() };
+        explained.resize(kept, Line::default());
     }
     let mut foot = if size.height >= 12 { derived(app, size.width) } else { Vec::new() };
     foot.extend(explained);
@@ -226,8 +230,15 @@ fn explanation(app: &App, index: usize) -> Line<'static> {
             "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number alone is a force in N",
             parameter.field.meaning
         ),
+        Setting::Heading if parameter.path == reading::GROUP => statements(app),
         Setting::Heading => parameter.field.meaning.to_owned(),
+        Setting::Reading(index) => reading::OPTIONS[index].explanation(),
         _ => format!("{}. Allowed: {}", parameter.field.meaning, parameter.field.allowed()),
     };
     Line::styled(text, app.view.appearance.theme.style(Meaning::Quiet))
+}
+
+/// What was done to the measured curve when it was read.
+fn statements(app: &App) -> String {
+    app.edit.measured.as_ref().map_or_else(String::new, |measured| measured.curve.statements.join(" "))
 }

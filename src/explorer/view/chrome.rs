@@ -72,7 +72,7 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
             prompted(app, prompt, width)
         }
         (_, Some(Message::Error(why) | Message::Refused(why))) => return refusal(why, rows),
-        (_, Some(Message::Done(text))) if Span::raw(text.as_str()).width() > width.into() => {
+        (_, Some(Message::Done(text))) if Span::raw(text.as_str()).width() + 2 > width.into() => {
             return wrapped_within(&Line::raw(text.clone()), width, rows);
         }
         (_, Some(Message::Done(text))) => {
@@ -202,7 +202,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
         // Without tensile force.
         facts.push(of_loop(format!("F_max {}{error}", force(largest)), Meaning::Title));
     }
-    if let Some(measured) = &app.measured {
+    if let Some(measured) = &app.edit.measured {
         let times = |fit: &Fit| format!("{} × noise", format_quantity(fit.residual_over_noise, "1"));
         let residual = match measured::failure(&app.studies) {
             Some(why) => why.to_owned(),

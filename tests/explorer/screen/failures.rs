@@ -58,7 +58,7 @@ fn a_key_that_cannot_do_anything_says_why() {
         (rough(), none, "P", "select a row of the loading"),
         (rough(), none, "W", "no manual loading; d begins it"),
         (rough(), none, "Y * *", "no curves for the crosshair"),
-        (rough(), none, "Ctrl+f", "! there is no measured curve; asperity SCENE --measured CURVE"),
+        (rough(), none, "Ctrl+f", "! there is no measured curve; o opens one by its path"),
         (rough(), none, "m W", "! no study is open"),
         (rough(), none, "m P", "! no study is open"),
         (dry.clone(), none, "!", "there is no pull-off"),

@@ -105,6 +105,21 @@ impl Field {
 }
 
 impl Field {
+    /// A row that a program lists beside the fields of a scene; the program itself keeps its value.
+    pub const fn beside(
+        path: &'static str,
+        name: &'static str,
+        range: Range,
+        meaning: &'static str,
+    ) -> Field {
+        row(path, range).name(name).meaning(meaning)
+    }
+
+    /// The same row for a quantity with this SI unit.
+    pub const fn in_unit(self, unit: &'static str) -> Field {
+        Field { unit, ..self }
+    }
+
     /// Allowed values with the unit: `from 1 to 1e13 Pa`.
     pub fn allowed(&self) -> String {
         match self.unit {

@@ -1,0 +1,359 @@
+//! Options of reading a measured curve, as rows of the list of parameters.
+
+use super::measured::Measured;
+use asperity_data::{exact_quantity, format_quantity, in_unit, parse_quantity, unit_of};
+use asperity_experiment::{CurveOptions, Drift, Negate, Tilt};
+use asperity_scene::{Field, Range, ron_float};
+use std::ops::Bound::Included;
+
+/// Path of the group of the measured curve in the list of parameters.
+pub const GROUP: &str = "measured";
+
+/// The first row of the group: the name of the file.
+pub static HEAD: Field = Field::beside(GROUP, "measured curve", Range::Group, "");
+
+/// How a force is written, given its unit.
+type Format = fn(f64, &str) -> String;
+
+/// An option of reading, typed as on the command line.
+pub struct ReadingOption {
+    pub field: Field,
+    /// The value of a curve that is read without the option, in words.
+    pub usual: &'static str,
+    /// Values that the arrows go through, the usual one first; empty for a value that is only typed.
+    choices: &'static [&'static str],
+    /// The value as it is typed; `None` for the usual one. Forces are written in a given format.
+    written: fn(&CurveOptions, Format) -> Option<String>,
+    /// Takes a typed value; the usual one is an empty text.
+    take: fn(&mut CurveOptions, &str) -> Result<(), String>,
+}
+
+const TEXT: Range = Range::Text { least: 0, most: 4096, lines: false };
+const FORCE: Range = Range::Real(Included(-1e6), Included(1e6));
+const NEGATED: &[&str] = &["by the approach", "none", "displacement", "force", "both"];
+const KEPT: &[&str] = &["keep", "remove"];
+
+const fn option(path: &'static str, name: &'static str, range: Range, meaning: &'static str) -> Field {
+    Field::beside(path, name, range, meaning)
+}
+
+/// The options in the order of the list: those that decide whether a curve is read at all come first.
+pub static OPTIONS: [ReadingOption; 9] = [
+    ReadingOption {
+        field: option(
+            "measured.columns",
+            "columns",
+            TEXT,
+            "columns of displacement, force and segment by names or numbers (--columns): height,force or 2,3",
+        ),
+        usual: "by their names",
+        choices: &[],
+        written: |options, _| listed(&options.columns),
+        take: |options, typed| {
+            options.columns = words(typed);
+            Ok(())
+        },
+    },
+    ReadingOption {
+        field: option(
+            "measured.units",
+            "units",
+            TEXT,
+            "units of displacement and force (--units): nm,nN, or nm,3nN for a deflection in nm with 3 N/m",
+        ),
+        usual: "of the file",
+        choices: &[],
+        written: |options, _| listed(&options.units),
+        take: |options, typed| {
+            options.units = words(typed);
+            Ok(())
+        },
+    },
+    ReadingOption {
+        field: option(
+            "measured.segments",
+            "segments used",
+            TEXT,
+            "numbers of the segments without pauses (--segments): 1 is the first approach, 2 its retraction",
+        ),
+        usual: "all",
+        choices: &["all", "1,2", "2", "1"],
+        written: |options, _| listed(&options.segments.iter().map(ToString::to_string).collect::<Vec<_>>()),
+        take: |options, typed| {
+            let number = |word: &String| word.parse().ok().filter(|number| *number > 0);
+            let numbers = words(typed).iter().map(number).collect::<Option<Vec<usize>>>();
+            options.segments =
+                numbers.ok_or_else(|| format!("{typed}: allowed: numbers from 1 on, such as 1,2"))?;
+            Ok(())
+        },
+    },
+    ReadingOption {
+        field: option(
+            "measured.negate",
+            "reversed quantity",
+            Range::Choice(NEGATED),
+            "quantity whose sign is reversed, so that pressing is positive (--negate)",
+        ),
+        usual: "by the approach",
+        choices: NEGATED,
+        written: |options, _| options.negate.map(|negate| negate.to_string()),
+        take: |options, typed| {
+            let all = [Negate::None, Negate::Displacement, Negate::Force, Negate::Both];
+            let named = all.into_iter().find(|one| one.to_string() == typed);
+            options.negate = match typed {
+                "" => None,
+                _ => Some(named.ok_or_else(|| one_of(typed, NEGATED))?),
+            };
+            Ok(())
+        },
+    },
+    ReadingOption {
+        field: option("measured.zero", "zero of the force", FORCE, "measured force that is zero (--zero)")
+            .in_unit("N"),
+        usual: "by the curve",
+        choices: &[],
+        written: |options, format| options.zero.map(|zero| format(zero, "N")),
+        take: |options, typed| {
+            options.zero = force(typed)?;
+            Ok(())
+        },
+    },
+    ReadingOption {
+        field: option(
+            "measured.drift",
+            "drift over time",
+            TEXT,
+            "straight line over time that is taken off (--drift): keep, remove, or a force over the curve",
+        ),
+        usual: "keep",
+        choices: KEPT,
+        written: |options, format| match options.drift {
+            Drift::Keep => None,
+            Drift::Remove => Some("remove".to_owned()),
+            Drift::Known(force) => Some(format(force, "N")),
+        },
+        take: |options, typed| {
+            options.drift = if typed.is_empty() { Drift::Keep } else { typed.parse()? };
+            Ok(())
+        },
+    },
+    ReadingOption {
+        field: option(
+            "measured.tilt",
+            "tilt over displacement",
+            Range::Choice(KEPT),
+            "straight line over the displacement, the virtual deflection, that is taken off (--tilt)",
+        ),
+        usual: "keep",
+        choices: KEPT,
+        written: |options, _| (options.tilt == Tilt::Remove).then(|| "remove".to_owned()),
+        take: |options, typed| {
+            options.tilt = match typed {
+                "" => Tilt::Keep,
+                "remove" => Tilt::Remove,
+                _ => return Err(one_of(typed, KEPT)),
+            };
+            Ok(())
+        },
+    },
+    ReadingOption {
+        field: option(
+            "measured.noise",
+            "noise",
+            FORCE,
+            "standard deviation of the force (--noise); without it that of the part before contact",
+        )
+        .in_unit("N"),
+        usual: "by the curve",
+        choices: &[],
+        written: |options, format| options.noise.map(|noise| format(noise, "N")),
+        take: |options, typed| {
+            options.noise = force(typed)?;
+            match options.noise {
+                Some(noise) if noise <= 0.0 => {
+                    Err("allowed: a standard deviation above 0, such as 2 nN".to_owned())
+                }
+                _ => Ok(()),
+            }
+        },
+    },
+    ReadingOption {
+        field: option(
+            "measured.free_points",
+            "points before contact",
+            TEXT,
+            "number of the points before contact (--free-points)",
+        ),
+        usual: "by the curve",
+        choices: &[],
+        written: |options, _| options.free_points.map(|count| count.to_string()),
+        take: |options, typed| {
+            let count = || typed.parse().map_err(|_| format!("{typed}: allowed: a whole number of points"));
+            options.free_points = if typed.is_empty() { None } else { Some(count()?) };
+            Ok(())
+        },
+    },
+];
+
+/// The words between commas, without blanks around them.
+fn words(typed: &str) -> Vec<String> {
+    typed.split(',').map(|word| word.trim().to_owned()).filter(|word| !word.is_empty()).collect()
+}
+
+fn listed(words: &[String]) -> Option<String> {
+    (!words.is_empty()).then(|| words.join(","))
+}
+
+fn force(typed: &str) -> Result<Option<f64>, String> {
+    if typed.is_empty() {
+        return Ok(None);
+    }
+    parse_quantity(typed, "N").map(Some).map_err(|error| error.to_string())
+}
+
+fn one_of(typed: &str, choices: &'static [&'static str]) -> String {
+    format!("{typed}: allowed: {}", Range::Choice(choices))
+}
+
+impl ReadingOption {
+    /// The value for the list.
+    pub fn shown(&self, measured: &Measured) -> String {
+        let given = (self.written)(&measured.options, format_quantity);
+        given.unwrap_or_else(|| match self.field.path {
+            "measured.noise" => format!("= {}", format_quantity(measured.curve.noise, "N")),
+            _ => self.usual.to_owned(),
+        })
+    }
+
+    /// What the option does, and its values or what an empty text means.
+    pub fn explanation(&self) -> String {
+        let (meaning, usual) = (self.field.meaning, self.usual);
+        match self.field.range {
+            Range::Choice(_) => format!("{meaning}. Allowed: {}", self.field.allowed()),
+            _ => format!("{meaning}. Empty: {usual}"),
+        }
+    }
+
+    /// The value when its editor opens; empty for the usual one.
+    pub fn editable(&self, options: &CurveOptions) -> String {
+        (self.written)(options, exact_quantity).unwrap_or_default()
+    }
+
+    /// The value in words, for a list of changes.
+    pub fn in_words(&self, options: &CurveOptions) -> String {
+        (self.written)(options, format_quantity).unwrap_or_else(|| self.usual.to_owned())
+    }
+
+    /// The number of a given force in the notation of a scene; `None` for the usual one and for other values.
+    pub fn value(&self, options: &CurveOptions) -> Option<String> {
+        let is_force = self.field.unit == "N";
+        let written = (self.written)(options, exact_quantity).filter(|_| is_force)?;
+        parse_quantity(&written, self.field.unit).ok().map(ron_float)
+    }
+
+    /// A typed value, with the unit of the noise if it is a force without a unit.
+    pub fn with_unit(&self, measured: &Measured, typed: &str) -> String {
+        let is_force = self.field.unit == "N" || self.field.path == "measured.drift";
+        let shown = self.shown(measured);
+        let unit = match unit_of(&shown) {
+            unit if is_force && unit.ends_with('N') => unit.to_owned(),
+            _ => unit_of(&format_quantity(measured.curve.noise, "N")).to_owned(),
+        };
+        if is_force { in_unit(typed, &unit) } else { typed.to_owned() }
+    }
+
+    /// The options with a typed value of this one; an empty text, or the words of the usual value, leave the option out.
+    ///
+    /// # Errors
+    /// The reason why the value is no value of the option.
+    pub fn with(&self, options: &CurveOptions, typed: &str) -> Result<CurveOptions, String> {
+        let (mut changed, typed) = (options.clone(), typed.trim());
+        (self.take)(&mut changed, if typed == self.usual { "" } else { typed })?;
+        Ok(changed)
+    }
+
+    /// The choice after the present value or, unless `forwards`, before it; `None` for a value that is only typed.
+    pub fn next_choice(&self, options: &CurveOptions, forwards: bool) -> Option<&'static str> {
+        let (count, present) = (self.choices.len(), self.in_words(options));
+        let place = self.choices.iter().position(|choice| *choice == present);
+        let step = if forwards { 1 } else { count.checked_sub(1)? };
+        let next = place.map_or(0, |place| (place + step) % count);
+        self.choices.get(next).copied()
+    }
+}
+
+/// Differences between options in words: `noise by the curve → 2 nN`.
+pub fn changes(from: &CurveOptions, to: &CurveOptions) -> Vec<String> {
+    let change = |option: &ReadingOption| {
+        let [from, to] = [from, to].map(|options| option.in_words(options));
+        (from != to).then(|| format!("{} {from} → {to}", option.field.name))
+    };
+    OPTIONS.iter().filter_map(change).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Args;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn options_are_typed_as_on_the_command_line() {
+        let with = |path: &str, typed: &str| {
+            let option = OPTIONS.iter().find(|option| option.field.last() == path).unwrap();
+            option.with(&CurveOptions::default(), typed).map(|options| options.to_string())
+        };
+        for row in [
+            "columns|height, force| --columns=height,force",
+            "units|nm,3nN| --units=nm,3nN",
+            "segments|1, 2| --segments=1,2",
+            "segments|all|",
+            "negate|force| --negate=force",
+            "negate|by the approach|",
+            "zero|-2 nN| --zero=-2e-9N",
+            "drift|remove| --drift=remove",
+            "drift|3 nN| --drift=3e-9N",
+            "drift|keep|",
+            "tilt|remove| --tilt=remove",
+            "noise|2nN| --noise=2e-9N",
+            "free_points|40| --free-points=40",
+            "free_points||",
+        ] {
+            let [path, typed, written] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(with(path, typed).as_deref(), Ok(written), "{row}");
+        }
+        for row in [
+            "segments|0|0: allowed: numbers from 1 on, such as 1,2",
+            "negate|sideways|sideways: allowed: by the approach, none, displacement, force or both",
+            "tilt|3 nN|3 nN: allowed: keep or remove",
+            "noise|-2 nN|allowed: a standard deviation above 0, such as 2 nN",
+            "noise|2 nm|nm is not a unit of force: use N, mN, µN, nN",
+            "free_points|few|few: allowed: a whole number of points",
+        ] {
+            let [path, typed, why] = row.split('|').collect::<Vec<_>>()[..] else { panic!("{row}") };
+            assert_eq!(with(path, typed), Err(why.to_owned()), "{row}");
+        }
+    }
+
+    #[test]
+    fn every_option_of_the_command_line_has_its_row() {
+        let command = CurveOptions::augment_args(clap::Command::new("curve"));
+        let names: BTreeSet<&str> =
+            command.get_arguments().map(|argument| argument.get_id().as_str()).collect();
+        assert_eq!(names, OPTIONS.iter().map(|option| option.field.last()).collect());
+    }
+
+    #[test]
+    fn arrows_go_through_all_choices_both_ways() {
+        for option in OPTIONS.iter().filter(|option| !option.choices.is_empty()) {
+            for forwards in [true, false] {
+                let mut options = CurveOptions::default();
+                for _ in option.choices {
+                    let next = option.next_choice(&options, forwards).unwrap();
+                    options = option.with(&options, next).unwrap();
+                }
+                assert_eq!(options, CurveOptions::default(), "{}", option.field.path);
+            }
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Recognition of measured files that are given in another place than theirs, by what the readers find in them.
+
+use asperity_data::{path_name, printable};
+use asperity_experiment::{ExperimentError, MeasuredCurve};
+use asperity_scene::quoted;
+use asperity_surface::{ReadOptions, content, read};
+use std::fmt::Display;
+use std::path::Path;
+
+/// What a measured file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    Curve,
+    Surface,
+}
+
+impl Content {
+    /// Reads a file as a force curve and as a surface; `None` if it is neither.
+    pub fn of(path: &Path) -> Option<Content> {
+        match path.is_file() {
+            true if MeasuredCurve::is_in(path) => Some(Content::Curve),
+            true if is_surface(path) => Some(Content::Surface),
+            _ => None,
+        }
+    }
+
+    /// What the file is, and the commands that use it.
+    fn way(self, path: &Path) -> String {
+        // Control characters of a name would act on the terminal.
+        let file = printable(&quoted(path)).into_owned();
+        match self {
+            Content::Curve => format!(
+                "a force curve: asperity SCENE --measured {file} shows it beside a scene, asperity fit {file} SCENE fits a scene \
+                 to it"
+            ),
+            Content::Surface => format!(
+                "a surface: asperity surface {file} analyses it, asperity SCENE --set roughness={file} makes it the roughness of \
+                 a scene"
+            ),
+        }
+    }
+}
+
+/// Returns true if a file is read as a surface; units and spacing may be missing where no text could be meant.
+fn is_surface(path: &Path) -> bool {
+    let is_binary = || content(path).is_ok_and(|bytes| bytes.contains(&0));
+    let assumed = ReadOptions {
+        convention: "m".parse().ok(),
+        spacing: Some(1.0),
+        interpolate: true,
+        ..ReadOptions::default()
+    };
+    read(path, &ReadOptions::default()).is_ok() || is_binary() && read(path, &assumed).is_ok()
+}
+
+/// What a measured file is that was given as a scene, in one line; `None` if it is no such file.
+pub fn no_scene(path: &Path) -> Option<String> {
+    Content::of(path).map(|content| format!("{}: {}", path_name(path), content.way(path)))
+}
+
+/// The reason why a file is not read as a force curve, with the way to read it if it is a surface.
+pub fn no_curve(path: &Path, why: &ExperimentError) -> String {
+    match (why, Content::of(path)) {
+        (ExperimentError::File(_), Some(content @ Content::Surface)) => said(why, content, path),
+        _ => why.to_string(),
+    }
+}
+
+/// The reason why a file is not read as a surface, with the way to read it if it is a force curve.
+pub fn no_surface(path: &Path, why: &impl Display) -> String {
+    match Content::of(path) {
+        Some(content @ Content::Curve) => said(why, content, path),
+        _ => why.to_string(),
+    }
+}
+
+fn said(why: &impl Display, content: Content, path: &Path) -> String {
+    format!("{why}; it can be read as {}", content.way(path))
+}
