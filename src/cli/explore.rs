@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::removed;
-use super::scene::{Overrides, compute};
+use super::scene::{Overrides, compute, open_scene};
 use crate::explorer::autosave;
 use crate::explorer::autosave::Kept;
 use crate::explorer::commands::table::bindings;
@@ -10,13 +10,14 @@ use crate::explorer::config::{Config, default_path};
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::Measured;
 use crate::explorer::opening::{Opening, OpeningError};
+use crate::explorer::recognition::{no_curve, no_scene};
 use crate::explorer::session::Options;
 use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::view;
 use asperity_data::path_name;
 use asperity_experiment::CurveOptions;
 use asperity_scene::Simulation;
-use asperity_scene::{did_you_mean, open_argument, quoted};
+use asperity_scene::{did_you_mean, quoted};
 use clap::Args;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -165,6 +166,9 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
             if let Some(why) = removed::instead([name]) {
                 return CliError::message(why);
             }
+            if let Some(way) = no_scene(Path::new(name)) {
+                return CliError::message(way);
+            }
             // A single word that is no scene may be a misspelt command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
             if is_word && !std::path::Path::new(name).exists() {
@@ -178,7 +182,7 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
     if let Some(other) = &arguments.compare {
-        let document = open_argument(other)?;
+        let document = open_scene(other)?;
         let outcome = compute(&document, document.scene())?.into();
         opening.ghost = Some(Ghost { document, outcome });
     }
@@ -190,7 +194,7 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
     if let Some(path) = &arguments.measured {
         let name = path_name(path);
         let measured = Measured::read(path, arguments.reading.clone());
-        opening.measured = Some(measured.map_err(|error| CliError::named(&name, error))?);
+        opening.measured = Some(measured.map_err(|error| CliError::named(&name, no_curve(path, &error)))?);
     }
     Ok(opening)
 }

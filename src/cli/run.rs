@@ -4,18 +4,18 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE, WITHOUT_PICTURE};
 use super::preloads::{check_reach, parse_preloads};
 use super::progress::ProgressLine;
-use super::scene::{MOST_LINES, SceneArguments, compute, simulation_of, threads};
+use super::scene::{MOST_LINES, SceneArguments, compute, open_scene, simulation_of, threads};
+use crate::export::ensemble::LinesReport;
+use crate::export::preloads::PreloadReport;
+use crate::export::provenance::check_measured_files;
+use crate::export::report::{Format, Report};
+use crate::export::run::RunReport;
+use crate::export::scene_figure::ContactSets;
+use crate::export::scenes::ScenesReport;
 use asperity_contact::{Leg, LegRecord};
 use asperity_data::{grouped, wrap};
 use asperity_plot::Figure;
-use asperity_report::ContactSets;
-use asperity_report::LinesReport;
-use asperity_report::PreloadReport;
-use asperity_report::RunReport;
-use asperity_report::ScenesReport;
-use asperity_report::check_measured_files;
-use asperity_report::{Format, Report};
-use asperity_scene::{CheckedScene, Document, Scene, open_argument};
+use asperity_scene::{CheckedScene, Document, Scene};
 use asperity_scene::{Choice, choose, estimate, parse_tolerance};
 use asperity_study::{Axis, Quantity, Results, Staircase};
 use clap::Args;
@@ -116,7 +116,7 @@ impl RunArguments {
     }
 
     fn documents(&self) -> Result<Vec<Document>, CliError> {
-        let more = self.more.iter().map(|scene| self.scene.overrides.apply(open_argument(scene)?));
+        let more = self.more.iter().map(|scene| self.scene.overrides.apply(open_scene(scene)?));
         let documents =
             std::iter::once(self.scene.open()).chain(more).collect::<Result<Vec<_>, CliError>>()?;
         documents.iter().try_for_each(check_measured_files).map_err(CliError::message)?;

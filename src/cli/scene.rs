@@ -1,6 +1,7 @@
 //! The scene of a command, with overrides.
 
 use super::error::CliError;
+use crate::explorer::recognition::no_scene;
 use asperity_data::parallel;
 use asperity_data::printable;
 use asperity_scene::{CheckedScene, Document, open_argument};
@@ -8,6 +9,7 @@ use asperity_scene::{Outcome, Simulation};
 use clap::Args;
 use std::io;
 use std::io::Write;
+use std::path::Path;
 
 /// Largest number of random profiles of a scene.
 pub(super) const MOST_LINES: i64 = 1_000_000;
@@ -39,13 +41,21 @@ pub struct Overrides {
 impl SceneArguments {
     /// Opens the scene and applies the overrides.
     pub(super) fn open(&self) -> Result<Document, CliError> {
-        let document = self.overrides.apply(open_argument(&self.scene)?)?;
+        let document = self.overrides.apply(open_scene(&self.scene)?)?;
         if let Some(warning) = document.scene().warning() {
             // The command continues even if standard error is closed.
             let _ = writeln!(io::stderr(), "warning: {}: {warning}", printable(document.name()));
         }
         Ok(document)
     }
+}
+
+/// Opens the scene of an argument; a measured file in its place is named with the commands that use it.
+pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
+    open_argument(name).map_err(|errors| match no_scene(Path::new(name)) {
+        Some(way) => CliError::message(way),
+        None => errors.into(),
+    })
 }
 
 impl Overrides {

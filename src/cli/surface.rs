@@ -3,6 +3,11 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{MOST_LINES, threads};
+use crate::explorer::recognition::no_surface;
+use crate::export::measured_face::{MeasuredFace, SurfaceFile};
+use crate::export::provenance::named_from;
+use crate::export::report::Format;
+use crate::export::surface::SurfaceReport;
 use asperity_contact::Move;
 use asperity_data::parse_quantity;
 use asperity_data::write_new;
@@ -218,7 +223,8 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
 fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {
     let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
     for file in files {
-        let read = read(file, &options.reading).map_err(|error| CliError::named(path_name(file), error))?;
+        let read = read(file, &options.reading);
+        let read = read.map_err(|error| CliError::named(path_name(file), no_surface(file, &error)))?;
         facts.extend(read.iter().map(|surface| SurfaceFile::new(file.clone(), surface)));
         surfaces.extend(read);
     }
