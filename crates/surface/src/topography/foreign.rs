@@ -1,4 +1,4 @@
-//! Names of formats that are not read, by their first bytes or the files of an archive, so that a message can tell the way out.
+//! Names of formats that are not read, by their first bytes or the files of an archive, so that a message can state the way out.
 
 use super::{Place, TopographyError, refused};
 
@@ -15,9 +15,10 @@ const MOUNTAINS: &str = "the same exported as SUR or X3P in MountainsMap";
 const SHEET: &str = "the same saved as CSV";
 
 /// First bytes, name of the format, and what is allowed in its place.
-const SIGNATURES: [(&[u8], &str, &str); 29] = [
+const SIGNATURES: [(&[u8], &str, &str); 30] = [
     (b"\\*Force file list", "a file of force curves of Nanoscope", CURVE),
     (b"?*File list", "Nanoscope as text", GWYDDION),
+    (b"Data_File_Type", "Nanoscope of version 2", GWYDDION),
     (b"AliconaImaging", "AL3D of Alicona", GWYDDION),
     (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "a document of MountainsMap (MNT) or of Office", MOUNTAINS),
     (b"\x89HDF\r\n\x1a\n", "HDF5, as DATX, H5 and NetCDF-4 are", ARRAYS),
