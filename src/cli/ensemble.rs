@@ -4,11 +4,11 @@ use super::error::CliError;
 use super::fit::FitArguments;
 use super::output::Origin;
 use super::progress::ProgressLine;
-use super::scene::threads;
+use super::scene::{open_scene, threads};
+use crate::explorer::recognition::no_curve;
 use asperity_data::{grouped, path_name};
 use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
-use asperity_scene::open_argument;
 use clap::Args;
 use std::io::Write;
 use std::sync::Mutex;
@@ -67,12 +67,12 @@ fn is_modulus_free(free: &[Free]) -> Result<bool, CliError> {
 pub(super) fn ensemble(arguments: &FitArguments, lines: u32, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let is_modulus_free = is_modulus_free(&arguments.free)?;
-    let document = arguments.overrides.apply(open_argument(&arguments.model)?)?;
+    let document = arguments.overrides.apply(open_scene(&arguments.model)?)?;
     let read = |path: &std::path::PathBuf| {
         let name = path_name(path);
         match MeasuredCurve::read(path, &arguments.reading) {
             Ok(curve) => Ok((name, curve)),
-            Err(error) => Err(CliError::named(&name, error)),
+            Err(error) => Err(CliError::named(&name, no_curve(path, &error))),
         }
     };
     let curves = arguments.curves.iter().map(read).collect::<Result<Vec<_>, _>>()?;

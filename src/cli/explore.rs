@@ -16,6 +16,7 @@ use crate::explorer::theme::{Marker, Theme};
 use crate::explorer::view;
 use asperity_data::path_name;
 use asperity_experiment::CurveOptions;
+use asperity_report::brief_summary;
 use asperity_scene::Simulation;
 use asperity_scene::{did_you_mean, quoted};
 use clap::Args;

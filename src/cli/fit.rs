@@ -3,14 +3,14 @@
 use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
-use super::scene::{MOST_LINES, Overrides, open_scene, threads};
+use super::scene::{Overrides, open_scene, threads};
 use crate::explorer::recognition::no_curve;
-use crate::export::fit::FitReport;
-use crate::export::provenance::named_from;
-use crate::export::report::Format;
 use asperity_data::path_name;
 use asperity_data::write_new;
 use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as find};
+use asperity_report::FitReport;
+use asperity_report::Format;
+use asperity_report::named_from;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -71,11 +71,10 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         check_file(file, "ron", arguments.output.force)?;
     }
     let document = arguments.overrides.apply(open_scene(&arguments.model)?)?;
-    let title = path_name(&arguments.curve);
-    let curve = MeasuredCurve::read(&arguments.curve, &arguments.reading)
-        .map_err(|error| CliError::named(&title, no_curve(&arguments.curve, &error)))?;
-    let lines = arguments.lines.map_or(1, u64::from);
-    let options = FitOptions { free: arguments.free.clone(), lines, jobs: threads(arguments.jobs) };
+    let title = path_name(path);
+    let curve = MeasuredCurve::read(path, &arguments.reading)
+        .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
+    let options = FitOptions { free: arguments.free.clone(), lines: 1, jobs: threads(arguments.jobs) };
     let found = find(&curve, &document, &options, &|| false, &mut |_| ());
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     if let Some(file) = &arguments.scene {

@@ -7,6 +7,7 @@ use crate::explorer::editor::Editor;
 use crate::explorer::measured::Measured;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
+use asperity_report::{Format, check_extension};
 use asperity_scene::{Document, Preset, command_line, presets, quoted};
 use std::path::{Path, PathBuf};
 

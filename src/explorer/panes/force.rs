@@ -11,6 +11,7 @@ use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph};
+use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart, sign};
 use asperity_scene::quoted;
 use asperity_scene::{LEAST_TABOR_NUMBER, Mark, marks};
 use ratatui::layout::Size;
