@@ -1,49 +1,48 @@
 //! The columns of a measured curve: which ones hold displacement, force and segment, and their units.
 
+use crate::metadata::Metadata;
 use crate::options::CurveOptions;
-use asperity_data::parse_quantity;
+use asperity_data::{format_quantity, parse_quantity};
 use asperity_surface::Column;
 use asperity_surface::{Place, TopographyError, refused, shown};
 
 /// Term, SI unit and example unit of displacement and force, and the names of their columns as letters, preferred names
 /// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the
-/// instrument.
-const QUANTITIES: [(&str, &str, &str, &[&str]); 2] = [
+/// instrument; the force before a deflection.
+const QUANTITIES: [(&str, &str, &str, &str); 2] = [
     (
         "displacement",
         "m",
         "nm",
-        &[
-            "displacement",
-            "heightmeasured",
-            "measuredheight",
-            "smoothedmeasuredheight",
-            "zsense",
-            "zsensor",
-            "piezo",
-            "position",
-            "height",
-            "distance",
-            "heightpiezo",
-            "indentation",
-            "tipposition",
-            "d",
-            "z",
-            "x",
-        ],
+        "displacement heightmeasured measuredheight smoothedmeasuredheight straingaugeheight smoothedstraingaugeheight \
+         capacitivesensorheight zsense zsensor zsnsr piezo piezoposition piezodisplacement piezoz zpiezo calcramp ramp \
+         stageposition stagedisplacement motorposition position height distance heightpiezo zposition zheight indentation \
+         tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth d z x",
     ),
-    ("force", "N", "nN", &["force", "load", "vdeflection", "verticaldeflection", "f"]),
+    (
+        "force",
+        "N",
+        "nN",
+        "force normalforce load appliedload vdeflection verticaldeflection deflection defl dfl cantileverdeflection \
+         cantilever memsdisplacement memsdispl tb fn f",
+    ),
 ];
 /// Names of a column with the displacement of the body alone.
-const OF_BODY: [&str; 2] = ["indentation", "tipposition"];
-/// Words for approach and for retraction in the names of columns side by side.
-const DIRECTIONS: [&[&str]; 2] = [
-    &["approach", "extend", "extension", "ext", "ex", "trace", "loading", "advance", "forward"],
-    &["retraction", "retract", "ret", "rt", "retrace", "withdraw", "unloading", "backward"],
+const OF_BODY: &str =
+    "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
+/// Names of a column of segments.
+const SEGMENT: &str = "segment segmentname segmenttype phase direction";
+/// Words for approach and for retraction in the names of columns side by side, and words for a pause in those of segments.
+const DIRECTIONS: [&str; 2] = [
+    "approach approaching extend extension ext ex trace loading advance forward",
+    "retraction retract retracting ret rt retrace withdraw unloading backward",
 ];
+const PAUSES: &str = "pause hold dwell delay wait";
+/// Displacement that counts one row while rows have no displacement, m.
+const OF_ROW: f64 = 1e-9;
 /// Option that helps if the columns are not recognised.
 const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
-    beside its approach";
+    beside its approach, such as --columns 1,2,1,3";
 
 /// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
 #[derive(Clone, Copy, Debug)]
@@ -58,52 +57,61 @@ pub(crate) struct Choice {
     /// One pair, or one for an approach and one for the retraction beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
-    /// Sentences on columns that were chosen by name, and on units of the file that the options override.
+    /// Travel, m, over which forces without a column of displacements are evenly spaced.
+    pub ramp: Option<f64>,
+    /// Name of the column if it holds the displacement of the body, without the deflection of the instrument.
+    pub of_body: Option<String>,
+    /// The columns with their units, in words.
+    pub assumed: String,
+    /// Sentences on names and units of the file that the options overrule.
     pub statements: Vec<String>,
 }
 
+/// What the file states beside its columns.
+#[derive(Clone, Copy)]
+pub(crate) struct Stated<'a> {
+    pub metadata: &'a Metadata,
+    /// True for a file in SI units, whose columns need no unit.
+    pub is_si: bool,
+}
+
 impl Choice {
-    /// Chooses among columns with these names and units; the columns of a file in SI units need no unit.
-    pub fn new(columns: &[Column], is_si: bool, options: &CurveOptions) -> Result<Self, TopographyError> {
+    /// Chooses among columns with these names and units.
+    pub fn new(
+        columns: &[Column],
+        stated: Stated<'_>,
+        options: &CurveOptions,
+    ) -> Result<Self, TopographyError> {
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS);
         let count = columns.len();
         let names = columns.iter().map(|column| &*column.name).filter(|name| !name.is_empty());
         let all = format!("{count} columns {}", names.map(shown).collect::<Vec<_>>().join(", "));
+        let named: Vec<Named> = columns.iter().map(Named::of).collect();
+        let known = known(&named);
         let place = |wanted: &String| {
             let letters = letters(wanted);
             let is_it = |column: &Column| !letters.is_empty() && self::letters(&column.name) == letters;
-            let named = columns.iter().position(is_it);
+            let found = columns.iter().position(is_it);
             let number = || wanted.parse().ok().filter(|number| (1..=count).contains(number));
-            let place = named.or_else(|| Some(number()? - 1));
+            let place = found.or_else(|| Some(number()? - 1));
             place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
         };
-        let mut statements = Vec::new();
         let is_unnamed = columns.iter().all(|column| column.name.is_empty());
-        let (pairs, segment) = match &options.columns[..] {
-            [] if count == 2 && (is_unnamed || are_unknown(columns) && options.units.len() == 2) => {
+        let is_unknown = !named.iter().any(|one| QUANTITIES.iter().any(|row| is_one_of(&one.rest, row.3)));
+        let ramp = options.ramp.or(stated.metadata.ramp).filter(|_| count == 1);
+        if count == 1 && ramp.is_none() {
+            let allowed = "a column of displacements too, or --ramp 500nm for forces of an approach and a retraction over 500 nm";
+            return Err(refused(Place::File, "one column of numbers", allowed));
+        }
+        let (places, mut segment) = match &options.columns[..] {
+            _ if ramp.is_some() => (vec![[0, 0]], None),
+            [] if count == 2 && (is_unnamed || is_unknown && options.units.len() == 2) => {
                 (vec![[0, 1]], None)
             }
             [] => {
-                let pairs =
-                    known(columns).map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
-                let name = |place: usize| shown(&columns[place].name);
-                if count > 2 {
-                    let mut text = format!("Displacement and force from the columns {}", name(pairs[0][0]));
-                    text += &format!(" and {}", name(pairs[0][1]));
-                    if let Some(beside) = pairs.get(1) {
-                        let [at, force] = beside.map(name);
-                        text += &format!(", beside them the retraction from {at} and {force}");
-                    }
-                    statements.push(text + ".");
-                }
-                if OF_BODY.contains(&&*letters(&columns[pairs[0][0]].name)) {
-                    statements.push(format!(
-                        "The column {} is a displacement of the body: the deflection of the instrument is taken off already, \
-                         and --set loading_stiffness=None fits it.",
-                        name(pairs[0][0])
-                    ));
-                }
-                (pairs, None)
+                let places =
+                    known.clone().map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
+                (places, None)
             }
             [at, force] => (vec![[place(at)?, place(force)?]], None),
             [at, force, segment] => (vec![[place(at)?, place(force)?]], Some(place(segment)?)),
@@ -112,34 +120,77 @@ impl Choice {
             }
             other => return Err(wrong(format!("--columns with {}", other.len()))),
         };
-        let pair = |places: [usize; 2]| {
+        if places.len() == 1 && segment.is_none() {
+            let is_segment = |one: &Named| one.direction.is_none() && is_one_of(&one.rest, SEGMENT);
+            segment = named.iter().position(is_segment);
+        }
+        let mut statements = Vec::new();
+        let name = |place: usize| match &*columns[place].name {
+            "" => (place + 1).to_string(),
+            name => shown(name),
+        };
+        if let (Ok(by_name), false) = (&known, options.columns.is_empty())
+            && *by_name != places
+        {
+            let [at, force] = by_name[0].map(name);
+            statements
+                .push(format!("Columns by --columns; by the names of the file they are {at} and {force}."));
+        }
+        let mut words = Vec::new();
+        let mut pair = |places: [usize; 2]| {
             let mut units = [1.0; 2];
             for (quantity, place) in places.into_iter().enumerate() {
-                let stated = columns[place].unit.as_deref();
-                units[quantity] = of_one(quantity, stated, is_si, options, &mut statements)?;
+                if let Some(ramp) = ramp.filter(|_| quantity == 0) {
+                    units[quantity] = OF_ROW;
+                    words.push(format!(
+                        "none of the displacement ({} there and back)",
+                        format_quantity(ramp, "m")
+                    ));
+                    continue;
+                }
+                let unit = columns[place].unit.as_deref().or(named[place].unit.as_deref());
+                let (value, word) = of_one(quantity, unit, stated, options, &mut statements)?;
+                units[quantity] = value;
+                words.push(format!("{} ({word})", name(place)));
             }
             Ok(Pair { places, units })
         };
-        let pairs = pairs.into_iter().map(pair).collect::<Result<_, TopographyError>>()?;
+        let pairs = places.iter().map(|places| pair(*places)).collect::<Result<_, TopographyError>>()?;
         statements.dedup();
-        Ok(Choice { pairs, segment, statements })
+        let mut assumed = format!("Columns: {}", words[..2].join(", "));
+        if let Some(beside) = words.get(2..).filter(|beside| !beside.is_empty()) {
+            assumed += &format!(", the retraction in {}", beside.join(", "));
+        }
+        // A number in place of the name overrules what the name says.
+        let is_by_name = options.columns.first().is_none_or(|typed| typed.parse::<usize>().is_err());
+        let first = places[0][0];
+        let of_body = (is_by_name && is_one_of(&named[first].rest, OF_BODY)).then(|| name(first));
+        Ok(Choice { pairs, segment, ramp, of_body, assumed, statements })
     }
 }
 
-/// SI value of 1 in a column of a quantity: as the options state, else as the file states.
+/// SI value of 1 in a column of a quantity, and its unit in words: as the options state, else as the file states. A
+/// deflection becomes a force by the stiffness that the file states.
 fn of_one(
     quantity: usize,
     stated: Option<&str>,
-    is_si: bool,
+    file: Stated<'_>,
     options: &CurveOptions,
     statements: &mut Vec<String>,
-) -> Result<f64, TopographyError> {
+) -> Result<(f64, String), TopographyError> {
     let (term, si, example, _) = QUANTITIES[quantity];
     let option = options.units.get(quantity).map(String::as_str);
     let wrong = |fault: String, allowed: &str| refused(Place::File, fault, allowed);
-    let text = option.or(stated).or(is_si.then_some(si)).ok_or_else(|| {
+    let text = option.or(stated).or(file.is_si.then_some(si)).ok_or_else(|| {
         wrong(format!("no unit of the {term} is stated"), "--units nm,nN for displacement and force")
     })?;
+    if quantity == 1
+        && option.is_none()
+        && let Some(of_one) = of_deflection(text, file.metadata)
+    {
+        let (value, by) = of_one?;
+        return Ok((value, format!("{} by {by}", shown(text))));
+    }
     let is_multiple = text.starts_with(|first: char| first.is_ascii_digit());
     let value = if is_multiple && option.is_some() {
         parse_quantity(text, si).ok().filter(|of_one| *of_one > 0.0)
@@ -152,21 +203,88 @@ fn of_one(
             &format!("{example} and the like, or the value of 1, such as --units nm,3.01nN"),
         )
     })?;
-    let file = stated.or(is_si.then_some(si)).filter(|file| unit(file, si) != Some(value));
-    if let Some((file, option)) = file.zip(option) {
-        let file = shown(file);
-        statements.push(format!("Unit of the {term} by --units: {}; the file states {file}.", shown(option)));
+    let other = stated.or(file.is_si.then_some(si)).filter(|other| unit(other, si) != Some(value));
+    if let Some((other, option)) = other.zip(option) {
+        let other = shown(other);
+        statements
+            .push(format!("Unit of the {term} by --units: {}; the file states {other}.", shown(option)));
     }
-    Ok(value)
+    Ok((value, shown(text)))
+}
+
+/// SI value of 1 in a column of a deflection in this unit, a length or a voltage, and what makes it a force; `None` for
+/// another unit.
+fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String), TopographyError>> {
+    let (of_length, of_voltage) = (unit(text, "m"), unit(text, "V"));
+    let stiffness = metadata.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
+    let sensitivity = of_voltage.and(metadata.sensitivity);
+    let deflection =
+        of_length.or(of_voltage.zip(sensitivity).map(|(volts, sensitivity)| volts * sensitivity));
+    let missing = |what: &str| {
+        let fault = format!("the force is a deflection in {}, and the file states no {what}", shown(text));
+        Err(refused(Place::File, fault, "the force of 1 in the column, such as --units nm,3.01nN"))
+    };
+    Some(match (of_length.or(of_voltage)?, deflection, stiffness) {
+        (_, Some(deflection), Some(stiffness)) => {
+            let by = sensitivity
+                .map_or_else(String::new, |found| format!("{} and ", format_quantity(found, "m/V")));
+            Ok((deflection * stiffness, format!("{by}{}", format_quantity(stiffness, "N/m"))))
+        }
+        (_, Some(_), None) => missing("stiffness of the instrument"),
+        (_, None, _) => missing("sensitivity"),
+    })
+}
+
+/// What the name of a column states.
+#[derive(Clone, Debug)]
+struct Named {
+    /// 0 approach, 1 retraction.
+    direction: Option<usize>,
+    /// Letters of the words that state neither direction nor unit.
+    rest: String,
+    /// Unit among the words, as in `Defl_pN_Ex`.
+    unit: Option<String>,
+}
+
+impl Named {
+    fn of(column: &Column) -> Named {
+        let words: Vec<&str> =
+            column.name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+        let is_unit = |word: &&&str| {
+            **word == "V" || word.chars().count() > 1 && (is_unit(word) || unit(word, "V").is_some())
+        };
+        let unit = words.iter().skip(1).find(is_unit).copied();
+        let rest = words.iter().filter(|word| direction(word).is_none() && Some(**word) != unit);
+        Named {
+            direction: words.iter().find_map(|word| direction(word)),
+            rest: rest.map(|word| letters(word)).collect(),
+            unit: column.unit.clone().or(unit.map(str::to_owned)),
+        }
+    }
+
+    /// Whether the unit suits a force (0), a deflection (1) or neither (2).
+    fn rank(&self) -> usize {
+        match self.unit.as_deref() {
+            None => 0,
+            Some(text) if unit(text, "N").is_some() => 0,
+            Some(text) if unit(text, "m").is_some() => 1,
+            Some(_) => 2,
+        }
+    }
 }
 
 /// Indices of the columns of displacement and force that names identify, twice if approach and retraction are side by side;
 /// the error is the term of the quantity that no name identifies.
-fn known(columns: &[Column]) -> Result<Vec<[usize; 2]>, &'static str> {
-    let words: Vec<_> = columns.iter().map(|column| direction(&column.name)).collect();
+fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     let of = |quantity: usize, direction: Option<usize>| {
-        let is = |known: &&str| words.iter().position(|(of, rest)| *of == direction && rest == known);
-        QUANTITIES[quantity].3.iter().find_map(is)
+        let is = |known: &str| {
+            let fits = |(_, one): &(usize, &Named)| one.direction == direction && one.rest == known;
+            let ranked = named.iter().enumerate().filter(fits);
+            ranked.min_by_key(|(_, one)| if quantity == 1 { one.rank() } else { 0 }).map(|(place, _)| place)
+        };
+        let found = QUANTITIES[quantity].3.split(' ').find_map(is);
+        // A column may be named by its direction alone.
+        found.or_else(|| direction.filter(|_| quantity == 1).and_then(|_| is("")))
     };
     let beside = |of_direction: usize| {
         let displacement = of(0, Some(of_direction)).or_else(|| of(0, None))?;
@@ -175,7 +293,7 @@ fn known(columns: &[Column]) -> Result<Vec<[usize; 2]>, &'static str> {
     if let Some(pairs) = beside(0).zip(beside(1)) {
         return Ok(vec![pairs.0, pairs.1]);
     }
-    match ([of(0, None), of(1, None)], columns.len()) {
+    match ([of(0, None), of(1, None)], named.len()) {
         ([Some(displacement), Some(force)], _) => Ok(vec![[displacement, force]]),
         // Of two columns the other one.
         ([Some(displacement), None], 2) => Ok(vec![[displacement, 1 - displacement]]),
@@ -185,9 +303,8 @@ fn known(columns: &[Column]) -> Result<Vec<[usize; 2]>, &'static str> {
     }
 }
 
-fn are_unknown(columns: &[Column]) -> bool {
-    let is_known = |name: &str| QUANTITIES.iter().any(|row| row.3.contains(&&*letters(name)));
-    !columns.iter().any(|column| is_known(&column.name))
+fn is_one_of(word: &str, words: &str) -> bool {
+    words.split(' ').any(|one| one == word)
 }
 
 /// The letters of a name in lower case, so that `Z-Sense` and `z_sense` are the same.
@@ -195,20 +312,28 @@ fn letters(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// Direction that the name of a column states (0 approach, 1 retraction), and the letters of its other words.
-fn direction(name: &str) -> (Option<usize>, String) {
-    let words: Vec<String> = name.split(|c: char| !c.is_alphanumeric()).map(letters).collect();
-    let of = |word: &String| DIRECTIONS.iter().position(|words| words.contains(&&**word));
-    let rest: String = words.iter().filter(|word| of(word).is_none()).map(String::as_str).collect();
-    (words.iter().find_map(of), rest)
+/// Direction that a word states: 0 approach, 1 retraction.
+fn direction(word: &str) -> Option<usize> {
+    let word = letters(word);
+    DIRECTIONS.iter().position(|words| is_one_of(&word, words))
 }
 
-/// Returns true for a unit of length or force.
+/// Returns true for the name of a segment in which the instrument waits.
+pub(crate) fn is_pause(text: &str) -> bool {
+    text.split(|c: char| !c.is_alphanumeric()).any(|word| is_one_of(&letters(word), PAUSES))
+}
+
+/// Returns true for a line that names a segment.
+pub(crate) fn names_segment(text: &str) -> bool {
+    is_pause(text) || text.split(|c: char| !c.is_alphanumeric()).any(|word| direction(word).is_some())
+}
+
+/// Returns true for a unit of length, force or voltage.
 pub(crate) fn is_unit(text: &str) -> bool {
     QUANTITIES.iter().any(|row| unit(text, row.1).is_some())
 }
 
-/// A unit of length or force, such as nm, as a number of SI units.
+/// A unit, such as nm, as a number of SI units.
 fn unit(text: &str, si: &str) -> Option<f64> {
     parse_quantity(&format!("1 {text}"), si).ok().filter(|_| text.ends_with(si))
 }

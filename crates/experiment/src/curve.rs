@@ -4,7 +4,7 @@ use crate::baseline::{ends, right_angled};
 use crate::error::{ExperimentError, refused};
 use crate::free::FEWEST;
 use crate::options::{CurveOptions, Drift, Negate, Tilt};
-use crate::points::{Points, kept};
+use crate::points::{Points, ends_free, kept};
 use crate::read::Columns;
 use crate::segment::{Segments, are_shuffled};
 use crate::zero::FreeParts;
@@ -44,8 +44,6 @@ pub struct MeasuredCurve {
     pub missing: usize,
     /// Displacements, m, at which the segments end.
     pub(crate) turns: Vec<f64>,
-    /// True for each point that belongs to a pause.
-    pub(crate) is_still: Vec<bool>,
     /// Changes of the force, N, that remain in the curve without contact: over time, over the displacement, and from before
     /// to after contact; 0 where there is none.
     pub(crate) remaining: [f64; 3],
@@ -53,7 +51,11 @@ pub struct MeasuredCurve {
     pub(crate) shares: [Vec<f64>; 2],
     /// Whether the zero of the force, a drift and a tilt were estimated from the points without contact and subtracted.
     is_estimated: [bool; 3],
-    /// Sentences on what was done to the curve.
+    /// Name and value of the stiffness of the instrument that the file states, N/m.
+    pub(crate) stiffness: Option<(String, f64)>,
+    /// Name of the column of the displacement if it is that of the body, without the deflection of the instrument.
+    pub(crate) of_body: Option<String>,
+    /// Sentences on what was assumed and done to the curve; the first one has columns, units and points.
     pub statements: Vec<String>,
 }
 
@@ -72,7 +74,8 @@ impl MeasuredCurve {
     }
 
     fn prepare(columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
-        let Columns { displacement, force, segment: labels, missing, mut statements, .. } = columns;
+        let left_out = columns.left_out();
+        let Columns { mut displacement, mut force, labels, is_beside, missing, mut statements, .. } = columns;
         let count = displacement.len();
         if count < FEWEST_POINTS {
             let fault = format!("{count} points with displacement and force");
@@ -88,13 +91,15 @@ impl MeasuredCurve {
                 "points in the order of time, and the column of the displacement by --columns",
             );
         }
-        let averaged = count.div_ceil(MOST_POINTS);
-        let segments = Segments::of(&displacement, &labels);
-        let mut points = Points::averaged(&displacement, &force, &segments, averaged);
-        let (low, high) = ends(points.force.iter().copied());
+        let (low, high) = ends(force.iter().copied());
         let least = NO_NOISE * (high - low);
+        let mut segments = Segments::of(&displacement, &labels);
+        let turned = in_order(&mut displacement, &mut force, &mut segments, is_beside, least);
+        let moving = segments.is_still.iter().filter(|is_still| !**is_still).count();
+        let averaged = moving.div_ceil(MOST_POINTS).max(1);
+        let mut points = Points::averaged(&displacement, &force, &segments, averaged);
         let is_single = points.segment.last() == Some(&0);
-        if is_single && points.is_retraction(least) {
+        if is_single && ends_free(&points.force, least) {
             points.segment.fill(1);
             statements.push("A retraction alone: the model is loaded up to its first point.".to_owned());
         } else if is_single && options.segments != [1] {
@@ -108,42 +113,19 @@ impl MeasuredCurve {
         let (remaining, text) = free.take_off_lines(&mut points, options, noise)?;
         check_sign(&points, options, noise)?;
         let kept = kept(&points, options)?;
-        let grouped_of = |count: usize| grouped(count as u64);
-        let sum = |kept: &dyn Fn(usize) -> bool| {
-            grouped_of(
-                (0..points.counts.len()).filter(|index| kept(*index)).map(|index| points.counts[index]).sum(),
-            )
-        };
         let last = points.segment[points.segment.len() - 1];
-        let place = match (points.segment[0], free.before) {
-            (0, Some(free)) => format!("{} before contact", sum(&|index| index < free)),
-            _ => format!("{} after contact", sum(&|index| index >= points.counts.len() - free.after)),
-        };
-        statements.push(format!(
-            "{} points in {}, {} left out since a value is missing, {place}.",
-            grouped_of(count),
-            if last == points.segment[0] { "1 segment".to_owned() } else { format!("{} segments", last + 1) },
-            grouped_of(missing)
-        ));
+        let turned = turned.map(str::to_owned);
+        let negated =
+            (negate != Negate::None).then(|| format!("{negate} reversed, so that pressing is positive"));
+        let mut assumed = vec![columns.assumed];
+        assumed.extend(turned.into_iter().chain(negated));
+        assumed.extend(counted(&points, &kept, &free, options));
+        assumed.extend(left_out);
         if averaged > 1 {
-            statements.push(format!(
-                "Means of {averaged} points each are used: {} of them.",
-                grouped_of(points.force.len())
-            ));
+            let means = grouped(points.force.len() as u64);
+            assumed.push(format!("means of {averaged} points each, {means} of them"));
         }
-        let pauses = points.is_still.contains(&true).then(|| sum(&|index| points.is_still[index]));
-        if !options.segments.is_empty() {
-            let numbers: Vec<String> = options.segments.iter().map(ToString::to_string).collect();
-            let without =
-                pauses.map_or_else(String::new, |count| format!(", without {count} points of pauses"));
-            let used = sum(&|index| kept.binary_search(&index).is_ok());
-            statements.push(format!("Segments used: {}, {used} points{without}.", numbers.join(", ")));
-        } else if let Some(count) = pauses {
-            statements.push(format!("{count} points are of pauses; --segments 1,2 leaves them out."));
-        }
-        if negate != Negate::None {
-            statements.push(format!("Reversed, so that pressing is positive: {negate}."));
-        }
+        statements.insert(0, format!("{}.", assumed.join("; ")));
         let found = match (options.noise, free.before) {
             (Some(_), _) => "given",
             (None, Some(_)) => "that before contact",
@@ -165,7 +147,6 @@ impl MeasuredCurve {
             points: kept.iter().map(|index| points.counts[*index]).sum(),
             missing,
             turns,
-            is_still: kept.iter().map(|index| points.is_still[*index]).collect(),
             remaining,
             shares: free.shares.each_ref().map(|shares| of_kept(shares)),
             is_estimated: [
@@ -173,6 +154,8 @@ impl MeasuredCurve {
                 options.drift == Drift::Remove,
                 options.tilt == Tilt::Remove,
             ],
+            stiffness: columns.stiffness,
+            of_body: columns.of_body,
             statements,
         })
     }
@@ -198,6 +181,64 @@ impl MeasuredCurve {
         let used = columns.into_iter().zip([zero && !has_zero, drift, tilt]);
         right_angled(&used.filter_map(|(column, is_used)| is_used.then_some(column)).collect::<Vec<_>>())
     }
+}
+
+/// Brings approach and retraction into the order of time if they are not, and says in words what was done. Columns side by
+/// side may begin at their turn; a file may begin with the retraction.
+fn in_order(
+    displacement: &mut [f64],
+    force: &mut [f64],
+    segments: &mut Segments,
+    is_beside: bool,
+    least: f64,
+) -> Option<&'static str> {
+    let first = segments.numbers.partition_point(|number| *number == 0);
+    let reversed: Vec<f64> = force[first..].iter().rev().copied().collect();
+    let has_two = segments.numbers.last() == Some(&1);
+    if !(has_two && ends_free(&force[..first], least) && ends_free(&reversed, least)) {
+        return None;
+    }
+    if is_beside {
+        for values in [displacement, force] {
+            values[..first].reverse();
+            values[first..].reverse();
+        }
+        segments.is_still.fill(false);
+        return Some("both parts begin at their turn and were reversed");
+    }
+    displacement.rotate_left(first);
+    force.rotate_left(first);
+    segments.exchange(first);
+    Some("the retraction comes first and was put behind the approach")
+}
+
+/// Numbers of points that are used, before or after contact, and of pauses, in words.
+fn counted(points: &Points, kept: &[usize], free: &FreeParts, options: &CurveOptions) -> Vec<String> {
+    let sum = |of: &dyn Fn(usize) -> bool| {
+        let counted = (0..points.counts.len()).filter(|index| of(*index)).map(|index| points.counts[index]);
+        counted.sum::<usize>() as u64
+    };
+    let (first, last) = (points.segment[0], points.segment[points.segment.len() - 1]);
+    let place = match (first, free.before) {
+        (0, Some(free)) => format!("{} before contact", grouped(sum(&|index| index < free))),
+        _ => format!("{} after contact", grouped(sum(&|index| index >= points.counts.len() - free.after))),
+    };
+    let segments = match &options.segments[..] {
+        [] if first == last => "1 segment".to_owned(),
+        [] => format!("{} segments", last + 1),
+        [one] => format!("segment {one}"),
+        several => {
+            let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
+            format!("segments {}", numbers.join(", "))
+        }
+    };
+    let used = grouped(sum(&|index| kept.binary_search(&index).is_ok()));
+    let mut words = vec![format!("{used} points used in {segments}, {place}")];
+    let still = sum(&|index| points.is_still[index]);
+    if still > 0 {
+        words.push(format!("{} of pauses left out", grouped(still)));
+    }
+    words
 }
 
 /// Returns an error for a force that is negative where the body presses most.
@@ -228,8 +269,9 @@ mod tests {
             text_of_spring("displacement [nm],force [nN]\nNaN,1\n0,\n", 100_000, |d, f| format!("{d},{f}"));
         let curve = from_text(&text, &CurveOptions::default()).unwrap();
         assert_eq!((curve.missing, curve.points), (2, 100_000));
-        assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 3, "{:?}", curve.statements);
-        assert!(curve.statements[1].starts_with("Means of 25 points each"), "{:?}", curve.statements);
+        assert!(curve.force.len() <= MOST_POINTS && curve.statements.len() == 2, "{:?}", curve.statements);
+        let said = "2 left out since a value is missing; means of 25 points each, 4 000 of them.";
+        assert!(curve.statements[0].ends_with(said), "{:?}", curve.statements);
         assert!((curve.force[2000] / 1e-7 - 1.0).abs() < 0.01, "{:e}", curve.force[2000]);
         // Points of the file are counted, not means.
         let options = CurveOptions { free_points: Some(2700), ..CurveOptions::default() };
@@ -256,10 +298,9 @@ mod tests {
         let approach = read(&all[..300], &[1]);
         assert_eq!((&approach.force[..], approach.turns.len()), (&whole.force[..300], 2));
         all.splice(300..300, (0..200).map(|index| (50.0, 101.0 - 0.02 * f64::from(index))));
-        let (paused, moving) = (read(&all, &[]), read(&all, &[1, 2]));
-        assert_eq!(paused.points, 800);
-        assert!(paused.statements.concat().contains("--segments 1,2 leaves them out"));
+        let (moving, retraction) = (read(&all, &[]), read(&all, &[2]));
         assert!((590..=600).contains(&moving.points), "{}", moving.points);
+        assert!((290..=300).contains(&retraction.points), "{}", retraction.points);
     }
 
     #[test]
@@ -282,10 +323,6 @@ mod tests {
                 "18 points in the approach are too few",
             ),
             (lines((0..600).map(|index| all[index * 251 % 600])), "the displacement goes to and fro"),
-            (
-                lines(all[300..].iter().chain(&all[..300]).copied()),
-                "the first segment begins in contact and ends without it",
-            ),
             (lines(all[..301].iter().copied()), "the displacement does not turn"),
             (lines([(1.0, 2.0)]), "1 points with displacement and force; allowed: at least 40"),
             (String::new(), "0 points"),

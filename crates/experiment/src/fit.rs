@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::parameter::{Coordinate, FitOptions, Parameter, Values};
 use crate::population::WRONG_SIDE;
 use crate::reason::{Reason, reason};
-use crate::scene::with_values;
+use crate::scene::{with_values, wrong};
 use crate::search::{MISFIT, Search};
 use crate::space::Space;
 use crate::statistics::{block_error, correlated, correlation, spread, widen};
@@ -88,6 +88,9 @@ pub struct Fit {
     /// Pairs of parameters that the curve cannot separate; a pair of the same parameter for one that the curve does not
     /// determine.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
+    /// What the file of the curve changes in the scene, in words.
+    #[serde(skip)]
+    pub instrument: Option<String>,
     /// Number of curves computed by the fit.
     pub evaluations: usize,
     /// Force of the model at each point, N, including the zero and the drift of the curve, which the fit refines.
@@ -127,6 +130,7 @@ pub fn fit(
     report: &mut dyn FnMut(usize),
 ) -> Result<Fit, ExperimentError> {
     let mut simulation = Simulation::new(document.resolve(""));
+    let instrument = curve.with_instrument(document).map_err(wrong)?.1;
     let (document, space) = Space::of(curve, document, &mut simulation, options, stop)?;
     let model = Model::new(curve, document.scene(), &mut simulation);
     let mut search = Search { space: &space, model, report, lines: space.lines() };
@@ -202,6 +206,7 @@ pub fn fit(
         reason: reason.transpose()?,
         correlations,
         not_distinguished,
+        instrument,
         evaluations,
         model,
         document: found,

@@ -8,7 +8,9 @@ mod curve;
 mod ensemble;
 mod error;
 mod fit;
+mod foreign;
 mod free;
+mod metadata;
 mod model;
 mod options;
 mod parameter;
@@ -21,6 +23,7 @@ mod search;
 mod segment;
 mod space;
 mod statistics;
+mod text;
 mod zero;
 
 #[cfg(test)]

@@ -116,6 +116,14 @@ pub(crate) fn text_of_spring(header: &str, count: usize, form: impl Fn(f64, f64)
     of_spring(count).into_iter().fold(header.to_owned(), |text, (d, f)| text + &form(d, f) + "\n")
 }
 
+/// Asserts that two curves have the same points, segments and part before contact.
+pub(crate) fn assert_same(found: &MeasuredCurve, expected: &MeasuredCurve, name: &str) {
+    let both =
+        found.force.iter().zip(&expected.force).chain(found.displacement.iter().zip(&expected.displacement));
+    assert!(both.into_iter().all(|(one, other)| (one - other).abs() < 1e-20), "{name}");
+    assert_eq!((found.free, &found.segment), (expected.free, &expected.segment), "{name}");
+}
+
 /// Text of points with displacements in nm and forces in nN.
 pub(crate) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
     let line = |text: String, (d, f): (f64, f64)| text + &format!("{d},{f}\n");
@@ -125,14 +133,24 @@ pub(crate) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
 /// A sphere without adhesion on rubber (Hertz), R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm, with 100 points there and
 /// back; the force is `times` the force of Hertz, as a function of indentation, m, and direction, 1 or −1.
 pub(crate) fn rubber(deviation: f64, seed: u64, times: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+    rubber_of(100, deviation, seed, times)
+}
+
+/// As [`rubber`], with `half` points there and back, at most 500.
+pub(crate) fn rubber_of(
+    half: usize,
+    deviation: f64,
+    seed: u64,
+    times: impl Fn(f64, f64) -> f64,
+) -> Vec<(f64, f64)> {
     let force = |indentation: f64| 4.0 / 3.0 * 2e6 * (7.5e-6 * indentation.max(0.0).powi(3)).sqrt();
     let point = |(index, noise): (usize, f64)| {
-        let (way, direction) = if index < 100 { (index, 1.0) } else { (199 - index, -1.0) };
-        let indentation = (way as f64 / 99.0 - 0.5) * 2e-6;
+        let (way, direction) = if index < half { (index, 1.0) } else { (2 * half - 1 - index, -1.0) };
+        let indentation = (way as f64 / (half - 1) as f64 - 0.5) * 2e-6;
         let force = force(indentation) * times(indentation, direction);
         (2e-6 + indentation + force / 3.0, force + noise)
     };
-    gauss(deviation, seed).into_iter().take(200).enumerate().map(point).collect()
+    gauss(deviation, seed).into_iter().take(2 * half).enumerate().map(point).collect()
 }
 
 /// The scene of [`rubber`] with this work of adhesion, J/m², and modulus, Pa.

@@ -67,6 +67,12 @@ fn positive_force(text: &str) -> Result<f64, String> {
     if found > 0.0 { Ok(found) } else { Err("allowed: a standard deviation above 0, such as 2nN".to_owned()) }
 }
 
+#[cfg(feature = "clap")]
+fn positive_length(text: &str) -> Result<f64, String> {
+    let found = parse_quantity(text, "m").map_err(|error| error.to_string())?;
+    if found > 0.0 { Ok(found) } else { Err("allowed: a length above 0, such as 500nm".to_owned()) }
+}
+
 /// Options of reading and preparing a curve; what they do not state is determined from the curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
@@ -86,10 +92,16 @@ pub struct CurveOptions {
     /// A number is the value of 1 in the column: nm,3.01nN for a deflection in nm with 3.01 N/m.
     #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
     pub units: Vec<String>,
-    /// Segments that are used, without pauses: 2 is the retraction alone
+    /// Travel of the piezo for a file with one column of forces: 500nm
     ///
-    /// 1 is the first approach, 2 its retraction, and so on. Default: all points. The model runs
-    /// through the other segments too, and the part before contact still gives zero and noise.
+    /// The forces are evenly spaced over it, there and back. Default: that of the file.
+    #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
+    pub ramp: Option<f64>,
+    /// Segments that are used: 2 is the retraction alone
+    ///
+    /// 1 is the first approach, 2 its retraction, and so on. Default: all; pauses are left out. The
+    /// model runs through the other segments too, and the part before contact still gives zero and
+    /// noise.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "NUMBER,...", value_delimiter = ',', verbatim_doc_comment,
@@ -141,6 +153,7 @@ impl fmt::Display for CurveOptions {
         };
         let newtons = |force: Option<f64>| force.map(|force| format!("{force:?}N"));
         let values = [
+            ("ramp", self.ramp.map(|length| format!("{length:?}m"))),
             ("negate", self.negate.map(|one| one.to_string())),
             ("zero", newtons(self.zero)),
             ("drift", drift),

@@ -81,16 +81,6 @@ impl Points {
         Ok(negate)
     }
 
-    /// Returns true if the only segment ends without contact.
-    pub fn is_retraction(&self, least: f64) -> bool {
-        let change = |values: &[f64]| {
-            let free = free_count(values, least).ok()?;
-            Some(Baseline::through(&values[..free]).slope.abs() * free as f64)
-        };
-        let reversed: Vec<f64> = self.force.iter().rev().copied().collect();
-        change(&reversed).is_some_and(|after| change(&self.force).is_none_or(|before| after < before))
-    }
-
     /// Number of the last points, which are after contact; `None` if they cannot be found.
     pub fn free_at_the_end(&self, least: f64) -> Option<usize> {
         let last = self.moving(*self.segment.last()?);
@@ -110,7 +100,17 @@ impl Points {
     }
 }
 
-/// Indices of the points of the chosen segments without their pauses; all points if no segments are chosen.
+/// Returns true if the forces of a segment end without contact.
+pub(crate) fn ends_free(force: &[f64], least: f64) -> bool {
+    let change = |values: &[f64]| {
+        let free = free_count(values, least).ok()?;
+        Some(Baseline::through(&values[..free]).slope.abs() * free as f64)
+    };
+    let reversed: Vec<f64> = force.iter().rev().copied().collect();
+    change(&reversed).is_some_and(|after| change(force).is_none_or(|before| after < before))
+}
+
+/// Indices of the points of the chosen segments, or of all, without pauses.
 pub(crate) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
     let all = 0..points.force.len();
     let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;
@@ -118,14 +118,12 @@ pub(crate) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>
         let allowed = numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(", ");
         return refused(format!("--segments {wrong}: the curve has no such segment"), allowed);
     }
-    if options.segments.is_empty() {
-        return Ok(all.collect());
-    }
-    let is_kept =
-        |index: &usize| options.segments.contains(&(points.segment[*index] + 1)) && !points.is_still[*index];
+    let is_chosen =
+        |index: usize| options.segments.is_empty() || options.segments.contains(&(points.segment[index] + 1));
+    let is_kept = |index: &usize| is_chosen(*index) && !points.is_still[*index];
     let kept: Vec<usize> = all.filter(is_kept).collect();
     if kept.len() < 2 * FEWEST {
-        let fault = format!("--segments: {} points in the chosen segments", kept.len());
+        let fault = format!("{} points in the segments that are used, without pauses", kept.len());
         return refused(fault, format!("at least {}", 2 * FEWEST));
     }
     Ok(kept)

@@ -1,11 +1,15 @@
 //! Columns of a measured curve in SI units, read from text, CSV or a NumPy array.
 
 use crate::baseline::ends;
-use crate::columns::{Choice, Pair, is_unit};
+use crate::columns::{Choice, Pair, Stated, is_pause, names_segment};
 use crate::error::ExperimentError;
+use crate::foreign::check_is_text;
+use crate::metadata::Metadata;
 use crate::options::CurveOptions;
-use asperity_data::{PROVENANCE, npy};
-use asperity_surface::{Cell, Column, Decimal, Header, Separator, each_line};
+use crate::segment::Label;
+use crate::text::{Above, Shape, beginning, is_comment, segment_of};
+use asperity_data::{PROVENANCE, grouped, npy};
+use asperity_surface::{Cell, Column, Decimal, each_text};
 use asperity_surface::{Place, TopographyError, columns as npy_columns, content, refused, shown, unpacked};
 use std::borrow::Cow;
 use std::path::Path;
@@ -16,20 +20,28 @@ const LARGEST: [f64; 2] = [1e3, 1e6];
 /// are mistakes.
 const WILD: f64 = 10.0;
 
-/// Header line of tables that PyJibe and afmformats write, whose columns are in SI units.
-const OF_AFMFORMATS: &str = "END METADATA";
-
 /// Columns of a file in SI units, without points that lack a value.
 #[derive(Debug, Default)]
 pub(crate) struct Columns {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
-    /// Index of the segment of each point, as labelled in the file; empty without such a column.
-    pub segment: Vec<usize>,
+    /// Label of the segment of each point; empty if the file names none.
+    pub labels: Vec<Label>,
+    /// True if approach and retraction are columns of their own.
+    pub is_beside: bool,
     /// Number of points left out since a value is missing.
     pub missing: usize,
-    /// Sentences on the choice of columns and units.
+    /// Name and value of the stiffness of the instrument that the file states, N/m.
+    pub stiffness: Option<(String, f64)>,
+    /// Name of the column of the displacement if it is that of the body, without the deflection of the instrument.
+    pub of_body: Option<String>,
+    /// Columns and their units in words.
+    pub assumed: String,
+    /// Sentences on names and units of the file that the options overrule.
     pub statements: Vec<String>,
+    /// Number of points left out since they repeat the one before, and the place of the first of them.
+    repeated: usize,
+    first_repeated: Option<Place>,
     /// Line number, or number of the point, of each point.
     places: Vec<usize>,
 }
@@ -39,6 +51,9 @@ impl Columns {
         let bytes = content(path)?;
         let bytes = unpacked(&bytes)?;
         let is_array = bytes.starts_with(npy::SIGNATURE);
+        if !is_array {
+            check_is_text(path, &bytes)?;
+        }
         let parts = if is_array { of_array(&bytes, options)? } else { of_text(&bytes, options)? };
         let columns = Columns::joined(parts);
         let place = if is_array { Place::Point } else { Place::Line };
@@ -46,11 +61,29 @@ impl Columns {
         Ok(columns)
     }
 
+    /// Points left out, in words; empty if there are none.
+    pub fn left_out(&self) -> Vec<String> {
+        let count = |count: usize| grouped(count as u64);
+        let mut words = Vec::new();
+        if self.missing > 0 {
+            words.push(format!("{} left out since a value is missing", count(self.missing)));
+        }
+        if let Some(place) = &self.first_repeated {
+            let place = place.to_string();
+            let place = place.trim_end_matches([':', ' ']);
+            words.push(format!(
+                "{} left out since they repeat the point before, first {place}",
+                count(self.repeated)
+            ));
+        }
+        words
+    }
+
     /// Joins an approach with the retraction beside it, which begins at its end nearer to the end of the approach.
     fn joined(parts: Vec<Columns>) -> Columns {
-        let has_two = parts.len() > 1;
-        let mut joined = Columns::default();
-        for (number, mut part) in parts.into_iter().enumerate() {
+        let mut parts = parts.into_iter();
+        let mut joined = parts.next().unwrap_or_default();
+        for mut part in parts {
             let turn = joined.displacement.last().copied();
             let ends = part.displacement.first().copied().zip(part.displacement.last().copied());
             if let Some((turn, (first, last))) = turn.zip(ends)
@@ -60,21 +93,25 @@ impl Columns {
                 part.force.reverse();
                 part.places.reverse();
             }
-            joined.segment.extend(if has_two { vec![number; part.displacement.len()] } else { part.segment });
+            joined.labels = vec![Label::of_part(0); joined.displacement.len()];
+            joined.labels.extend(vec![Label::of_part(1); part.displacement.len()]);
             joined.displacement.extend(part.displacement);
             joined.force.extend(part.force);
             joined.places.extend(part.places);
-            joined.statements.extend(part.statements);
             joined.missing += part.missing;
+            joined.repeated += part.repeated;
+            joined.first_repeated = joined.first_repeated.or(part.first_repeated);
+            joined.is_beside = true;
         }
         joined
     }
 
-    /// Adds a point with these values of displacement and force in the units of the file, unless a value is missing.
-    fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<(), TopographyError> {
+    /// Adds a point with these values of displacement and force in the units of the file, unless a value is missing or the
+    /// point repeats the one before. Returns true if it was added.
+    fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<bool, TopographyError> {
         if !values.iter().all(|value| value.is_finite()) {
             self.missing += 1;
-            return Ok(());
+            return Ok(false);
         }
         let [displacement, force] = [0, 1].map(|of| {
             // A division by a whole number rounds once.
@@ -82,6 +119,11 @@ impl Columns {
             let divisor = (1.0 / unit).round();
             if (divisor * unit - 1.0).abs() < 1e-12 { value / divisor } else { value * unit }
         });
+        if (self.displacement.last(), self.force.last()) == (Some(&displacement), Some(&force)) {
+            self.repeated += 1;
+            self.first_repeated.get_or_insert(place);
+            return Ok(false);
+        }
         let number = if let Place::Line(number) | Place::Point(number) = place { number } else { 0 };
         for (value, largest, (term, unit)) in
             [(displacement, LARGEST[0], ("displacement", "m")), (force, LARGEST[1], ("force", "N"))]
@@ -94,7 +136,7 @@ impl Columns {
         self.displacement.push(displacement);
         self.force.push(force);
         self.places.push(number);
-        Ok(())
+        Ok(true)
     }
 
     /// Returns an error for a few displacements far from all others: mistakes in a file that would determine the range.
@@ -129,16 +171,30 @@ struct Points {
     choice: Choice,
     /// One set of columns, or one for an approach and one for the retraction beside it.
     parts: Vec<Columns>,
-    /// Index of the present segment, and the word or number that labels it in the file.
-    label: (usize, String),
+    label: Label,
+    /// Name of the present segment; empty before the first one.
+    name: String,
+    /// Number of rows so far.
+    rows: usize,
 }
 
 impl Points {
-    fn new(columns: &[Column], is_si: bool, options: &CurveOptions) -> Result<Self, TopographyError> {
-        let mut choice = Choice::new(columns, is_si, options)?;
+    fn new(columns: &[Column], stated: Stated<'_>, options: &CurveOptions) -> Result<Self, TopographyError> {
+        let mut choice = Choice::new(columns, stated, options)?;
         let mut parts: Vec<_> = choice.pairs.iter().map(|_| Columns::default()).collect();
         parts[0].statements = std::mem::take(&mut choice.statements);
-        Ok(Points { choice, parts, label: (0, String::new()) })
+        parts[0].assumed = std::mem::take(&mut choice.assumed);
+        parts[0].of_body = choice.of_body.take();
+        parts[0].stiffness.clone_from(&stated.metadata.stiffness);
+        Ok(Points { choice, parts, label: Label::default(), name: String::new(), rows: 0 })
+    }
+
+    /// Begins another segment if the name is another one.
+    fn begin_segment(&mut self, name: &str) {
+        if self.name != name {
+            self.label = Label { part: self.label.part + 1, is_pause: is_pause(name) };
+            name.clone_into(&mut self.name);
+        }
     }
 
     /// Adds the point at a place of the file; `value` returns the number in a column (NaN if it is missing) and `text` its
@@ -149,34 +205,55 @@ impl Points {
         mut value: impl FnMut(usize) -> Result<f64, TopographyError>,
         text: impl Fn(usize) -> Cow<'a, str>,
     ) -> Result<(), TopographyError> {
-        let is_beside = self.parts.len() > 1;
+        if let Some(column) = self.choice.segment {
+            self.begin_segment(&text(column));
+        }
+        let (is_beside, is_labelled) = (self.parts.len() > 1, !self.name.is_empty());
         for (part, pair) in self.parts.iter_mut().zip(&self.choice.pairs) {
-            let values = [value(pair.places[0])?, value(pair.places[1])?];
+            let force = value(pair.places[1])?;
+            // Without a column of displacements the rows count.
+            let displacement = match self.choice.ramp {
+                Some(_) => self.rows as f64,
+                None => value(pair.places[0])?,
+            };
+            let values = [displacement, force];
             // One of two segments side by side may be longer.
             if is_beside && pair.places.iter().all(|place| text(*place).is_empty()) {
                 continue;
             }
-            let found = part.displacement.len();
-            part.push(values, pair, place.clone())?;
-            if let Some(column) = self.choice.segment.filter(|_| part.displacement.len() > found) {
-                let text = text(column);
-                if self.label.1 != text {
-                    self.label = (self.label.0 + 1, text.into_owned());
-                }
-                part.segment.push(self.label.0);
+            if part.push(values, pair, place.clone())? && is_labelled {
+                part.labels.push(self.label);
             }
         }
+        self.rows += 1;
         Ok(())
+    }
+
+    /// The points; forces without a displacement get one that is evenly spaced over the ramp, there and back.
+    fn finished(mut self) -> Vec<Columns> {
+        if let (Some(ramp), Some(all)) = (self.choice.ramp, self.parts.first_mut()) {
+            let half = 0.5 * self.rows as f64;
+            let unit = self.choice.pairs[0].units[0];
+            let row = |at: &f64| (at / unit).round();
+            all.labels =
+                all.displacement.iter().map(|at| Label::of_part(usize::from(row(at) >= half))).collect();
+            all.displacement.iter_mut().for_each(|at| {
+                let row = row(at);
+                *at = ramp * if row < half { row } else { 2.0 * half - 1.0 - row } / (half - 1.0);
+            });
+            all.is_beside = true;
+        }
+        self.parts
     }
 }
 
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, TopographyError> {
     let (names, values) = npy_columns(bytes)?;
     // A force curve or a fit of this program, in SI units.
-    let is_own = names.iter().any(|name| ["contact_length", "residual"].contains(&name.as_str()));
+    let is_si = names.iter().any(|name| ["contact_length", "residual"].contains(&name.as_str()));
     let mut columns = vec![Column::default(); values.len()];
     columns.iter_mut().zip(names).for_each(|(column, name)| column.name = name);
-    let mut points = Points::new(&columns, is_own, options)?;
+    let mut points = Points::new(&columns, Stated { metadata: &Metadata::default(), is_si }, options)?;
     (0..values.first().map_or(0, Vec::len)).try_for_each(|point| {
         let value = |column: usize| values[column][point];
         let text = |column: usize| value(column).to_string().into();
@@ -186,58 +263,81 @@ fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogr
 }
 
 fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, TopographyError> {
-    let (mut decimal, mut form) = (Decimal::default(), None);
-    let take = |header: &Header, place: Place, line: &str| {
-        if form.is_none() {
-            let separator = Separator::of(line);
-            let count = separator.split(line).count();
-            let columns = header.columns(count, count, separator, is_unit);
-            let is_si = bytes.starts_with(PROVENANCE.as_bytes()) || header.has_line(OF_AFMFORMATS);
-            form = Some((separator, count, Points::new(&columns, is_si, options)?));
+    let Some((first, shape)) = beginning(bytes)? else { return Ok(Vec::new()) };
+    let (mut above, mut points, mut decimal) = (Above::default(), None::<Points>, Decimal::default());
+    // Name of a segment above its points.
+    let mut name = String::new();
+    each_text(bytes, |number, line| {
+        let place = Place::Line(number);
+        if let Some(segment) = segment_of(line).filter(|_| is_comment(line)) {
+            segment.clone_into(&mut name);
         }
-        let Some((separator, count, points)) = &mut form else { return Ok(()) };
-        let cells: Vec<&str> = separator.split(line).collect();
-        if cells.len() != *count {
-            let allowed = format!("{count}, as in the first line of numbers");
-            return Err(refused(place, format!("{} columns", cells.len()), allowed));
+        if number < first {
+            above.take(line, &shape);
         }
-        let value = |column: usize| {
-            let cell = cells[column];
-            let (fault, allowed) = match decimal.read(cell, *separator) {
-                // A number of hundreds of digits is not the word for infinity, which marks a missing value.
-                Cell::Number(value) if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) => {
-                    ("beyond all numbers", "displacements and forces, NaN for a missing value")
-                }
-                Cell::Number(value) => return Ok(value),
-                Cell::Missing => return Ok(f64::NAN),
-                Cell::OtherMark | Cell::NoNumber => {
-                    ("not a number", "numbers of one decimal mark, NaN for a missing value")
-                }
-            };
-            Err(refused(
-                place.clone(),
-                format!("column {}: {:?} is {fault}", column + 1, shown(cell)),
-                allowed,
-            ))
+        if number < first || line.is_empty() || is_comment(line) {
+            return Ok(());
+        }
+        let points = match &mut points {
+            Some(points) => points,
+            none => {
+                let is_si = bytes.starts_with(PROVENANCE.as_bytes()) || above.is_of_afmformats();
+                let stated = Stated { metadata: &above.metadata, is_si };
+                none.insert(Points::new(&above.columns(&shape), stated, options)?)
+            }
         };
+        let cells: Vec<&str> = shape.separator.split(line).collect();
+        let is_word = |cell: &&str| matches!(Decimal::default().read(cell, shape.separator), Cell::NoNumber);
+        if cells.len() != shape.count || cells.iter().all(is_word) {
+            if cells.iter().all(is_word) && names_segment(line) {
+                line.clone_into(&mut name);
+                return Ok(());
+            }
+            if cells.len() != shape.count {
+                let allowed = format!("{}, as in the first line of numbers", shape.count);
+                return Err(refused(place, format!("{} columns", cells.len()), allowed));
+            }
+        }
+        if !name.is_empty() && points.choice.segment.is_none() {
+            points.begin_segment(&name);
+        }
+        let value = |column: usize| number_in(cells[column], column, &shape, &mut decimal, &place);
         points.take(&place, value, |column| cells[column].into())
+    })?;
+    let mut parts = points.map_or_else(Vec::new, Points::finished);
+    if let Some(first) = parts.first_mut().filter(|_| above.has_merged()) {
+        first.missing += 1;
+    }
+    Ok(parts)
+}
+
+/// The number in a column; NaN if it is missing.
+fn number_in(
+    cell: &str,
+    column: usize,
+    shape: &Shape,
+    decimal: &mut Decimal,
+    place: &Place,
+) -> Result<f64, TopographyError> {
+    let (fault, allowed) = match decimal.read(cell, shape.separator) {
+        // A number of hundreds of digits is not the word for infinity, which marks a missing value.
+        Cell::Number(value) if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) => {
+            ("beyond all numbers", "displacements and forces, NaN for a missing value")
+        }
+        Cell::Number(value) => return Ok(value),
+        Cell::Missing => return Ok(f64::NAN),
+        Cell::OtherMark | Cell::NoNumber => {
+            ("not a number", "numbers of one decimal mark, NaN for a missing value")
+        }
     };
-    // A line without two values, of which one may be missing, is part of the header.
-    let is_header = |line: &str| {
-        let separator = Separator::of(line);
-        let cells = || separator.split(line).map(|cell| Decimal::default().read(cell, separator));
-        let values = cells().filter(|cell| matches!(cell, Cell::Number(_) | Cell::Missing)).count();
-        values < 2 || !cells().any(|cell| matches!(cell, Cell::Number(_)))
-    };
-    each_line(bytes, is_header, take)?;
-    Ok(form.map_or_else(Vec::new, |(.., points)| points.parts))
+    Err(refused(place.clone(), format!("column {}: {:?} is {fault}", column + 1, shown(cell)), allowed))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::curve::MeasuredCurve;
-    use crate::made::{from_bytes, from_text, lines, of_spring, text_of_spring};
+    use crate::made::{assert_same, from_bytes, from_text, lines, of_spring, text_of_spring};
 
     fn columns(names: &[&str]) -> CurveOptions {
         CurveOptions { columns: names.iter().map(ToString::to_string).collect(), ..CurveOptions::default() }
@@ -250,16 +350,6 @@ mod tests {
 
     fn spring() -> MeasuredCurve {
         from_text(&lines(of_spring(600)), &CurveOptions::default()).unwrap()
-    }
-
-    fn assert_same(found: &MeasuredCurve, expected: &MeasuredCurve, name: &str) {
-        let both = found
-            .force
-            .iter()
-            .zip(&expected.force)
-            .chain(found.displacement.iter().zip(&expected.displacement));
-        assert!(both.into_iter().all(|(one, other)| (one - other).abs() < 1e-20), "{name}");
-        assert_eq!((found.free, &found.segment), (expected.free, &expected.segment), "{name}");
     }
 
     #[test]
@@ -309,42 +399,6 @@ mod tests {
         array(fields, "600,", &mut all.iter().flat_map(|&(d, f)| [f, d]), plain());
     }
 
-    /// Tables of analysis programs and instruments are read, also with approach and retraction side by side.
-    #[test]
-    fn exports_of_other_programs_are_read_without_options() {
-        let (all, expected) = (of_spring(600), spring());
-        let joined = |head: &str, count: usize, line: &dyn Fn(usize) -> String| {
-            (0..count).fold(head.to_owned(), |all, index| all + &line(index) + "\n")
-        };
-        let tab = "# afmformats\n# BEGIN METADATA\n# {}\n# END METADATA\n# force\theight (measured)\theight (piezo)\ttime\n";
-        let tab = joined(tab, 600, &|index| {
-            format!("{:e}\t{:e}\t0\t{index}", all[index].1 * 1e-9, -all[index].0 * 1e-9)
-        });
-        let jpk = "# segment: extend\n# columns: time height vDeflection\n# fancyNames: \"a b\" \"c d\"\n# units: s m N\n";
-        let jpk = joined(jpk, 600, &|index| {
-            let again = if index == 300 { "# segment: retract\n" } else { "" };
-            format!("{again}{index} {:e} {:e}", all[index].0 * 1e-9, all[index].1 * 1e-9)
-        });
-        // The retraction along the same direction as the approach, and with minus signs of a spreadsheet.
-        let side = joined("Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n", 300, &|index| {
-            let (one, other) = (all[index], all[599 - index]);
-            format!("{};{};{};{}", one.0, one.1, other.0, other.1).replace('-', "\u{2212}")
-        });
-        let one_height = joined("x [nm],approach force [nN],retract force [nN]\n", 300, &|index| {
-            format!("{},{},{}", all[index].0, all[index].1, all[599 - index].1)
-        });
-        for (text, is_reversed) in [(tab, true), (jpk, false), (side, false), (one_height, false)] {
-            let found = from_text(&text, &CurveOptions::default()).unwrap();
-            assert_same(&found, &expected, &text[..60]);
-            assert_eq!(found.statements.iter().any(|text| text.starts_with("Reversed")), is_reversed);
-        }
-        let words = joined("d [nm],f [nN],s\n", 600, &|index| {
-            format!("{},{},{}", all[index].0, all[index].1, ["extend", "retract"][index / 300])
-        });
-        let found = from_text(&words, &columns(&["d", "f", "s"])).unwrap();
-        assert_eq!((found.segment[299], found.segment[300]), (0, 1));
-    }
-
     #[test]
     fn units_of_the_command_line_overrule_those_of_the_file() {
         // A divisor that is a whole number, and a factor.
@@ -358,8 +412,8 @@ mod tests {
                 "{turn:e} {force:e}"
             );
             let of_force = format!("Unit of the force by --units: {unit}nN; the file states nm.");
-            assert_eq!(curve.statements[0], "Unit of the displacement by --units: um; the file states nm.");
-            assert_eq!(curve.statements[1], of_force);
+            assert_eq!(curve.statements[1], "Unit of the displacement by --units: um; the file states nm.");
+            assert_eq!(curve.statements[2], of_force);
         }
     }
 
@@ -374,10 +428,18 @@ mod tests {
             (more("1,2,3\n"), "line 602: 3 columns; allowed: 2"),
             (more("1,2x\n"), "line 602: column 2: \"2x\" is not a number"),
             ((text("d,f\n", comma), columns(&[])), "no unit of the displacement is stated"),
-            ((text("d [nm],f [V]\n", comma), columns(&[])), "\"V\" is not a unit of the force"),
+            ((text("d [nm],f [V]\n", comma), columns(&[])), "the force is a deflection in V, and the file"),
             (
                 (text("a [nm],b [nN]\n", comma), columns(&[])),
                 "2 columns a, b: none is known as the displacement",
+            ),
+            (
+                (text("f [nN]\n", |_, f| f.to_string()), columns(&[])),
+                "one column of numbers; allowed: a column of",
+            ),
+            (
+                (text("d [nm],Deflection [nm]\n", comma), columns(&[])),
+                "the force is a deflection in nm, and the file",
             ),
             ((lines(of_spring(600)), columns(&["1", "5"])), "2 columns displacement, force: none is \"5\""),
         ] {

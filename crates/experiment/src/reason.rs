@@ -53,11 +53,6 @@ pub enum Reason {
         format_quantity(*.0, "N")
     )]
     Rigid(f64),
-    /// The residuals are at pauses.
-    #[error(
-        "Most of the residual is at pauses, where the body creeps or relaxes: --segments 1,2 leaves them out."
-    )]
-    Pause,
     /// The force without contact changes over time.
     #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
     Drift,
@@ -140,10 +135,6 @@ pub(crate) fn reason(
         take_off(&mut rests, line);
     });
     let squares = dot(&rests, &rests);
-    let still = rests.iter().zip(&curve.is_still).filter(|(_, is_still)| **is_still);
-    if 2.0 * still.map(|(rest, _)| rest * rest).sum::<f64>() > squares {
-        return Ok(Reason::Pause);
-    }
     let residual = (squares / rests.len() as f64).sqrt();
     let [drift, tilt, step] = curve.remaining.map(|slope| slope.abs() > residual);
     match (drift, tilt) {
@@ -348,10 +339,6 @@ mod tests {
         assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Drift);
         let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
         assert!(matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9));
-        let mut paused = curve(elastic, elastic);
-        let top = paused[199].1;
-        paused.splice(200..200, (0..200).map(|index| (1.0, top * (1.0 - f64::from(index) / 1000.0))));
-        assert_eq!(found(paused.into_iter(), &[]), Reason::Pause);
         assert!(
             matches!(found(both(), &[("length", "2e-6")]), Reason::ShortProfile(length) if (length - 2e-6).abs() < 1e-9)
         );

@@ -3,9 +3,12 @@
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::parameter::{Parameter, Values};
-use asperity_data::round_to;
+use asperity_data::{format_quantity, round_to};
 use asperity_scene::Governing;
 use asperity_scene::{Adhesion, Document, Scene, SceneErrors, ron_float};
+
+/// Difference of two stiffnesses of one instrument that is said.
+const OTHER: f64 = 0.01;
 
 /// A change of a field: its path and its value in RON.
 type Change = (String, String);
@@ -78,12 +81,49 @@ pub(crate) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// The document loaded as the measured curve was, with first touch at the measured displacement `offset`, m.
+    /// The document with the stiffness of the instrument that the file states, if the scene states none; without a stiffness
+    /// if the displacement is that of the body. Says in words what the file changes.
+    ///
+    /// # Errors
+    /// The scene does not allow this stiffness.
+    pub fn with_instrument(&self, document: &Document) -> Result<(Document, Option<String>), SceneErrors> {
+        let of_scene = document.scene().loading_stiffness;
+        let newtons = |stiffness: f64| format_quantity(stiffness, "N/m");
+        let set = |value: String| document.set_all(&[("loading_stiffness".to_owned(), value)]);
+        if let Some(name) = &self.of_body {
+            let body =
+                format!("{name} is a displacement of the body, without the deflection of the instrument");
+            return Ok(match of_scene {
+                Some(stiffness) => {
+                    let text =
+                        format!("{body}: the loading_stiffness of {} is left out.", newtons(stiffness));
+                    (set("None".to_owned())?, Some(text))
+                }
+                None => (document.clone(), Some(body + ".")),
+            });
+        }
+        let Some((name, stated)) = &self.stiffness else { return Ok((document.clone(), None)) };
+        Ok(match of_scene {
+            None => {
+                let text = format!("Loading stiffness {} by the {name} of the file.", newtons(*stated));
+                (set(ron_float(*stated))?, Some(text))
+            }
+            Some(stiffness) if (stated / stiffness - 1.0).abs() > OTHER => {
+                let [of_scene, stated] = [stiffness, *stated].map(newtons);
+                let text =
+                    format!("Loading stiffness {of_scene} by the scene; the {name} of the file is {stated}.");
+                (document.clone(), Some(text))
+            }
+            Some(_) => (document.clone(), None),
+        })
+    }
+
+    /// The document loaded as the measured curve was, by its instrument, with first touch at the measured displacement `offset`, m.
     ///
     /// # Errors
     /// The scene does not allow this loading.
     pub fn load(&self, document: &Document, offset: f64) -> Result<Document, SceneErrors> {
-        document.set_all(&[self.loading(offset)])
+        self.with_instrument(document)?.0.set_all(&[self.loading(offset)])
     }
 
     fn loading(&self, offset: f64) -> Change {

@@ -14,6 +14,22 @@ const MORE: f64 = 8.0;
 /// Mean step between points, over the range of the displacement, above which the rows are not in the order of time.
 const SHUFFLED: f64 = 0.2;
 
+/// Label of the points of a part of the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Label {
+    /// Number of the part, which another name begins.
+    pub part: usize,
+    /// True if the name is that of a pause.
+    pub is_pause: bool,
+}
+
+impl Label {
+    /// Label of an approach or a retraction.
+    pub fn of_part(part: usize) -> Label {
+        Label { part, is_pause: false }
+    }
+}
+
 pub(crate) struct Segments {
     /// Index of the segment of each point, from 0.
     pub numbers: Vec<usize>,
@@ -23,14 +39,24 @@ pub(crate) struct Segments {
 
 impl Segments {
     /// Finds segments by the labels of a column, or without labels by the turning points of the displacement.
-    pub fn of(displacement: &[f64], labels: &[usize]) -> Self {
-        let mut segments = if labels.is_empty() {
-            Segments { numbers: by_turning_points(displacement), is_still: vec![false; displacement.len()] }
-        } else {
-            by_labels(labels, displacement)
+    pub fn of(displacement: &[f64], labels: &[Label]) -> Self {
+        let by_turning_points = || Segments {
+            numbers: by_turning_points(displacement),
+            is_still: vec![false; displacement.len()],
         };
-        segments.find_pauses(displacement);
+        let mut segments = by_labels(labels, displacement).unwrap_or_else(by_turning_points);
+        if !segments.is_still.contains(&true) {
+            segments.find_pauses(displacement);
+        }
         segments
+    }
+
+    /// Exchanges the first two segments, which begin at the ends of the first two ranges of points.
+    pub fn exchange(&mut self, first: usize) {
+        self.is_still.rotate_left(first);
+        let second = self.numbers.len() - first;
+        self.numbers[..second].fill(0);
+        self.numbers[second..].fill(1);
     }
 
     /// Marks points beside each turning point as a pause where many more points stay than pass by.
@@ -101,15 +127,20 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     numbers
 }
 
-/// Finds segments by the labels of a column: parts in one direction are one segment, and parts without motion are pauses.
-fn by_labels(labels: &[usize], displacement: &[f64]) -> Segments {
+/// Finds segments by the labels of a file: parts in one direction are one segment, and parts without motion are pauses.
+/// `None` if the labels do not separate the directions.
+fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
     let (low, high) = ends(displacement.iter().copied());
     let (mut numbers, mut is_still) = (Vec::with_capacity(labels.len()), Vec::with_capacity(labels.len()));
     let (mut number, mut before) = (0, None);
     for part in labels.chunk_by(|one, next| one == next) {
         let of = &displacement[numbers.len()..numbers.len() + part.len()];
-        let moved = of[of.len() - 1] - of[0];
-        let stays = moved.abs() < TURN * (high - low);
+        let (moved, of_ends) = (of[of.len() - 1] - of[0], ends(of.iter().copied()));
+        let least = TURN * (high - low);
+        if !part[0].is_pause && of_ends.1 - of_ends.0 > 2.0 * moved.abs().max(least) {
+            return None;
+        }
+        let stays = part[0].is_pause || moved.abs() < least;
         if !stays {
             let presses = moved > 0.0;
             number += usize::from(before.replace(presses).is_some_and(|before| before != presses));
@@ -117,5 +148,5 @@ fn by_labels(labels: &[usize], displacement: &[f64]) -> Segments {
         numbers.extend(std::iter::repeat_n(number, part.len()));
         is_still.extend(std::iter::repeat_n(stays, part.len()));
     }
-    Segments { numbers, is_still }
+    (number > 0).then_some(Segments { numbers, is_still })
 }

@@ -53,6 +53,7 @@ impl<'a> Space<'a> {
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Result<(Document, Self), ExperimentError> {
         check_free(&options.free)?;
+        let document = curve.with_instrument(document).map_err(wrong)?.0;
         let scene = document.scene();
         if scene.numerics.solver != Solver::Exact {
             return refused(
@@ -87,7 +88,7 @@ impl<'a> Space<'a> {
         let of_curve = smooth(pull_off, governing.effective_modulus);
         let least_work = smooth(curve.noise.max(LINEAR * pull_off), governing.effective_modulus);
         let work = is_free(Parameter::Work).then_some(of_curve);
-        let document = written_out(document, &governing, work).map_err(wrong)?;
+        let document = written_out(&document, &governing, work).map_err(wrong)?;
         let (_, governing) = simulation.contact(document.scene())?;
         if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
             return refused(

@@ -31,6 +31,8 @@ struct FitJson<'a> {
     pull_off_work: Option<f64>,
     points_used: usize,
     points_left_out: usize,
+    /// What was assumed when the curve was read, in sentences.
+    reading: Vec<&'a String>,
 }
 
 impl Report for FitReport<'_> {
@@ -45,7 +47,7 @@ impl Report for FitReport<'_> {
             ));
         }
         sheet.heading(&format!("Curve {title}"));
-        curve.statements.iter().for_each(|sentence| sheet.paragraph(sentence));
+        curve.statements.iter().chain(&fit.instrument).for_each(|sentence| sheet.paragraph(sentence));
         sheet.heading(&format!("Fit of {}", fit.document.title()));
         let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
         let header = ["", "value", "95 % interval", "error by noise", "by profile", "start"];
@@ -110,6 +112,7 @@ impl Report for FitReport<'_> {
             pull_off_work: pull_off_force.and_then(|force| self.pull_off_work(force)),
             points_used: curve.points,
             points_left_out: curve.missing,
+            reading: curve.statements.iter().chain(&fit.instrument).collect(),
         }))
     }
 
@@ -157,7 +160,7 @@ impl Report for FitReport<'_> {
 impl FitReport<'_> {
     /// Work of adhesion, J/m², of a smooth sphere with this pull-off force, N (Johnson, Kendall and Roberts); `None` for
     /// other bodies.
-    fn pull_off_work(&self, force: f64) -> Option<f64> {
+    pub(super) fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
         let radius = scene.form.as_ref()?.sphere_radius()?;
         scene.roughness.is_none().then_some(force / (1.5 * PI * radius))

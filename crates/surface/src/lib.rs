@@ -25,7 +25,7 @@ pub use topography::npy::columns;
 pub use topography::open::{content, parse, read, unpacked};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
-pub use topography::text::each_line;
+pub use topography::text::each_text;
 pub use topography::text::header::{Column, Header, Role};
 pub use topography::text::layout::{Cell, Decimal, Separator};
 pub use topography::{Place, TopographyError, Unit, UnitError, refused, shown};

@@ -132,31 +132,9 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
     Err(refused(Place::File, fault, "--channel with the number of one, in a scene roughness.channel"))
 }
 
-/// Calls `take` for each line of numbers with the header before the numbers and the place of the line; the header ends at
-/// the first line for which `is_header` is false. Empty lines, comments between numbers and the scene in a table of results
-/// are skipped.
-pub fn each_line(
-    bytes: &[u8],
-    is_header: impl Fn(&str) -> bool,
-    mut take: impl FnMut(&Header, Place, &str) -> Result<(), TopographyError>,
-) -> Result<(), TopographyError> {
-    let (mut header, mut has_begun) = (Header::default(), false);
-    each_text(bytes, |number, line| {
-        let is_comment = line.starts_with(COMMENT);
-        has_begun |= !line.is_empty() && !is_comment && !is_header(line);
-        match (has_begun, is_comment) {
-            (_, false) if line.is_empty() => {}
-            (true, false) => take(&header, Place::Line(number), line)?,
-            (false, _) => header.take(line),
-            _ => {}
-        }
-        Ok(())
-    })
-}
-
 /// Calls `take` for each line of a text with its number, without white space around it. The scene in a table of results is
 /// skipped, since its words may look like units.
-fn each_text(
+pub fn each_text(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), TopographyError>,
 ) -> Result<(), TopographyError> {
