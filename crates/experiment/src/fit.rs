@@ -332,6 +332,19 @@ mod tests {
         assert!(modulus.interval.1 / modulus.interval.0 > 1.02, "{modulus:?}");
     }
 
+    /// Ranges and starts are those of the curve: values of the scene for free parameters change no bit.
+    #[test]
+    fn a_start_a_thousand_times_off_changes_nothing() {
+        let curve = read(rubber(1e-8, 2, |_, _| 1.0).into_iter(), Drift::Keep);
+        let [one, other, stiff] = [(1e-6, 2e3), (50.0, 2e9), (1e-6, 2e3)]
+            .map(|(work, modulus)| on_rubber(work, modulus))
+            .map(|document| fit_from(&curve, &document, "work,modulus,offset"));
+        assert_eq!((&one.parameters, one.evaluations), (&other.parameters, other.evaluations));
+        assert_eq!((one.document.text(), &one.parameters), (other.document.text(), &stiff.parameters));
+        let start = one.parameters[1].start;
+        assert!((1e6..4e6).contains(&start), "{start:e}");
+    }
+
     /// A parameter is undetermined if its interval is wider than a factor e either way.
     #[test]
     fn a_parameter_is_determined_within_a_factor_e() {

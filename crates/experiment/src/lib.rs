@@ -22,6 +22,7 @@ mod scene;
 mod search;
 mod segment;
 mod space;
+mod start;
 mod statistics;
 mod text;
 mod zero;

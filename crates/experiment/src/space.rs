@@ -6,20 +6,17 @@ use crate::error::{ExperimentError, refused};
 use crate::parameter::{Coordinate, FitOptions, Free, Parameter, Values};
 use crate::population::WRONG_SIDE;
 use crate::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
+use crate::start::{Known, Starts};
 use crate::statistics::{PARTS, scale};
 use asperity_data::format_quantity;
 use asperity_scene::Simulation;
 use asperity_scene::{Document, Solver};
-use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Ratio between the start and the ends of a range that is not given.
 const FACTOR: f64 = 30.0;
-/// Pull-off force of a smooth body, over the pull-off force of the curve, up to which the coordinate of the work of
-/// adhesion is linear, unless the noise hides more.
-const LINEAR: f64 = 0.01;
-
 /// The coordinates in which a scene is fitted, with the values of all other parameters.
+#[derive(Clone)]
 pub(crate) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
@@ -72,22 +69,24 @@ impl<'a> Space<'a> {
                 "form = Paraboloid, WavySphere or Punch",
             );
         }
-        let (low, high) = ends(curve.force.iter().copied());
-        // Work of adhesion of a smooth body with this pull-off force.
-        let smooth = |force: f64, modulus: f64| {
-            let of_sphere = radius.map(|radius| force / (1.5 * PI * radius));
-            let of_flat = force.powi(2) / (PI * modulus * scene.length.powi(3));
-            of_sphere
-                .into_iter()
-                .chain([of_flat])
-                .find(|work| work.is_finite() && *work > 0.0)
-                .unwrap_or(0.05)
+        let (touch, turn) = (curve.touch, curve.turns[0]);
+        if turn <= touch {
+            let [touch, turn] = [touch, turn].map(|at| format_quantity(at, "m"));
+            return refused(
+                format!("the contact begins at {touch}, and the displacement turns at {turn}"),
+                "a contact before the first turning point",
+            );
+        }
+        let (contact, governing) = simulation.contact(scene)?;
+        let unless_free = |parameter, value| (!is_free(parameter)).then_some(value);
+        let known = Known {
+            radius,
+            length: scene.length,
+            modulus: unless_free(Parameter::Modulus, governing.effective_modulus),
+            stiffness: unless_free(Parameter::Stiffness, scene.loading_stiffness.unwrap_or(f64::INFINITY)),
         };
-        let pull_off = curve.noise.max(-low);
-        let (_, governing) = simulation.contact(scene)?;
-        let of_curve = smooth(pull_off, governing.effective_modulus);
-        let least_work = smooth(curve.noise.max(LINEAR * pull_off), governing.effective_modulus);
-        let work = is_free(Parameter::Work).then_some(of_curve);
+        let starts = Starts::of(curve, &contact, known)?;
+        let work = is_free(Parameter::Work).then_some(starts.work);
         let document = written_out(&document, &governing, work).map_err(wrong)?;
         let (_, governing) = simulation.contact(document.scene())?;
         if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
@@ -97,20 +96,21 @@ impl<'a> Space<'a> {
             );
         }
         let mut base = values_of(document.scene(), &governing);
-        let (touch, turn) = (curve.touch, curve.turns[0]);
-        if turn <= touch {
-            let [touch, turn] = [touch, turn].map(|at| format_quantity(at, "m"));
-            return refused(
-                format!("the contact begins at {touch}, and the displacement turns at {turn}"),
-                "a contact before the first turning point",
-            );
-        }
+        let (low, high) = ends(curve.force.iter().copied());
         // Of the force.
         let extent = (high - low).max(curve.noise);
+        for (parameter, start) in [
+            (Parameter::Work, starts.work),
+            (Parameter::Modulus, starts.modulus),
+            (Parameter::Stiffness, starts.stiffness),
+        ] {
+            if is_free(parameter) {
+                base[parameter as usize] = start;
+            }
+        }
         base[Parameter::Offset as usize] = touch;
-        let stiffness = &mut base[Parameter::Stiffness as usize];
-        if is_free(Parameter::Stiffness) && stiffness.is_infinite() {
-            *stiffness = 10.0 * extent / (turn - touch);
+        if is_free(Parameter::ClosingWork) {
+            base[Parameter::ClosingWork as usize] = base[Parameter::Work as usize];
         }
         let mut coordinates = Vec::new();
         for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
@@ -120,9 +120,9 @@ impl<'a> Space<'a> {
             let range = given.unwrap_or_else(|| match parameter {
                 Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
                 Parameter::Zero => (-extent, extent),
-                Parameter::Work => (0.0, start.max(of_curve) * FACTOR),
+                Parameter::Work => (0.0, start * FACTOR),
                 Parameter::ClosingWork if is_free(Parameter::Work) => {
-                    (0.0, base[Parameter::Work as usize].max(of_curve) * FACTOR)
+                    (0.0, base[Parameter::Work as usize] * FACTOR)
                 }
                 Parameter::ClosingWork => (0.0, base[Parameter::Work as usize]),
                 _ => (start / FACTOR, start * FACTOR),
@@ -140,7 +140,7 @@ impl<'a> Space<'a> {
             let start = start.clamp(range.0, range.1);
             base[parameter as usize] = start;
             let unit = match parameter {
-                Parameter::Work => least_work,
+                Parameter::Work => starts.least_work,
                 // A tenth of the change that the parameter makes at most.
                 Parameter::Zero => 0.1 * extent,
                 _ => 0.1 * (turn - touch),
@@ -197,6 +197,7 @@ mod tests {
     use super::*;
     use crate::made::{on_rubber, read, rubber};
     use crate::options::Drift;
+    use std::f64::consts::PI;
 
     /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR) and F²/(π E* L³) for a
     /// punch as long as the profile (Kendall).
