@@ -172,6 +172,27 @@ impl MeasuredCurve {
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
+    /// The curve with at most about `count` of its points, evenly chosen; `None` if it has few more.
+    pub(crate) fn thinned(&self, count: usize) -> Option<MeasuredCurve> {
+        let step = self.force.len() / count;
+        if step < 2 {
+            return None;
+        }
+        let of = |values: &[f64]| values.iter().step_by(step).copied().collect::<Vec<f64>>();
+        Some(MeasuredCurve {
+            displacement: of(&self.displacement),
+            force: of(&self.force),
+            segment: self.segment.iter().step_by(step).copied().collect(),
+            free: self.free.div_ceil(step),
+            shares: self.shares.each_ref().map(|shares| of(shares)),
+            turns: self.turns.clone(),
+            statements: self.statements.clone(),
+            stiffness: self.stiffness.clone(),
+            of_body: self.of_body.clone(),
+            ..*self
+        })
+    }
+
     /// Orthonormal columns for the zero of the force, a removed drift and a removed tilt, as far as they were estimated
     /// from the curve: each model refines them. `has_zero` is true if the zero is a free parameter.
     pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {

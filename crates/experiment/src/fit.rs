@@ -9,7 +9,7 @@ use crate::parameter::{Coordinate, FitOptions, Parameter, Values};
 use crate::population::WRONG_SIDE;
 use crate::reason::{Reason, reason};
 use crate::scene::{with_values, wrong};
-use crate::search::{MISFIT, Search};
+use crate::search::{Found, MISFIT, Search};
 use crate::space::Space;
 use crate::statistics::{block_error, correlated, correlation, spread, widen};
 use asperity_data::format_within;
@@ -23,6 +23,8 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 /// undetermined.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
+/// Number of points that are enough for a curve whose residuals are no noise.
+const ENOUGH: usize = 400;
 /// Half width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
@@ -132,18 +134,14 @@ pub fn fit(
     let mut simulation = Simulation::new(document.resolve(""));
     let instrument = curve.with_instrument(document).map_err(wrong)?.1;
     let (document, space) = Space::of(curve, document, &mut simulation, options, stop)?;
-    let model = Model::new(curve, document.scene(), &mut simulation);
-    let mut search = Search { space: &space, model, report, lines: space.lines() };
-    let found = search.find()?;
-    let (rests, evaluations) =
-        (search.refined(&found.best.rests, WRONG_SIDE * found.noise), search.model.evaluations);
+    let (found, rests, evaluations) = searched(curve, &document, &mut simulation, &space, report)?;
     let others = other_profiles(&document, options, &space)?;
     let values = space.values(&found.best.at);
     let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
         samples.iter().map(|at| space.values(at)[one.parameter as usize]).collect()
     };
     let by_blocks = |one: &Coordinate| block_error(&of_samples(&found.samples, one), &found.blocks);
-    let correlation_factor = correlated(&rests);
+    let correlation_factor = correlated(&found.rests);
     let mut samples = found.samples.clone();
     widen(&mut samples, correlation_factor.sqrt());
     let is_without_adhesion = found.without_adhesion < 0.5 * NORMAL * NORMAL * correlation_factor;
@@ -213,6 +211,36 @@ pub fn fit(
     })
 }
 
+/// The result of the search, the residuals of all points of the curve, and the number of curves computed. If the residuals
+/// of a part of the points are no noise, the search uses these points alone: more of them would not average the residuals
+/// out.
+fn searched(
+    curve: &MeasuredCurve,
+    document: &Document,
+    simulation: &mut Simulation,
+    space: &Space<'_>,
+    report: &mut dyn FnMut(usize),
+) -> Result<(Found, Vec<f64>, usize), ExperimentError> {
+    let (mut found, mut computed) = (None, 0);
+    if let Some(part) = curve.thinned(ENOUGH) {
+        let space = Space { curve: &part, ..space.clone() };
+        let model = Model::new(&part, document.scene(), simulation);
+        let mut search = Search { space: &space, model, report: &mut *report, lines: space.lines() };
+        let (population, generator) = search.first()?;
+        if search.is_systematic(&population) {
+            found = Some(search.find_from(population, generator)?);
+        }
+        computed = search.model.evaluations;
+    }
+    let model = Model::new(curve, document.scene(), simulation);
+    let mut count = |evaluations: usize| report(computed + evaluations);
+    let mut search = Search { space, model, report: &mut count, lines: space.lines() };
+    let found = found.map_or_else(|| search.find(), Ok)?;
+    let rests = search.rests(&found.best.at, WRONG_SIDE * found.noise)?;
+    let evaluations = computed + search.model.evaluations;
+    Ok((found, rests, evaluations))
+}
+
 /// Values of fits to the same curve on other random profiles of the scene.
 fn other_profiles(
     document: &Document,
@@ -235,7 +263,8 @@ fn other_profiles(
 mod tests {
     use super::*;
     use crate::made::{
-        Made, fit_from, fitted, force_curve, gauss, measured, noise, on_rubber, random, read, rubber, truth,
+        Made, fit_from, fitted, force_curve, gauss, measured, noise, on_rubber, random, read, rubber,
+        rubber_of, truth,
     };
     use crate::options::Drift;
     use asperity_contact::Move;
@@ -343,6 +372,21 @@ mod tests {
         assert_eq!((one.document.text(), &one.parameters), (other.document.text(), &stiff.parameters));
         let start = one.parameters[1].start;
         assert!((1e6..4e6).contains(&start), "{start:e}");
+    }
+
+    /// A model that does not describe a curve of many points is fitted to a part of them, and no other population is
+    /// computed to its end.
+    #[test]
+    fn few_curves_are_computed_where_the_model_does_not_describe_the_curve() {
+        let stiffens =
+            |indentation: f64, direction: f64| 1.0 + 0.3 * indentation.max(0.0) / 1e-6 + 0.1 * direction;
+        let curve = read(rubber_of(500, 1e-9, 3, stiffens).into_iter(), Drift::Keep);
+        let fit = fit_from(&curve, &on_rubber(1e-3, 2.7e6), "work,modulus,offset");
+        assert!(fit.reason.is_some() && fit.evaluations < 15_000, "{}", fit.evaluations);
+        assert_eq!(fit.model.len(), 1000);
+        let described = read(rubber(1e-8, 2, |_, _| 1.0).into_iter(), Drift::Keep);
+        let fit = fit_from(&described, &on_rubber(1e-3, 2.7e6), "work,modulus,offset");
+        assert!(fit.reason.is_none() && fit.evaluations < 7_000, "{}", fit.evaluations);
     }
 
     /// A parameter is undetermined if its interval is wider than a factor e either way.

@@ -41,7 +41,11 @@ const COARSE: f64 = 10.0;
 const MORE: usize = 2;
 /// Part of the residual of the best member down to which the noise is lowered, if that residual exceeds the noise of the
 /// curve.
-const DEEPER: f64 = 8.0;
+const DEEPER: f64 = 3.0;
+/// Residual in contact, in units of the noise, above which a population is taken for one of a model that does not describe
+/// the curve, and the share of that residual below which another population counts as better.
+const SYSTEMATIC: f64 = 5.0;
+const BETTER: f64 = 0.9;
 /// Mean square residual, in units of the noise, beyond which another population is made.
 const EXPECTED: f64 = 1.2;
 /// Limit of the number of populations, and the cost by which a start must be better than a population to count as missed.
@@ -65,6 +69,8 @@ const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 pub(crate) struct Found {
     /// The member with the smallest residuals.
     pub best: Member,
+    /// Its residuals after a fit of the lines, in units of the noise.
+    pub rests: Vec<f64>,
     /// Noise at which the samples are distributed, over the noise of the curve; larger than 1 where the residual is.
     pub noise: f64,
     /// Coordinates that are distributed as the noise lets the parameters be.
@@ -99,7 +105,7 @@ impl Search<'_> {
     }
 
     /// Residuals after a fit of the lines of zero and drift; in that fit residuals beyond `limit` count as `limit`.
-    pub fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
+    fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
         let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
         let mut refined = rests.to_vec();
         for line in &self.lines {
@@ -107,6 +113,13 @@ impl Search<'_> {
             refined.iter_mut().zip(line).for_each(|(rest, line)| *rest -= along * line);
         }
         refined
+    }
+
+    /// Residuals at these coordinates after a fit of the lines, in units of the noise.
+    pub fn rests(&mut self, at: &[f64], limit: f64) -> Result<Vec<f64>, ExperimentError> {
+        self.model.noise = 1.0;
+        let member = self.member(at.to_vec())?;
+        Ok(self.refined(&member.rests, limit))
     }
 
     /// Residual in contact in units of the noise of the curve, see [`Space::misfit`], after a fit of the lines at this noise.
@@ -152,10 +165,30 @@ impl Search<'_> {
     /// population is drawn if the residuals exceed the noise (one in thirty ends in another minimum, one in 200 twice), if
     /// it missed a better start (which then becomes a member of the next one), or if it has not spread.
     pub fn find(&mut self) -> Result<Found, ExperimentError> {
+        let (population, generator) = self.first()?;
+        self.find_from(population, generator)
+    }
+
+    /// The first population, and the generator that made it.
+    pub fn first(&mut self) -> Result<(Population, ChaCha8Rng), ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
+        let population = self.anneal(0, (None, 0.0), &mut generator)?;
+        Ok((population, generator))
+    }
+
+    /// Returns true for a population whose residuals are no noise.
+    pub fn is_systematic(&self, population: &Population) -> bool {
+        self.misfit(&population.best, population.noise) > SYSTEMATIC
+    }
+
+    /// As [`Search::find`], from the first population.
+    pub fn find_from(
+        &mut self,
+        mut population: Population,
+        mut generator: ChaCha8Rng,
+    ) -> Result<Found, ExperimentError> {
         self.model.noise = 1.0;
         let start = self.member(self.space.start())?;
-        let mut population = self.anneal(0, None, &mut generator)?;
         for attempt in 1..ATTEMPTS {
             let is_poor = self.cost(&population.best, 1.0) > EXPECTED * 0.5 * start.rests.len() as f64;
             let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;
@@ -163,7 +196,13 @@ impl Search<'_> {
             if has_spread && !has_missed && !is_poor {
                 break;
             }
-            let other = self.anneal(attempt, has_missed.then_some(&start), &mut generator)?;
+            // Where the residuals are no noise, another population that comes to the same ones ends there.
+            let rival = self.misfit(&population.best, population.noise);
+            let rival = if has_spread && !has_missed && rival > SYSTEMATIC { BETTER * rival } else { 0.0 };
+            let other = self.anneal(attempt, (has_missed.then_some(&start), rival), &mut generator)?;
+            if self.misfit(&other.best, other.noise) > rival && rival > 0.0 {
+                break;
+            }
             let noise = population.noise.min(other.noise);
             if !has_spread || self.cost(&other.best, noise) < self.cost(&population.best, noise) {
                 population = other;
@@ -191,12 +230,13 @@ impl Search<'_> {
             );
         }
         let without_adhesion = self.without_adhesion(&population, &samples)?;
-        Ok(Found { best: population.best, noise, samples, blocks, without_adhesion })
+        let rests = self.refined(&population.best.rests, WRONG_SIDE * noise);
+        Ok(Found { best: population.best, rests, noise, samples, blocks, without_adhesion })
     }
 
     /// Coordinates of the best member of a single population.
     pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
-        Ok(self.anneal(0, None, &mut ChaCha8Rng::seed_from_u64(SEED))?.best.at)
+        Ok(self.first()?.0.best.at)
     }
 
     /// Smallest cost of a scene without adhesion less the cost of the best member; infinite if no sample comes close to no
@@ -222,25 +262,27 @@ impl Search<'_> {
     }
 
     /// A population whose noise was lowered to the noise of the curve, or to a part of the residual. While the noise is
-    /// large it has more members, and forces are coarse.
+    /// large it has more members, and forces are coarse. It ends early if its residual remains above that of a rival when
+    /// the noise is that of the rival.
     fn anneal(
         &mut self,
         attempt: usize,
-        start: Option<&Member>,
+        (start, rival): (Option<&Member>, f64),
         generator: &mut ChaCha8Rng,
     ) -> Result<Population, ExperimentError> {
         self.model.noise = COARSE;
         let mut members = self.scattered(attempt)?;
         members.extend(start.cloned());
-        let misfit = |member: &&Member| self.misfit(member, f64::INFINITY);
-        let best = members.iter().min_by(|one, other| misfit(one).total_cmp(&misfit(other)));
+        let of_member = |member: &&Member| self.misfit(member, f64::INFINITY);
+        let best = members.iter().min_by(|one, other| of_member(one).total_cmp(&of_member(other)));
         let best = best.cloned().ok_or(ContactError::Internal("no values have been drawn"))?;
         let (costs, noise) = (vec![0.0; members.len()], f64::INFINITY);
         let mut population = Population { members, costs, noise, best, cost: f64::INFINITY };
         let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
         loop {
-            let least = (self.misfit(&population.best, population.noise) / DEEPER).max(1.0);
-            if population.noise <= least {
+            let misfit = self.misfit(&population.best, population.noise);
+            let least = (misfit / DEEPER).max(1.0);
+            if population.noise <= least.max(rival) && (population.noise <= least || misfit > rival) {
                 self.refine(&mut population)?;
                 return Ok(population);
             }
