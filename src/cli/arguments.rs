@@ -50,7 +50,7 @@ pub enum Command {
     Reversals(reversals::ReversalsArguments),
     /// Change each number of a scene by 10 %: adhesion force, dissipated energy
     Sensitivity(sensitivity::SensitivityArguments),
-    /// Fit a scene to a measured force curve: work of adhesion, other parameters, errors
+    /// Fit a scene to measured force curves: work of adhesion, other parameters, errors
     Fit(fit::FitArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a picture
     Demo(demo::DemoArguments),

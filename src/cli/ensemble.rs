@@ -2,6 +2,7 @@
 
 use super::error::CliError;
 use super::fit::FitArguments;
+use super::fits::files_of;
 use super::output::Origin;
 use super::progress::ProgressLine;
 use super::scene::{open_scene, threads};
@@ -67,15 +68,20 @@ fn is_modulus_free(free: &[Free]) -> Result<bool, CliError> {
 pub(super) fn ensemble(arguments: &FitArguments, lines: u32, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let is_modulus_free = is_modulus_free(&arguments.free)?;
-    let document = arguments.overrides.apply(open_scene(&arguments.model)?)?;
+    let (scene, files) = arguments.scene_and_curves()?;
+    let document = arguments.overrides.apply(open_scene(&scene)?)?;
+    let reading = arguments.reading_with(&document);
     let read = |path: &std::path::PathBuf| {
         let name = path_name(path);
-        match MeasuredCurve::read(path, &arguments.reading) {
+        match MeasuredCurve::read(path, &reading) {
             Ok(curve) => Ok((name, curve)),
             Err(error) => Err(CliError::named(&name, no_curve(path, &error))),
         }
     };
-    let curves = arguments.curves.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let curves = files_of(files, arguments.output.output.as_deref())?
+        .iter()
+        .map(read)
+        .collect::<Result<Vec<_>, _>>()?;
     let EnsembleArguments { height_error, hurst_error, .. } = arguments.ensemble;
     let options = EnsembleOptions {
         lines: u64::from(lines),

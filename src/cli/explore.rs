@@ -194,7 +194,9 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
     }
     if let Some(path) = &arguments.measured {
         let name = path_name(path);
-        let measured = Measured::read(path, arguments.reading.clone());
+        let instrument = opening.document.scene().loading_stiffness;
+        let reading = CurveOptions { instrument, ..arguments.reading.clone() };
+        let measured = Measured::read(path, reading);
         opening.measured = Some(measured.map_err(|error| CliError::named(&name, no_curve(path, &error)))?);
     }
     Ok(opening)

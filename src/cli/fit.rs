@@ -2,6 +2,7 @@
 
 use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
+use super::fits::{Curves, fit_all};
 use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{Overrides, open_scene, threads};
 use crate::explorer::recognition::no_curve;
@@ -11,7 +12,9 @@ use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as 
 use asperity_report::FitReport;
 use asperity_report::Format;
 use asperity_report::named_from;
+use asperity_scene::Document;
 use clap::Args;
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -23,23 +26,24 @@ Examples:
   asperity fit curve.csv my-scene.ron --free work=1mJ/m^2..1J/m^2,offset -o fit.json
   asperity fit places/*.csv rough.ron --free work,modulus --lines 128 --height-error 5%
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
+  asperity fit map/*.txt my-scene.ron --free work,modulus,offset -o table.csv
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
-retraction, or a retraction alone that ends without contact. A form.radius of two round bodies
-is R1 R2/(R1 + R2). JSON is one object with the parameters and their errors; CSV and .npy hold
+retraction, or a retraction alone that ends without contact. The scene is the last argument. A
+form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, or a folder of them, give a
+row each; a table (-o FILE.csv) that is not complete is continued by the same command. JSON is one object with the parameters and their errors; CSV and .npy hold
 the columns displacement, force, model, residual and segment. docs/experiment.md lists the
 parameters.";
 
 /// Arguments of `fit`.
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, override_usage = "asperity fit [OPTIONS] --free <NAME[=A..B]> <CURVE>... <SCENE>")]
 pub struct FitArguments {
-    /// Files of measured force curves, or folders of them
-    #[arg(value_name = "CURVE", required = true)]
-    pub curves: Vec<PathBuf>,
-    /// A scene file or a built-in scene: form, roughness and all values that are known
-    #[arg(value_name = "SCENE")]
-    pub model: String,
+    /// Files of measured force curves or folders of them, and last the scene
+    ///
+    /// A scene file or a built-in scene: form, roughness and all values that are known.
+    #[arg(value_name = "CURVE... SCENE", required = true)]
+    pub files: Vec<PathBuf>,
     #[command(flatten)]
     pub overrides: Overrides,
     /// Parameters to be found, with ranges if known: work=1m..1,offset
@@ -59,20 +63,55 @@ pub struct FitArguments {
     pub output: OutputArguments,
 }
 
+impl FitArguments {
+    /// Options of reading, with the instrument of the scene.
+    pub(super) fn reading_with(&self, document: &Document) -> CurveOptions {
+        CurveOptions { instrument: document.scene().loading_stiffness, ..self.reading.clone() }
+    }
+
+    /// The scene, which is the last file, and the curves before it.
+    ///
+    /// # Errors
+    /// There is one file alone.
+    pub(super) fn scene_and_curves(&self) -> Result<(Cow<'_, str>, &[PathBuf]), CliError> {
+        match self.files.split_last() {
+            Some((scene, curves)) if !curves.is_empty() => Ok((scene.to_string_lossy(), curves)),
+            only => {
+                let only = only.map(|(path, _)| path_name(path)).unwrap_or_default();
+                Err(CliError::named(only, "one file; allowed: a curve or several, and last the scene"))
+            }
+        }
+    }
+}
+
 pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let (scene, curves) = arguments.scene_and_curves()?;
     if let Some(lines) = arguments.ensemble.lines {
         return ensemble(arguments, lines, stdout);
     }
-    let [path] = &arguments.curves[..] else {
-        return Err(CliError::named("--lines", "missing; several curves are compared with random profiles"));
+    let path = match curves {
+        [path] if !path.is_dir() => path,
+        _ if arguments.scene.is_some() => {
+            return Err(CliError::named(
+                "--scene",
+                "several curves; allowed: one curve, whose scene is written",
+            ));
+        }
+        _ => {
+            let FitArguments { overrides, free, reading, jobs, output, .. } = arguments;
+            let jobs = *jobs;
+            let curves = Curves { paths: curves, scene: &scene, overrides, free, reading, jobs, output };
+            return fit_all(&curves, stdout);
+        }
     };
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
         check_file(file, "ron", arguments.output.force)?;
     }
-    let document = arguments.overrides.apply(open_scene(&arguments.model)?)?;
+    let document = arguments.overrides.apply(open_scene(&scene)?)?;
     let title = path_name(path);
-    let curve = MeasuredCurve::read(path, &arguments.reading)
+    let reading = arguments.reading_with(&document);
+    let curve = MeasuredCurve::read(path, &reading)
         .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
     let options = FitOptions { free: arguments.free.clone(), lines: 1, jobs: threads(arguments.jobs) };
     let found = find(&curve, &document, &options, &|| false, &mut |_| ());

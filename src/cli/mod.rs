@@ -12,6 +12,7 @@ mod ensemble;
 mod error;
 mod explore;
 mod fit;
+mod fits;
 mod line;
 mod output;
 mod plan;

@@ -210,7 +210,7 @@ impl AnswerFormat {
 }
 
 /// The command of this process, for a POSIX shell, without the options for format and destination.
-fn command() -> String {
+pub(super) fn command() -> String {
     let mut words = vec!["asperity".to_owned()];
     let mut typed = std::env::args().skip(1);
     while let Some(word) = typed.next() {

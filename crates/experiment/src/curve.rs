@@ -108,6 +108,10 @@ impl MeasuredCurve {
             return refused("the displacement does not turn: one segment", allowed);
         }
         let negate = points.reverse(options.negate)?;
+        let instrument = options.instrument.or(columns.stiffness.as_ref().map(|stated| stated.1));
+        let of_body = columns.of_body.filter(|name| {
+            instrument.inspect(|stiffness| statements.push(points.put_on_spring(name, *stiffness))).is_none()
+        });
         let free = FreeParts::of(&points, options, averaged, least)?;
         let noise = options.noise.unwrap_or(free.line(&points).noise).max(least);
         let (remaining, text) = free.take_off_lines(&mut points, options, noise)?;
@@ -155,7 +159,7 @@ impl MeasuredCurve {
                 options.tilt == Tilt::Remove,
             ],
             stiffness: columns.stiffness,
-            of_body: columns.of_body,
+            of_body,
             statements,
         })
     }

@@ -132,6 +132,9 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
+    /// Stiffness of the instrument of the scene, N/m: with it the displacement of a body becomes that of the instrument.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub instrument: Option<f64>,
     /// Number of points before contact; default: up to the first change
     #[cfg_attr(feature = "clap", arg(long, value_name = "COUNT"))]
     pub free_points: Option<usize>,

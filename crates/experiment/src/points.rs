@@ -5,7 +5,7 @@ use crate::error::{ExperimentError, refused};
 use crate::free::{FEWEST, free_count};
 use crate::options::{CurveOptions, Negate};
 use crate::segment::Segments;
-use asperity_data::mean;
+use asperity_data::{format_quantity, mean};
 use std::ops::Range;
 
 /// Points in the order of time; if there are many, each is the mean of several points of the file.
@@ -79,6 +79,16 @@ impl Points {
             }
         }
         Ok(negate)
+    }
+
+    /// Adds the deflection of an instrument of this stiffness, N/m, to the displacement of the body in the column with this
+    /// name, and says so.
+    pub fn put_on_spring(&mut self, name: &str, stiffness: f64) -> String {
+        self.displacement.iter_mut().zip(&self.force).for_each(|(at, force)| *at += force / stiffness);
+        let stiffness = format_quantity(stiffness, "N/m");
+        format!(
+            "{name} is a displacement of the body: the deflection of an instrument of {stiffness} was added."
+        )
     }
 
     /// Number of the last points, which are after contact; `None` if they cannot be found.

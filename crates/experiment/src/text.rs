@@ -278,6 +278,26 @@ mod tests {
         // A column by its number is what the scene says.
         let options = CurveOptions { columns: vec!["1".into(), "2".into()], ..CurveOptions::default() };
         assert_eq!(from_text(&text("indentation [nm],f [nN]\n"), &options).unwrap().of_body, None);
+        // With the stiffness of the file or of the scene it becomes that of the instrument.
+        let body = |head: &str| {
+            joined(head, 600, &|index| format!("{},{}", all[index].1 / 4.0 - all[index].0, all[index].1))
+        };
+        let plain = read(&text("d [nm],f [nN]\n"));
+        let found = [
+            read(&body("k (N/m)\t4\nTip Position [nm],f [nN]\n")),
+            from_text(
+                &body("Tip Position [nm],f [nN]\n"),
+                &CurveOptions { instrument: Some(4.0), ..CurveOptions::default() },
+            )
+            .unwrap(),
+        ];
+        for curve in found {
+            let pairs = curve.displacement.iter().zip(&plain.displacement);
+            assert!(
+                pairs.into_iter().all(|(one, other)| (one - other).abs() < 1e-18) && curve.of_body.is_none()
+            );
+            assert!(curve.statements[1].ends_with("the deflection of an instrument of 4 N/m was added."));
+        }
         // A deflection becomes a force by the stiffness of the file.
         let half = joined("k (N/m)\t2\nPiezo [nm]\tDeflection [nm]\n", 600, &|index| {
             format!("{}\t{}", all[index].0, all[index].1 / 2.0)

@@ -1,0 +1,312 @@
+//! Fits to many curves: a row for each curve, as text, JSON and a table; their distribution as a figure.
+
+use crate::fit::FitReport;
+use crate::report::{Json, Report};
+use crate::sheet::Sheet;
+use asperity_data::{AxisScale, Kind, Table};
+use asperity_data::{format_quantity, format_range, format_within, grouped, object, one_unit, quantile};
+use asperity_experiment::Parameter;
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Span};
+use asperity_scene::Scene;
+
+/// Smallest and largest number of bars of a histogram.
+const BARS: (usize, usize) = (5, 40);
+
+/// A curve with the result of its fit, or the reason why there is none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CurveRow {
+    /// Path of the file as it was given.
+    pub file: String,
+    /// Value and both ends of the interval of each free parameter; empty without a fit.
+    pub parameters: Vec<[f64; 3]>,
+    /// Pull-off force, N, its work of adhesion, J/m², residual over noise, noise, N.
+    pub facts: [Option<f64>; 4],
+    pub points: Option<u64>,
+    pub described: Option<bool>,
+    /// Why the model does not describe the curve.
+    pub reason: String,
+    /// Why the curve was not read or not fitted.
+    pub error: String,
+}
+
+/// Names of the columns behind the parameters.
+const FACTS: [&str; 4] = ["pull_off_force", "pull_off_work", "residual_over_noise", "noise"];
+
+impl CurveRow {
+    /// The row of a curve that has been fitted.
+    pub fn of(file: String, report: &FitReport<'_>) -> Self {
+        let FitReport { curve, fit, .. } = *report;
+        let force = curve.pull_off_force();
+        let work = force.and_then(|force| report.pull_off_work(force));
+        let values = fit.parameters.iter().map(|one| [one.value, one.interval.0, one.interval.1]);
+        CurveRow {
+            file,
+            parameters: values.collect(),
+            facts: [force, work, Some(fit.residual_over_noise), Some(curve.noise)],
+            points: Some(curve.points as u64),
+            described: Some(fit.describes()),
+            reason: fit.reason.map_or_else(String::new, |reason| reason.to_string()),
+            error: String::new(),
+        }
+    }
+
+    /// The row that a line of the table holds; `None` for a line that is torn or of another table.
+    pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
+        let cells = cells_of(line)?;
+        let (file, rest) = cells.split_first()?;
+        if rest.len() != 3 * parameters + FACTS.len() + 4 {
+            return None;
+        }
+        let number = |cell: &String| if cell.is_empty() { Some(None) } else { cell.parse().ok().map(Some) };
+        let (values, rest) = rest.split_at(3 * parameters);
+        let values = values.iter().map(number).collect::<Option<Vec<Option<f64>>>>()?;
+        let values: Vec<f64> = values.into_iter().flatten().collect();
+        let facts = rest[..FACTS.len()].iter().map(number).collect::<Option<Vec<Option<f64>>>>()?;
+        let [points, described, reason, error] = &rest[FACTS.len()..] else { return None };
+        Some(CurveRow {
+            file: file.clone(),
+            parameters: values.chunks_exact(3).map(|one| [one[0], one[1], one[2]]).collect(),
+            facts: facts.try_into().ok()?,
+            points: points.parse().ok(),
+            described: described.parse().ok(),
+            reason: reason.clone(),
+            error: error.clone(),
+        })
+    }
+}
+
+/// Cells of a CSV line by RFC 4180; `None` if a quotation mark is open at its end.
+fn cells_of(line: &str) -> Option<Vec<String>> {
+    let (mut cells, mut cell, mut is_quoted) = (Vec::new(), String::new(), false);
+    let mut characters = line.chars().peekable();
+    while let Some(character) = characters.next() {
+        match character {
+            '"' if is_quoted && characters.peek() == Some(&'"') => {
+                characters.next();
+                cell.push('"');
+            }
+            '"' => is_quoted = !is_quoted,
+            ',' if !is_quoted => cells.push(std::mem::take(&mut cell)),
+            other => cell.push(other),
+        }
+    }
+    cells.push(cell);
+    (!is_quoted).then_some(cells)
+}
+
+/// Fits of one scene to many curves.
+#[derive(Clone, Copy, Debug)]
+pub struct FitsReport<'a> {
+    pub scene: &'a Scene,
+    /// The free parameters, in the order of the values.
+    pub free: &'a [Parameter],
+    pub rows: &'a [CurveRow],
+}
+
+/// Median and quartiles of a parameter over curves, and the number of these curves.
+struct Distribution {
+    quartiles: [f64; 3],
+    count: usize,
+}
+
+impl FitsReport<'_> {
+    /// Values of the first free parameter of curves that are described, or of those that are not.
+    fn values(&self, is_described: bool) -> Vec<f64> {
+        let of = self.rows.iter().filter(|row| row.described == Some(is_described));
+        of.filter_map(|row| Some(row.parameters.first()?[0])).collect()
+    }
+
+    fn distribution(mut values: Vec<f64>) -> Option<Distribution> {
+        values.sort_by(f64::total_cmp);
+        let quartiles = [0.25, 0.5, 0.75].map(|share| quantile(&values, share));
+        (!values.is_empty()).then_some(Distribution { quartiles, count: values.len() })
+    }
+
+    /// Sentences on the first parameter over the curves that are described, over all, and on those without a fit.
+    fn summary(&self) -> Vec<String> {
+        let Some(row) = self.free.first().map(|one| one.row()) else { return Vec::new() };
+        let sentence = |found: Distribution, of: &str| {
+            let [lower, median, upper] = found.quartiles;
+            let median = format_quantity(median, row.unit);
+            let quartiles = format_range((lower, upper), 4, row.unit);
+            let count = grouped(found.count as u64);
+            let name = format!("{}{} {}", row.term[..1].to_uppercase(), &row.term[1..], row.symbol);
+            format!("{name}: median {median}, quartiles {quartiles}, over {count} {of}.")
+        };
+        let (described, others) = (self.values(true), self.values(false));
+        let mut text = Vec::new();
+        let has_others = !others.is_empty();
+        let all = Self::distribution([described.clone(), others].concat());
+        text.extend(
+            Self::distribution(described).map(|found| sentence(found, "curves that the model describes")),
+        );
+        text.extend(
+            all.filter(|_| has_others).map(|found| sentence(found, "curves in all, described or not")),
+        );
+        let without = self.rows.iter().filter(|row| !row.error.is_empty()).count();
+        if without > 0 {
+            text.push(format!(
+                "Not read or not fitted: {} of {} curves.",
+                grouped(without as u64),
+                grouped(self.rows.len() as u64)
+            ));
+        }
+        text
+    }
+}
+
+impl Report for FitsReport<'_> {
+    fn text(&self) -> Option<String> {
+        let mut sheet = Sheet::default();
+        let first = self.free.first();
+        let symbol = first.map_or(String::new(), |one| one.row().symbol.to_owned());
+        let mut rows = vec![["".to_owned(), symbol, "95 % interval".to_owned(), "described".to_owned()]];
+        rows.extend(self.rows.iter().map(|row| {
+            let text = |of: usize| {
+                let found = first.zip(row.parameters.first());
+                found.map_or_else(String::new, |(one, values)| {
+                    format_within(values[of], 0.5 * (values[2] - values[1]), one.row().unit)
+                })
+            };
+            let state = match row.described {
+                Some(true) => "yes",
+                Some(false) => "no",
+                None => "-",
+            };
+            let interval =
+                if row.parameters.is_empty() { String::new() } else { one_unit([text(1), text(2)]) };
+            [row.file.clone(), text(0), interval, state.to_owned()]
+        }));
+        sheet.table(&rows);
+        let failed = self.rows.iter().filter(|row| !row.error.is_empty());
+        for (index, row) in failed.enumerate() {
+            let text = format!("{}: {}", row.file, row.error);
+            if index == 0 { sheet.heading(&text) } else { sheet.paragraph(&text) }
+        }
+        let summary = self.summary();
+        if let Some((first, others)) = summary.split_first() {
+            sheet.heading(first);
+            others.iter().for_each(|sentence| sheet.paragraph(sentence));
+        }
+        Some(sheet.into_text())
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let distribution = |values: Vec<f64>| {
+            let found = Self::distribution(values)?;
+            let [lower, median, upper] = found.quartiles;
+            Some(object! { "median": median, "quartiles": [lower, upper], "curves": found.count })
+        };
+        let (described, others) = (self.values(true), self.values(false));
+        Some(Box::new(object! {
+            "parameter": self.free.first().map(|one| one.name()),
+            "described": distribution(described.clone()),
+            "all": distribution([described, others].concat()),
+            "curves": self.table(),
+            "scene": self.scene,
+        }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        let mut table = Table::of(|| self.rows.iter()).with("file", Kind::Text(0), |row| row.file.clone());
+        for (index, one) in self.free.iter().enumerate() {
+            for (of, end) in ["", "_low", "_high"].into_iter().enumerate() {
+                let value = move |row: &&CurveRow| row.parameters.get(index).map(|values| values[of]);
+                table = table.with(format!("{}{end}", one.name()), Kind::Real, value);
+            }
+        }
+        for (index, name) in FACTS.into_iter().enumerate() {
+            table = table.real(name, move |row| row.facts[index]);
+        }
+        let table = table.with("points_used", Kind::Whole, |row| row.points);
+        let table = table.with("described", Kind::Text(0), |row| row.described);
+        let table = table.with("reason", Kind::Text(0), |row| row.reason.clone());
+        Some(table.with("error", Kind::Text(0), |row| row.error.clone()).done())
+    }
+
+    fn figure(&self) -> Option<Figure> {
+        let row = self.free.first()?.row();
+        let (described, others) = (self.values(true), self.values(false));
+        let all: Vec<f64> = described.iter().chain(&others).copied().collect();
+        let (low, high) = all.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(*value), high.max(*value))
+        });
+        let bars = ((all.len() as f64).sqrt().ceil() as usize).clamp(BARS.0, BARS.1);
+        let width = ((high - low) / bars as f64).max(f64::MIN_POSITIVE);
+        let count = |values: &[f64], bar: usize| {
+            let of = |value: &&f64| ((**value - low) / width).min(bars as f64 - 1.0) as usize == bar;
+            values.iter().filter(of).count() as f64
+        };
+        let edges = |bar: usize| (low + width * bar as f64, low + width * (bar + 1) as f64);
+        let (mut lower, mut upper, mut most) = (Vec::new(), Vec::new(), 1.0_f64);
+        for bar in 0..bars {
+            let (one, other) = (count(&described, bar), count(&others, bar));
+            lower.extend((one > 0.0).then_some((edges(bar), (0.0, one))));
+            upper.extend((other > 0.0).then_some((edges(bar), (one, one + other))));
+            most = most.max(one + other);
+        }
+        let x = Axis::new(
+            AxisScale::Linear,
+            Span::around(all.iter().copied(), 0.06),
+            row.term,
+            row.symbol,
+            row.unit,
+        );
+        let y = Axis::new(AxisScale::Linear, Span::around([0.0, most].into_iter(), 0.06), "curves", "", "1");
+        let mut layers = Vec::new();
+        let named = [("described", Ink::Contact, lower), ("not described", Ink::Quiet, upper)];
+        layers.extend(
+            named
+                .into_iter()
+                .filter(|(.., boxes)| !boxes.is_empty())
+                .map(|(name, ink, boxes)| Layer::new(name.into(), ink, Shape::Boxes(boxes))),
+        );
+        let notes = self.summary().iter().map(|sentence| Label::plain(sentence)).collect();
+        let title = format!("{} curves", grouped(self.rows.len() as u64));
+        Some(Figure {
+            title,
+            notes,
+            charts: vec![Chart::new(x, y, layers)],
+            size: Figure::SMALL,
+            ..Figure::default()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::*;
+
+    fn row(file: &str, work: f64, described: bool) -> CurveRow {
+        CurveRow {
+            file: file.to_owned(),
+            parameters: vec![[work, 0.9 * work, 1.1 * work], [2e6, 1e6, 3e6]],
+            facts: [Some(1e-6), None, Some(0.5), Some(1e-9)],
+            points: Some(400),
+            described: Some(described),
+            reason: if described { String::new() } else { "The force, \"drifts\".".to_owned() },
+            error: String::new(),
+        }
+    }
+
+    /// A row comes back from its line of the table; torn lines do not.
+    #[test]
+    fn rows_come_back_from_the_table() {
+        let failed = CurveRow {
+            file: "a, b.csv".into(),
+            error: "no contact; allowed: one".into(),
+            ..CurveRow::default()
+        };
+        let rows = [row("a.csv", 0.05, true), row("b \"x\".csv", 0.06, false), failed];
+        let (scene, free) = (Scene::default(), [Parameter::Work, Parameter::Modulus]);
+        let report = FitsReport { scene: &scene, free: &free, rows: &rows };
+        let mut text = Vec::new();
+        report.table().unwrap().write_csv(&mut text, "").unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let read: Vec<_> = text.lines().skip(1).map(|line| CurveRow::from_line(line, 2)).collect();
+        assert_eq!(read, rows.map(Some));
+        let line = text.lines().nth(2).unwrap();
+        assert!((0..line.len()).all(|end| CurveRow::from_line(&line[..end], 2).is_none()));
+        assert_eq!(CurveRow::from_line(line, 1), None);
+    }
+}

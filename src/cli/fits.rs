@@ -1,0 +1,221 @@
+//! `asperity fit` for several curves: files and folders, on all cores, into a table that is continued where it ended.
+
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, command};
+use super::progress::ProgressLine;
+use super::scene::{Overrides, threads};
+use asperity_data::{
+    check_writable, grouped, on_threads, path_name, printable, read_regular_text, write_new,
+};
+use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, Parameter, fit as find};
+use asperity_report::FitReport;
+use asperity_report::scene_provenance;
+use asperity_report::{CurveRow, FitsReport};
+use asperity_report::{Format, Report, write};
+use asperity_scene::{Document, open_argument};
+use std::collections::HashMap;
+use std::fs::{File, OpenOptions, read_dir};
+use std::io;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+const FORMATS: &[Format] = &[Format::Text, Format::Json, Format::Csv, Format::Svg, Format::Png, Format::Pdf];
+/// Limit of the size of a table that is continued, bytes.
+const LARGEST_TABLE: usize = 1 << 28;
+
+/// The files that the arguments name: a folder is the list of its files in the order of their names.
+pub(super) fn files_of(curves: &[PathBuf], output: Option<&Path>) -> Result<Vec<PathBuf>, CliError> {
+    let mut files = Vec::new();
+    for path in curves {
+        if !path.is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let unreadable = |error| CliError::named(path_name(path), format!("cannot be read: {error}"));
+        let entries: io::Result<Vec<PathBuf>> =
+            read_dir(path).and_then(|all| all.map(|one| Ok(one?.path())).collect());
+        let mut entries = entries.map_err(unreadable)?;
+        let is_hidden =
+            |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+        let is_other = |path: &Path| path.extension().is_some_and(|of| of == "ron") || Some(path) == output;
+        entries.retain(|path| path.is_file() && !is_hidden(path) && !is_other(path));
+        entries.sort();
+        if entries.is_empty() {
+            return Err(CliError::named(
+                path_name(path),
+                "no files in this folder; allowed: a folder of curves",
+            ));
+        }
+        files.extend(entries);
+    }
+    Ok(files)
+}
+
+/// The rows so far, and where further ones are written.
+struct Progress {
+    rows: HashMap<String, CurveRow>,
+    /// The table, which grows by a row for each curve.
+    table: Option<File>,
+    line: ProgressLine,
+}
+
+/// Curves with the arguments of their fits.
+pub(super) struct Curves<'a> {
+    /// Files, or folders of files.
+    pub paths: &'a [PathBuf],
+    pub scene: &'a str,
+    pub overrides: &'a Overrides,
+    pub free: &'a [Free],
+    pub reading: &'a CurveOptions,
+    pub jobs: Option<u16>,
+    pub output: &'a OutputArguments,
+}
+
+/// What all curves have in common.
+struct Batch<'a> {
+    document: Document,
+    options: FitOptions,
+    free: Vec<Parameter>,
+    reading: CurveOptions,
+    curves: &'a Curves<'a>,
+    /// Provenance of a table.
+    provenance: String,
+}
+
+/// Fits a scene to all curves.
+pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let output = curves.output;
+    let format = Format::of_file(output.file(), output.format, FORMATS, Format::Text);
+    let format = format.map_err(CliError::message)?;
+    let table = output.file().filter(|_| format == Format::Csv);
+    if let Some(path) = output.file() {
+        check_writable(path, output.force || table.is_some())?;
+    }
+    let files = files_of(curves.paths, output.file())?;
+    let document = curves.overrides.apply(open_argument(curves.scene)?)?;
+    let provenance = scene_provenance(&command(), document.scene(), &document.resolve(""), output.folder());
+    let is_free = |one: &Parameter| curves.free.iter().any(|free| free.parameter == *one);
+    let batch = Batch {
+        options: FitOptions { free: curves.free.to_vec(), lines: 1, jobs: 1 },
+        free: Parameter::ALL.into_iter().filter(is_free).collect(),
+        reading: CurveOptions { instrument: document.scene().loading_stiffness, ..curves.reading.clone() },
+        curves,
+        provenance: provenance.map_err(CliError::message)?,
+        document,
+    };
+    let rows = batch.rows(&files, table)?;
+    let report = batch.report(&rows);
+    match table {
+        Some(path) => write_new(path, true, |out| write(out, &report, format, &batch.provenance))?,
+        None => {
+            output.write(stdout, &report, format, Origin::Scene(&batch.document, batch.document.scene()))?
+        }
+    }
+    match rows.iter().filter(|row| !row.error.is_empty()).count() {
+        0 => Ok(()),
+        count => {
+            stdout.flush()?;
+            let [count, all] = [count, rows.len()].map(|count| grouped(count as u64));
+            let text = "curves were not read or not fitted; their rows have the reason";
+            Err(CliError::message(format!("{count} of {all} {text}")))
+        }
+    }
+}
+
+impl Batch<'_> {
+    fn report<'a>(&'a self, rows: &'a [CurveRow]) -> FitsReport<'a> {
+        FitsReport { scene: self.document.scene(), free: &self.free, rows }
+    }
+
+    /// The row of each file, in their order. Rows that the table has are kept, and further ones are added to it at once.
+    fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
+        let names: Vec<String> = files.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+        let rows = table.map(|path| self.kept(path)).transpose()?.unwrap_or_default();
+        let todo: Vec<usize> = (0..files.len()).filter(|index| !rows.contains_key(&names[*index])).collect();
+        let unwritable = |error: io::Error| {
+            CliError::named(
+                table.map(|path| path_name(path)).unwrap_or_default(),
+                format!("cannot be written: {error}"),
+            )
+        };
+        let table = table.map(|path| self.begun(path, &rows)).transpose()?;
+        let count = grouped(files.len() as u64);
+        let progress = Mutex::new(Progress { rows, table, line: ProgressLine::default() });
+        let worker = || {
+            |number: u64| {
+                let index = todo[number as usize];
+                let row = self.row(&files[index], names[index].clone());
+                let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+                let line = self.text_of(std::slice::from_ref(&row));
+                let written = progress
+                    .table
+                    .as_mut()
+                    .map_or(Ok(()), |table| table.write_all(last_line(&line).as_bytes()));
+                progress.rows.insert(names[index].clone(), row);
+                let done = grouped(progress.rows.len() as u64);
+                progress.line.show(&format!("{done} of {count} curves"), None);
+                written
+            }
+        };
+        on_threads(todo.len() as u64, threads(self.curves.jobs), worker).map_err(unwritable)?;
+        let progress = progress.into_inner().unwrap_or_else(PoisonError::into_inner);
+        progress.line.clear();
+        let mut rows = progress.rows;
+        Ok(names.iter().filter_map(|name| rows.remove(name)).collect())
+    }
+
+    fn row(&self, path: &Path, name: String) -> CurveRow {
+        let fitted = MeasuredCurve::read(path, &self.reading).and_then(|curve| {
+            let fit = find(&curve, &self.document, &self.options, &|| false, &mut |_| ())?;
+            Ok(CurveRow::of(name.clone(), &FitReport { title: &name, curve: &curve, fit: &fit }))
+        });
+        fitted.unwrap_or_else(|error| CurveRow {
+            file: name,
+            error: printable(&error.to_string()).into_owned(),
+            ..CurveRow::default()
+        })
+    }
+
+    /// The table with these rows as text.
+    fn text_of(&self, rows: &[CurveRow]) -> String {
+        let mut text = Vec::new();
+        let table = self.report(rows).table().map(|table| table.write_csv(&mut text, &self.provenance));
+        debug_assert!(matches!(table, Some(Ok(()))), "writing to memory cannot fail");
+        String::from_utf8_lossy(&text).into_owned()
+    }
+
+    /// The rows that a table has; none if there is no such file or it is begun anew.
+    fn kept(&self, path: &Path) -> Result<HashMap<String, CurveRow>, CliError> {
+        if !path.exists() || self.curves.output.force {
+            return Ok(HashMap::new());
+        }
+        let text = read_regular_text(path, LARGEST_TABLE)
+            .map_err(|error| CliError::named(path_name(path), error))?;
+        let Some(rows) = text.strip_prefix(&self.text_of(&[])) else {
+            let refused = "this is not the table of this command, scene and version; allowed: another file, or --force to begin \
+                           anew";
+            return Err(CliError::named(path_name(path), refused));
+        };
+        // A row that a killed process left without its end is computed again.
+        let whole = rows.rsplit_once('\n').map_or("", |(whole, _)| whole);
+        let rows = whole.lines().filter_map(|line| CurveRow::from_line(line, self.free.len()));
+        // A file that failed may have been mended.
+        let rows = rows.filter(|row| row.error.is_empty());
+        Ok(rows.map(|row| (row.file.clone(), row)).collect())
+    }
+
+    /// The table with the rows that it keeps, to which others are added.
+    fn begun(&self, path: &Path, rows: &HashMap<String, CurveRow>) -> Result<File, CliError> {
+        let mut rows: Vec<CurveRow> = rows.values().cloned().collect();
+        rows.sort_by(|one, other| one.file.cmp(&other.file));
+        write_new(path, true, |out| out.write_all(self.text_of(&rows).as_bytes()))?;
+        let opened = OpenOptions::new().append(true).open(path);
+        opened.map_err(|error| CliError::named(path_name(path), format!("cannot be written: {error}")))
+    }
+}
+
+fn last_line(text: &str) -> &str {
+    let start = text.trim_end_matches('\n').rfind('\n').map_or(0, |end| end + 1);
+    &text[start..]
+}
