@@ -134,10 +134,7 @@ impl Batch<'_> {
         let rows = table.map(|path| self.kept(path)).transpose()?.unwrap_or_default();
         let todo: Vec<usize> = (0..files.len()).filter(|index| !rows.contains_key(&names[*index])).collect();
         let unwritable = |error: io::Error| {
-            CliError::named(
-                table.map(|path| path_name(path)).unwrap_or_default(),
-                format!("cannot be written: {error}"),
-            )
+            CliError::named(table.map(path_name).unwrap_or_default(), format!("cannot be written: {error}"))
         };
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
         let count = grouped(files.len() as u64);

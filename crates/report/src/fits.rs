@@ -275,7 +275,8 @@ impl Report for FitsReport<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::*;
+    use super::*;
+    use asperity_scene::open;
 
     fn row(file: &str, work: f64, described: bool) -> CurveRow {
         CurveRow {
@@ -298,8 +299,8 @@ mod tests {
             ..CurveRow::default()
         };
         let rows = [row("a.csv", 0.05, true), row("b \"x\".csv", 0.06, false), failed];
-        let (scene, free) = (Scene::default(), [Parameter::Work, Parameter::Modulus]);
-        let report = FitsReport { scene: &scene, free: &free, rows: &rows };
+        let (document, free) = (open("jkr-sphere").unwrap(), [Parameter::Work, Parameter::Modulus]);
+        let report = FitsReport { scene: document.scene(), free: &free, rows: &rows };
         let mut text = Vec::new();
         report.table().unwrap().write_csv(&mut text, "").unwrap();
         let text = String::from_utf8(text).unwrap();
