@@ -50,7 +50,7 @@ pub struct MeasuredCurve {
     /// Time and displacement of each point, as shares of the whole curve.
     pub(crate) shares: [Vec<f64>; 2],
     /// Whether the zero of the force, a drift and a tilt were estimated from the points without contact and subtracted.
-    is_estimated: [bool; 3],
+    pub(crate) is_estimated: [bool; 3],
     /// Name and value of the stiffness of the instrument that the file states, N/m.
     pub(crate) stiffness: Option<(String, f64)>,
     /// Name of the column of the displacement if it is that of the body, without the deflection of the instrument.

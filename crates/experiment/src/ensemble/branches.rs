@@ -1,18 +1,17 @@
 //! Approach and retraction of a curve, over the distance from its turning point.
 
-use crate::baseline::Baseline;
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
+use asperity_data::{mean, standard_deviation};
+use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Share of the points of a branch, and fewest points, through which a line gives the force at the turning point.
-const NEAR_TURN: f64 = 0.02;
-const FEWEST_NEAR_TURN: usize = 5;
+/// Fewest points of a branch, and of its part without contact.
+const FEWEST: usize = 20;
+const FEWEST_FREE: usize = 5;
 /// Force at the end of the retraction, in standard deviations of the noise of its mean, above which contact is not lost.
 const LOST: f64 = 5.0;
 /// Share of the largest force up to which a force without contact may be off zero, by drift.
 const NEAR_ZERO: f64 = 0.03;
-/// Number of points at the end of the retraction that have lost the contact.
-const FEWEST_FREE: usize = 5;
 
 /// A displacement relative to the turning point, m, at most about 0, and the force there, N.
 pub(crate) type Point = (f64, f64);
@@ -23,7 +22,7 @@ pub(crate) struct Branches {
     pub retraction: Vec<Point>,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Number of the first points of the approach, which are before contact.
+    /// Number of the first points of the approach that give zero and noise.
     pub free: usize,
 }
 
@@ -38,12 +37,19 @@ impl Branches {
             let of = curve.points().zip(&curve.segment).filter(|(_, segment)| **segment == number);
             of.map(|((displacement, force), _)| (displacement - turn, force)).collect()
         };
-        let (approach, retraction) = (branch(0), branch(1));
-        if approach.len().min(retraction.len()) < 4 * FEWEST_NEAR_TURN || curve.free == 0 {
+        let (mut approach, mut retraction) = (branch(0), branch(1));
+        if approach.len().min(retraction.len()) < FEWEST || curve.free < 2 * FEWEST_FREE {
             let allowed = "an approach, which begins before contact, and its retraction";
             return refused("no approach and retraction of at least 20 points each", allowed);
         }
-        let branches = Branches { approach, retraction, noise: curve.noise, free: curve.free };
+        // The first contacts of a rough body are weak, and may lie in the part that seems to be free.
+        let free = curve.free / 2;
+        let before: Vec<f64> = approach[..free.min(approach.len())].iter().map(|point| point.1).collect();
+        let zero = mean(&before);
+        let noise = standard_deviation(&before, zero);
+        let zero = if curve.is_estimated[0] { zero } else { 0.0 };
+        [&mut approach, &mut retraction].into_iter().flatten().for_each(|point| point.1 -= zero);
+        let branches = Branches { approach, retraction, noise, free };
         if branches.ends_in_contact() {
             return refused(
                 "the retraction ends before contact is lost",
@@ -60,23 +66,13 @@ impl Branches {
         mean.abs() > (LOST * self.noise / (FEWEST_FREE as f64).sqrt()).max(NEAR_ZERO * largest)
     }
 
-    /// Largest force, N, by straight lines through the points of both branches beside the turning point.
+    /// Force at the turning point, N: the mean over the ends of both branches.
     pub fn preload(&self) -> f64 {
-        let of = |near: Vec<f64>| {
-            let line = Baseline::through(&near);
-            line.mean - 0.5 * (near.len() - 1) as f64 * line.slope
-        };
-        let count = |branch: &[Point]| ((NEAR_TURN * branch.len() as f64) as usize).max(FEWEST_NEAR_TURN);
-        let before = self.approach.iter().rev().take(count(&self.approach)).map(|point| point.1).collect();
-        let after = self.retraction.iter().take(count(&self.retraction)).map(|point| point.1).collect();
-        0.5 * (of(before) + of(after))
+        0.5 * (self.approach[self.approach.len() - 1].1 + self.retraction[0].1)
     }
 
     /// Standard deviation of the preload due to the noise, N.
     pub fn preload_error(&self) -> f64 {
-        // The end of a line through n points has a variance of 4/n.
-        let count =
-            (NEAR_TURN * self.approach.len().min(self.retraction.len()) as f64).max(FEWEST_NEAR_TURN as f64);
-        self.noise * (2.0 / count).sqrt()
+        self.noise * FRAC_1_SQRT_2
     }
 }

@@ -113,3 +113,30 @@ fn intervals_of_ensembles_hold_the_truth() {
         }
     }
 }
+
+#[test]
+#[ignore = "debug"]
+fn debug_curves() {
+    let name = "pressure-sensitive";
+    let base = scene(name);
+    for specimen in [5_u64] {
+        let mut generator = ChaCha8Rng::seed_from_u64(specimen);
+        let mut between = |factor: f64| factor.powf(generator.random::<f64>() - 0.5);
+        let (work, modulus) = (
+            base.adhesion.unwrap().work().unwrap() * between(4.0),
+            base.material.effective_modulus() * between(2.0),
+        );
+        let mut truth = base.clone();
+        truth.adhesion = Some(Adhesion::by_work(work));
+        truth.material = Material::effective(modulus);
+        let mut simulation = Simulation::default();
+        for index in 0..32 {
+            let seed = 1000 * (specimen + 1) + index;
+            let one = curve(&mut simulation, &truth, seed, 0.01);
+            let of = super::branches::Branches::of(&one).unwrap();
+            let s = super::summary::summaries(&of, 1e-5);
+            let turn = one.turns[0];
+            println!("{seed} noise {:.3e} preload {:.4e} free {} of {} {} touch {:.3e} turn {turn:.4e} s {:?}", of.noise, of.preload(), of.free, of.approach.len(), of.retraction.len(), one.touch, s.map(|x| (x * 100.0).round() / 100.0));
+        }
+    }
+}

@@ -7,14 +7,12 @@ use super::learn::{Described, Learned};
 use super::posterior::{Estimate, Grid, Posterior};
 use super::result::{CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares};
 use super::scatter::{Scatter, distance};
-use super::summary::{LOOP_AREA, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF, summaries};
+use super::summary::{LOOP_AREA, SUMMARIES, Summaries, WAY_TO_HALF, summaries};
 use super::table::{Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
-use crate::scene::radius_of;
-use asperity_data::{mean, standard_deviation};
-use asperity_scene::{Document, Roughness, Scene, Simulation, Solver};
-use std::f64::consts::PI;
+use asperity_data::{mean, median, standard_deviation};
+use asperity_scene::{Document, Governing, Roughness, Scene, Simulation, Solver};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Fewest random profiles: the covariance of fewer is too uncertain.
@@ -23,7 +21,9 @@ pub(crate) const FEWEST_LINES: u64 = 16;
 const ROUGH_LINES: u64 = 8;
 const ROUGH_STEPS: [f64; 2] = [0.8, 0.7];
 const ROUGH_NODES: [usize; 2] = [13, 7];
-const MOST_MOVES: usize = 8;
+const MOST_MOVES: usize = 4;
+/// Largest κ = √(h⟨∇z⟩E*/γ) of the first of these grids, which extends to about 1.
+const HIGHEST_KAPPA: f64 = 80.0;
 /// Least scatter of a summary on that grid.
 const LEAST_SCATTER: f64 = 0.1;
 /// Grid of the table: steps and numbers of nodes over ln(γ/E*) and ln E*.
@@ -34,6 +34,8 @@ const MORE_NODES: [usize; 2] = [4, 1];
 const MOST_GROWTH: usize = 6;
 /// Scatter of the preloads, in units of that by noise, above which they differ.
 const DIFFERENT: f64 = 2.0;
+/// Factor within which estimates of the noise of all curves are estimates of one noise, their median.
+const ONE_NOISE: f64 = 1.5;
 /// Distance of a curve from the others beyond which lies one of a thousand: quantiles of χ² for one and for two values.
 const FOREIGN: [f64; 2] = [10.8, 13.8];
 const FEWEST_FOR_SCATTER: usize = 4;
@@ -79,8 +81,7 @@ pub fn fit_ensemble(
         report,
     };
     let known = (!options.is_modulus_free).then(|| governing.effective_modulus.ln());
-    let start = measured.start(document.scene(), governing.effective_modulus);
-    let centre = placed(&workers, &measured, start, known)?;
+    let centre = placed(&workers, &measured, &governing, known)?;
     let from = |centre: f64, index: usize| {
         nodes(centre - 0.5 * (NODES[index] - 1) as f64 * STEPS[index], STEPS[index], NODES[index])
     };
@@ -251,6 +252,11 @@ impl Measured {
             }
             branches.push(of);
         }
+        let noise = median(&mut branches.iter().map(|of| of.noise).collect::<Vec<_>>()).unwrap_or_default();
+        let is_alike = |of: &Branches| (of.noise / noise).ln().abs() < ONE_NOISE.ln();
+        if branches.iter().all(is_alike) {
+            branches.iter_mut().for_each(|of| of.noise = noise);
+        }
         let preloads: Vec<f64> = branches.iter().map(Branches::preload).collect();
         let average = mean(&preloads);
         let by_noise = mean(&branches.iter().map(Branches::preload_error).collect::<Vec<_>>());
@@ -274,31 +280,22 @@ impl Measured {
         let preload = self.preload_scatter.map(|_| self.protocols[curve % self.protocols.len()].preload.ln());
         Described { summaries, preload }
     }
-
-    /// Place from which the table is looked for: the work of adhesion of a smooth body with the mean pull-off force, which
-    /// roughness reduces.
-    fn start(&self, scene: &Scene, modulus: f64) -> Place {
-        let pull_off = self.mean().summaries[PULL_OFF].exp();
-        let work = match radius_of(scene) {
-            Some(radius) => pull_off / (1.5 * PI * radius),
-            None => pull_off.powi(2) / (PI * modulus * scene.length.powi(3)),
-        };
-        Place { range: (work / modulus).ln(), modulus: modulus.ln() }
-    }
 }
 
 /// Finds the place whose computed curves have the mean summaries of the measured ones, to about a step of the grid.
 fn placed(
     workers: &Workers<'_>,
     measured: &Measured,
-    start: Place,
+    governing: &Governing,
     known: Option<f64>,
 ) -> Result<Place, ExperimentError> {
     let target = measured.mean().summaries;
-    let (mut low, mut soft) = (
-        start.range - 2.0 * ROUGH_STEPS[0],
-        start.modulus - 0.5 * (ROUGH_NODES[1] - 1) as f64 * ROUGH_STEPS[1],
-    );
+    let of_roughness = governing.amplitude.map_or(0.0, |of| of.rms_height * of.rms_gradient);
+    let largest = of_roughness.max(f64::MIN_POSITIVE).ln();
+    let modulus = governing.effective_modulus.ln();
+    let width = |index: usize| (ROUGH_NODES[index] - 1) as f64 * ROUGH_STEPS[index];
+    let (mut low, mut soft) = (largest - HIGHEST_KAPPA.powi(2).ln(), modulus - 0.5 * width(1));
+    let variance = 1.0 / measured.summaries.len() as f64 + 1.0 / ROUGH_LINES as f64;
     for last in (0..MOST_MOVES).rev() {
         let ranges = nodes(low, ROUGH_STEPS[0], ROUGH_NODES[0]);
         let moduli =
@@ -308,7 +305,8 @@ fn placed(
             let of = |index: usize| {
                 let values: Vec<f64> = table.at_node(node).map(|of| of[index]).collect();
                 let mean = mean(&values);
-                ((mean - target[index]) / standard_deviation(&values, mean).hypot(LEAST_SCATTER)).powi(2)
+                let error = standard_deviation(&values, mean).hypot(LEAST_SCATTER);
+                ((mean - target[index]) / error).powi(2) / variance + 2.0 * error.ln()
             };
             (0..SUMMARIES).map(of).sum::<f64>()
         };
@@ -335,13 +333,13 @@ fn placed(
             });
         }
         if moved[0] {
-            low = table.ranges[range] - 0.5 * (ROUGH_NODES[0] - 1) as f64 * ROUGH_STEPS[0];
+            low = table.ranges[range] - 0.5 * width(0);
         }
         if moved[1] {
-            soft = table.moduli[modulus] - 0.5 * (ROUGH_NODES[1] - 1) as f64 * ROUGH_STEPS[1];
+            soft = table.moduli[modulus] - 0.5 * width(1);
         }
     }
-    Ok(start)
+    Ok(Place { range: low, modulus })
 }
 
 /// A table with what was learned from it.

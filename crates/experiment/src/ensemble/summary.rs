@@ -19,7 +19,6 @@ pub(crate) const NAMES: [&str; SUMMARIES] = [
     "work of the tension on approach",
 ];
 /// Indices of summaries that the result states in their units.
-pub(crate) const PULL_OFF: usize = 0;
 pub(crate) const LOOP_AREA: usize = 1;
 pub(crate) const WAY_TO_HALF: usize = 3;
 
