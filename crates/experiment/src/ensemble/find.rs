@@ -7,7 +7,7 @@ use super::learn::{Described, Learned};
 use super::posterior::{Estimate, Grid, Posterior};
 use super::result::{CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares};
 use super::scatter::{Scatter, distance};
-use super::summary::{LOOP_AREA, SUMMARIES, Summaries, WAY_TO_HALF, summaries};
+use super::summary::{LOOP_AREA, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF, summaries};
 use super::table::{Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
@@ -22,6 +22,8 @@ const ROUGH_LINES: u64 = 8;
 const ROUGH_STEPS: [f64; 2] = [0.8, 0.7];
 const ROUGH_NODES: [usize; 2] = [13, 7];
 const MOST_MOVES: usize = 4;
+/// Number of places between two nodes of that grid.
+const FINE_STEPS: usize = 6;
 /// Largest κ = √(h⟨∇z⟩E*/γ) of the first of these grids, which extends to about 1.
 const HIGHEST_KAPPA: f64 = 80.0;
 /// Least scatter of a summary on that grid.
@@ -38,6 +40,8 @@ const DIFFERENT: f64 = 2.0;
 const ONE_NOISE: f64 = 1.5;
 /// Distance of a curve from the others beyond which lies one of a thousand: quantiles of χ² for one and for two values.
 const FOREIGN: [f64; 2] = [10.8, 13.8];
+/// Smallest pull-off force that is stated, in standard deviations of the noise.
+const LEAST_PULL_OFF: f64 = 5.0;
 const FEWEST_FOR_SCATTER: usize = 4;
 /// Changes of the logarithm of the rms height and of the Hurst exponent for their derivatives.
 const HEIGHT_STEP: f64 = 0.05;
@@ -301,42 +305,42 @@ fn placed(
         let moduli =
             known.map_or_else(|| nodes(soft, ROUGH_STEPS[1], ROUGH_NODES[1]), |modulus| vec![modulus]);
         let table = Table::new(workers, ROUGH_LINES, ranges, moduli)?;
-        let misfit = |node: usize| {
-            let of = |index: usize| {
-                let values: Vec<f64> = table.at_node(node).map(|of| of[index]).collect();
-                let mean = mean(&values);
-                let error = standard_deviation(&values, mean).hypot(LEAST_SCATTER);
-                ((mean - target[index]) / error).powi(2) / variance + 2.0 * error.ln()
+        let of_summary =
+            |index: usize| Scatter::of(&table, |line, node| [table.lines[line][node][index], 0.0]);
+        let scatters: Vec<Scatter> = (0..SUMMARIES).map(of_summary).collect();
+        let misfit = |place: Place| {
+            let of = |(scatter, target): (&Scatter, f64)| {
+                let moments = scatter.at(place);
+                let square = moments.covariance[0] + LEAST_SCATTER.powi(2);
+                (moments.mean[0] - target).powi(2) / square / variance + square.ln()
             };
-            (0..SUMMARIES).map(of).sum::<f64>()
+            scatters.iter().zip(target).map(of).sum::<f64>()
         };
-        let misfits: Vec<f64> = (0..table.lines[0].len()).map(misfit).collect();
-        let least = misfits.iter().enumerate().min_by(|one, other| one.1.total_cmp(other.1));
-        let node = least.map_or(0, |(node, _)| node);
-        let (range, modulus) = (node / table.moduli.len(), node % table.moduli.len());
-        let is_at_end = |index: usize, count: usize| count > 1 && (index == 0 || index == count - 1);
-        let moved = [is_at_end(range, table.ranges.len()), is_at_end(modulus, table.moduli.len())];
+        let within = |axis: &[f64]| {
+            let fine = FINE_STEPS * (axis.len() - 1);
+            let (first, last) = (axis[0], axis[axis.len() - 1]);
+            (0..=fine).map(move |index| first + (last - first) * index as f64 / fine.max(1) as f64).collect()
+        };
+        let (ranges, moduli): (Vec<f64>, Vec<f64>) = (within(&table.ranges), within(&table.moduli));
+        let places =
+            ranges.iter().flat_map(|&range| moduli.iter().map(move |&modulus| Place { range, modulus }));
+        let misfits = places.map(|place| (misfit(place), place));
+        let Some((_, best)) = misfits.min_by(|one, other| one.0.total_cmp(&other.0)) else { break };
+        let is_at_end = |axis: &[f64], at: f64, step: f64| {
+            axis.len() > 1 && (at - axis[0]).min(axis[axis.len() - 1] - at) < 0.5 * step
+        };
+        let moved = [
+            is_at_end(&table.ranges, best.range, ROUGH_STEPS[0]),
+            is_at_end(&table.moduli, best.modulus, ROUGH_STEPS[1]),
+        ];
         if moved == [false; 2] || last == 0 {
-            let between = |axis: &[f64], index: usize, of: &dyn Fn(usize) -> f64| {
-                if axis.len() < 3 || is_at_end(index, axis.len()) {
-                    return axis[index];
-                }
-                let [before, at, after] = [index - 1, index, index + 1].map(of);
-                let bend = before - 2.0 * at + after;
-                let share = if bend > 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
-                axis[index] + share * (axis[1] - axis[0])
-            };
-            let count = table.moduli.len();
-            return Ok(Place {
-                range: between(&table.ranges, range, &|index| misfits[index * count + modulus]),
-                modulus: between(&table.moduli, modulus, &|index| misfits[range * count + index]),
-            });
+            return Ok(best);
         }
         if moved[0] {
-            low = table.ranges[range] - 0.5 * width(0);
+            low = best.range - 0.5 * width(0);
         }
         if moved[1] {
-            soft = table.moduli[modulus] - 0.5 * width(1);
+            soft = best.modulus - 0.5 * width(1);
         }
     }
     Ok(Place { range: low, modulus })
@@ -412,14 +416,15 @@ impl Compared {
     ) -> Vec<CurveOfEnsemble> {
         let moments = self.scatter.at(best);
         let inverse = moments.inverse().0;
-        let row = |(index, (name, curve)): (usize, &(String, MeasuredCurve))| {
+        let row = |(index, (name, _)): (usize, &(String, MeasuredCurve))| {
             let (of, at) = (measured.summaries[index], self.of_curves[index]);
             let posterior = self.grid.posterior(at, 1.0);
             let away = distance(moments.mean, inverse, at) / (1.0 + 1.0 / self.learned.len() as f64);
             CurveOfEnsemble {
                 name: name.clone(),
                 preload: measured.preloads[index],
-                pull_off_force: curve.pull_off_force(),
+                pull_off_force: Some(of[PULL_OFF].exp())
+                    .filter(|force| *force > LEAST_PULL_OFF * measured.protocols[index].noise),
                 loop_area: of[LOOP_AREA].exp(),
                 stiffness: 0.5 * measured.protocols[index].preload / of[WAY_TO_HALF].exp(),
                 work: posterior.estimate(0),
@@ -434,4 +439,96 @@ impl Compared {
 /// Learned values, of which only the first one counts with one modulus.
 fn alone(values: [f64; 2], has_one_modulus: bool) -> [f64; 2] {
     if has_one_modulus { [values[0], 0.0] } else { values }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::specimens::{curve, document, scene};
+    use asperity_scene::Adhesion;
+
+    const OPTIONS: EnsembleOptions =
+        EnsembleOptions { lines: 16, is_modulus_free: false, height_error: None, hurst_error: None, jobs: 1 };
+
+    fn found(
+        curves: &[(String, MeasuredCurve)],
+        scene: &Scene,
+        options: EnsembleOptions,
+    ) -> Result<EnsembleFit, ExperimentError> {
+        fit_ensemble(curves, &document(scene), &options, &|| false, &|_| ())
+    }
+
+    /// Rough spheres of 1024 springs; the work of adhesion of the curve with number `foreign` is a fifth.
+    fn curves(count: u64, foreign: Option<u64>) -> (Scene, Vec<(String, MeasuredCurve)>) {
+        let mut scene = scene("rough-sphere");
+        scene.numerics.points = 2048;
+        let mut simulation = Simulation::default();
+        let one = |seed: u64| {
+            let share = if foreign == Some(seed) { 0.2 } else { 1.0 };
+            let adhesion = Some(Adhesion::by_work(0.05 * share));
+            let scene = Scene { adhesion, ..scene.clone() };
+            (format!("place {seed}"), curve(&mut simulation, &scene, 40 + seed, 0.01))
+        };
+        let curves = (0..count).map(one).collect();
+        (scene, curves)
+    }
+
+    /// The start of the scene does not matter, nor the number of threads; a place with another work of adhesion is named.
+    #[test]
+    fn the_work_of_adhesion_is_found_and_a_foreign_place_named() {
+        let (scene, all) = curves(12, Some(5));
+        let fit = found(&all, &scene, OPTIONS).unwrap();
+        let foreign: Vec<&str> =
+            fit.curves.iter().filter(|curve| curve.foreign).map(|curve| curve.name.as_str()).collect();
+        assert_eq!(foreign, ["place 5"]);
+        let others: Vec<_> = all.iter().filter(|(name, _)| name != "place 5").cloned().collect();
+        let fit = found(&others, &scene, OPTIONS).unwrap();
+        let Estimate { low, high, .. } = fit.work;
+        assert!(low < 0.05 && 0.05 < high && high / low < 2.5, "{:?}", fit.work);
+        assert!(fit.described && !fit.at_end_of_table && fit.preload_scatter.is_none(), "{fit:?}");
+        assert!((fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12 && fit.shares.roughness == 0.0);
+        // More height needs more adhesion.
+        let shifts = fit.roughness.unwrap();
+        assert!((0.3..3.0).contains(&shifts.work_by_height), "{shifts:?}");
+        let other = Scene { adhesion: Some(Adhesion::by_work(0.3)), ..scene.clone() };
+        let same = found(&others, &other, EnsembleOptions { jobs: 3, ..OPTIONS }).unwrap();
+        assert_eq!(same, fit);
+        let stated = EnsembleOptions { height_error: Some(0.1), hurst_error: Some(0.0), ..OPTIONS };
+        let wider = found(&others, &scene, stated).unwrap();
+        let added = NORMAL * 0.1 * shifts.work_by_height;
+        assert!((wider.work.half_width() - fit.work.half_width().hypot(added)).abs() < 0.02 * added);
+    }
+
+    #[test]
+    fn curves_that_cannot_be_compared_are_refused() {
+        let (scene, all) = curves(2, None);
+        let smooth = Scene { roughness: None, ..scene.clone() };
+        let turned = all[0].1.segment.partition_point(|segment| *segment == 0);
+        let cut = |from: usize, to: usize| {
+            let mut curve = all[0].1.clone();
+            for values in [&mut curve.displacement, &mut curve.force] {
+                *values = values[from..to].to_vec();
+            }
+            curve.segment = curve.segment[from..to].to_vec();
+            vec![("cut".to_owned(), curve)]
+        };
+        let few = EnsembleOptions { lines: 8, ..OPTIONS };
+        let twice = vec![all[0].clone(), ("again".to_owned(), all[0].1.clone())];
+        for (result, said) in [
+            (found(&all, &smooth, OPTIONS), "the profile of the scene is not random"),
+            (found(&[], &scene, OPTIONS), "no curve"),
+            (found(&all, &scene, few), "--lines 8"),
+            (found(&twice, &scene, OPTIONS), "again: the same curve as place 0"),
+            (
+                found(&cut(0, turned + 120), &scene, OPTIONS),
+                "cut: the retraction ends before contact is lost",
+            ),
+            (found(&cut(turned, 2 * turned), &scene, OPTIONS), "cut: no approach and retraction"),
+        ] {
+            let error = result.unwrap_err().to_string();
+            assert!(error.contains(said) && error.contains("allowed: "), "{said}: {error}");
+        }
+        let stopped = fit_ensemble(&all, &document(&scene), &OPTIONS, &|| true, &|_| ());
+        assert!(matches!(stopped, Err(ExperimentError::Run(_))));
+    }
 }

@@ -127,3 +127,45 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<[f64; 2]>) -> Vec<[f64; 2]> 
     }
     right
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// A relation of second degree is learned, by each half from its own lines.
+    #[test]
+    fn a_polynomial_of_second_degree_is_learned() {
+        let mut generator = ChaCha8Rng::seed_from_u64(1);
+        let mut random = || {
+            let summaries: Summaries = std::array::from_fn(|_| generator.random_range(-1.0..1.0));
+            Described { summaries, preload: Some(generator.random_range(5.0..6.0)) }
+        };
+        let parameters = |of: &Described| {
+            let [one, other, third] = [of.summaries[0], of.summaries[4], of.preload.unwrap()];
+            [3.0 + one - 2.0 * other * third, 7.0 * one * one - other]
+        };
+        let curves: Vec<_> = (0..2000)
+            .map(|index| {
+                let of = random();
+                // The lines of one half are off by 1: the other half does not learn it.
+                let [work, modulus] = parameters(&of);
+                (index % 16, of, [work + f64::from(u8::from(index % 2 == 0)), modulus])
+            })
+            .collect();
+        let learned = Learned::from(&curves);
+        let of = random();
+        let [work, modulus] = parameters(&of);
+        for (found, expected) in [
+            (learned.of_line(0, &of), [work, modulus]),
+            (learned.of_line(1, &of), [work + 1.0, modulus]),
+            (learned.of_curve(&of), [work + 0.5, modulus]),
+        ] {
+            assert!(
+                found.iter().zip(expected).all(|(one, other)| (one - other).abs() < 0.01),
+                "{found:?} {expected:?}"
+            );
+        }
+    }
+}

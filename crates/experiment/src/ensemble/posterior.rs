@@ -163,3 +163,57 @@ impl Posterior<'_> {
         ends.into_iter().filter(|end| share(*end) > MOST_AT_END).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::summary::SUMMARIES;
+
+    /// Learned values that are the parameters themselves, with a scatter of `deviation` over the lines.
+    fn grid(deviation: f64, known: Option<f64>, lines: usize) -> Grid {
+        let axis = |count: u8, step: f64| (0..count).map(|at| step * f64::from(at) - 1.5).collect();
+        let moduli = known.map_or_else(|| axis(7, 0.5), |modulus| vec![modulus]);
+        let mut table = Table { ranges: axis(16, 0.2), moduli, lines: Vec::new() };
+        let places: Vec<Place> = table.places().collect();
+        table.lines = vec![vec![[0.0; SUMMARIES]; places.len()]; lines];
+        // Two values of each line, uncorrelated and of this standard deviation.
+        let size = deviation * ((lines - 1) as f64 / lines as f64).sqrt();
+        let sign = |on: bool| if on { size } else { -size };
+        let scatter = Scatter::of(&table, |line, node| {
+            let [work, modulus] = places[node].parameters();
+            if known.is_some() {
+                [work + sign(line % 2 == 0), 0.0]
+            } else {
+                [work + sign(line % 2 == 0), modulus + sign(line / 2 % 2 == 0)]
+            }
+        });
+        Grid::new(&table, &scatter, known)
+    }
+
+    #[test]
+    fn intervals_have_the_errors_of_curves_and_profiles() {
+        let error = 0.2 * (1.0_f64 / 8.0 + 1.0 / 400.0).sqrt();
+        for known in [None, Some(0.0)] {
+            let grid = grid(0.2, known, 400);
+            let posterior = grid.posterior([0.1, 0.0], 8.0);
+            let work = posterior.estimate(0);
+            assert!((work.value.ln() - 0.1).abs() < 1e-3, "{work:?}");
+            assert!((work.half_width() / (1.96 * error) - 1.0).abs() < 0.02, "{work:?} {error}");
+            assert_eq!(posterior.beyond(), []);
+            assert!(posterior.correlation().abs() < 0.01);
+            let best = posterior.best();
+            assert!((best.range - 0.1).abs() < 0.03 && best.modulus.abs() < 0.02, "{best:?}");
+        }
+    }
+
+    #[test]
+    fn ends_of_the_table_are_named_and_errors_add_in_quadrature() {
+        let grid = grid(0.2, None, 64);
+        assert_eq!(grid.posterior([1.4, -0.1], 8.0).beyond(), [End::HighRange]);
+        assert_eq!(grid.posterior([0.0, -1.4], 8.0).beyond(), [End::HighRange, End::LowModulus]);
+        let widened = Estimate { value: 1.0, low: (-0.3_f64).exp(), high: 0.4_f64.exp() }.widened(0.3);
+        assert!(
+            (widened.low.ln() + 0.3_f64.hypot(0.3)).abs() < 1e-12 && (widened.high.ln() - 0.5).abs() < 1e-12
+        );
+    }
+}

@@ -102,3 +102,52 @@ impl Scatter {
         moments
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::summary::SUMMARIES;
+
+    /// A table whose first summary is a cubic of the place, with a scatter of 1 over two lines.
+    fn cubic(place: Place, line: usize) -> f64 {
+        place.range.powi(3) - 2.0 * place.range * place.modulus.powi(2) + [-0.5, 0.5][line] * place.range
+    }
+
+    #[test]
+    fn means_are_exact_for_cubics_and_covariances_lie_between_nodes() {
+        let (ranges, moduli): (Vec<f64>, Vec<f64>) = (
+            (0..7).map(|at| 0.5 * f64::from(at)).collect(),
+            (0..4).map(|at| 1.0 + 0.3 * f64::from(at)).collect(),
+        );
+        let mut table = Table { ranges, moduli, lines: Vec::new() };
+        let places: Vec<Place> = table.places().collect();
+        table.lines = (0..2)
+            .map(|line| places.iter().map(|place| [cubic(*place, line); SUMMARIES]).collect())
+            .collect();
+        let scatter = Scatter::of(&table, |line, node| [table.lines[line][node][0], 0.0]);
+        for (range, modulus) in [(0.1, 1.05), (1.3, 1.6), (2.9, 1.9), (1.5, 1.3)] {
+            let place = Place { range, modulus };
+            let found = scatter.at(place);
+            let expected = range.powi(3) - 2.0 * range * modulus * modulus;
+            assert!((found.mean[0] - expected).abs() < 1e-12, "{place:?}: {found:?}");
+            let node = (2.0 * range).floor() / 2.0;
+            let square = |at: f64| 0.5 * at * at;
+            let between = square(node) + (range - node) / 0.5 * (square(node + 0.5) - square(node));
+            assert!((found.covariance[0] - between).abs() < 1e-12, "{place:?}: {found:?}");
+            assert_eq!((found.mean[1], found.covariance[2]), (0.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn the_distance_is_that_of_the_covariance() {
+        let values = [[1.0, 2.0], [3.0, 1.0], [2.0, 6.0], [6.0, 3.0]];
+        let moments = Moments::of(&values);
+        assert_eq!(moments.mean, [3.0, 3.0]);
+        let (inverse, determinant) = moments.inverse();
+        // The squared distances of n values sum up to their dimension times n − 1.
+        let sum: f64 = values.iter().map(|value| distance(moments.mean, inverse, *value)).sum();
+        assert!((sum - 6.0).abs() < 1e-12);
+        let [one, both, other] = moments.covariance;
+        assert!((determinant.exp() - (one * other - both * both)).abs() < 1e-12);
+    }
+}

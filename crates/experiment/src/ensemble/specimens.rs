@@ -1,8 +1,8 @@
 //! Curves of specimens with known values, for tests.
 
 use crate::curve::MeasuredCurve;
-use crate::made::{gauss, read};
-use crate::options::Drift;
+use crate::made::{from_text, gauss, lines};
+use crate::options::{CurveOptions, Negate};
 use asperity_contact::{CurvePoint, Move};
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
 
@@ -58,5 +58,8 @@ pub(super) fn curve(simulation: &mut Simulation, scene: &Scene, seed: u64, share
         }
     }
     let disturbed = points.into_iter().zip(noise);
-    read(disturbed.map(|((place, force), noise)| (place + 1e-6, force + noise + 3e-7)), Drift::Keep)
+    let moved = disturbed.map(|((place, force), noise)| (place + 1e-6, force + noise + 3e-7));
+    let scaled = moved.map(|(place, force)| (1e9 * place, 1e9 * force));
+    let options = CurveOptions { negate: Some(Negate::None), ..CurveOptions::default() };
+    from_text(&lines(scaled), &options).unwrap()
 }

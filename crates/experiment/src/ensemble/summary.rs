@@ -19,6 +19,7 @@ pub(crate) const NAMES: [&str; SUMMARIES] = [
     "work of the tension on approach",
 ];
 /// Indices of summaries that the result states in their units.
+pub(crate) const PULL_OFF: usize = 0;
 pub(crate) const LOOP_AREA: usize = 1;
 pub(crate) const WAY_TO_HALF: usize = 3;
 
@@ -99,4 +100,39 @@ fn largest_tension(branch: &[Point]) -> (f64, f64) {
     let bend = before.1 - 2.0 * at.1 + after.1;
     let share = if bend > 0.0 { 0.5 * (before.1 - after.1) / bend } else { 0.0 };
     (-at.1, at.0 + 0.5 * share * (after.0 - before.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spring of 1 N/m that presses to 100 N, and whose contact breaks at −40 N.
+    fn sawtooth() -> Branches {
+        let ramp = |place: f64, end: f64| if place >= end { 100.0 + place } else { 0.0 };
+        let approach = (0..=250)
+            .map(|at| f64::from(at) - 200.5)
+            .map(|at| (at, ramp(at, -100.0)))
+            .filter(|at| at.0 < 0.0);
+        let approach: Vec<Point> = approach.chain([(0.0, 100.0)]).collect();
+        let retraction = (0..=400).map(|at| -0.5 * f64::from(at)).map(|at| (at, ramp(at, -140.0))).collect();
+        Branches { approach, retraction, noise: 0.1, free: 50 }
+    }
+
+    #[test]
+    fn summaries_are_those_of_a_sawtooth() {
+        let found = summaries(&sawtooth(), 100.0).map(f64::exp);
+        // Forces, energies and distances; the floor of a tension is 3 noises, and a jump lies between two points.
+        let least_work = 0.3 * (200.0 / 401.0) * 401.0_f64.sqrt();
+        let expected = [40.0, 810.0, 802.0, 50.0, 50.0, 100.0, 90.0, 140.0, 140.5, 0.3, least_work];
+        for ((found, expected), name) in found.into_iter().zip(expected).zip(NAMES) {
+            assert!((found / expected - 1.0).abs() < 0.01, "{name}: {found}, {expected}");
+        }
+    }
+
+    /// A place that lies between two points moves with the curve, and not by steps from point to point.
+    #[test]
+    fn distances_are_interpolated() {
+        let of = |preload: f64| summaries(&sawtooth(), preload)[WAY_TO_HALF].exp();
+        assert!((of(100.2) - 49.9).abs() < 1e-9 && (of(100.4) - 49.8).abs() < 1e-9);
+    }
 }

@@ -122,9 +122,47 @@ impl Table {
     pub fn places(&self) -> impl Iterator<Item = Place> {
         self.ranges.iter().flat_map(|&range| self.moduli.iter().map(move |&modulus| Place { range, modulus }))
     }
+}
 
-    /// Summaries of all lines at the node with this number.
-    pub fn at_node(&self, node: usize) -> impl Iterator<Item = &Summaries> {
-        self.lines.iter().map(move |line| &line[node])
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::branches::Branches;
+    use crate::ensemble::computed::Protocol;
+    use crate::ensemble::specimens::{curve, scene};
+
+    /// A table that was extended is the larger table from the beginning, by any number of threads.
+    #[test]
+    fn extended_tables_are_larger_tables() {
+        let mut scene = scene("rough-sphere");
+        scene.numerics.points = 1024;
+        scene.set_seed(3);
+        let branches = Branches::of(&curve(&mut Simulation::default(), &scene, 3, 0.01)).unwrap();
+        let protocols = [Protocol::of(&branches, branches.preload())];
+        let computed = AtomicUsize::new(0);
+        let workers = |jobs| Workers {
+            specimen: Specimen {
+                scene: &scene,
+                stiffness: 200.0,
+                closing: 0.5,
+                protocols: &protocols,
+                stop: &|| false,
+            },
+            folder: Path::new(""),
+            jobs,
+            computed: &computed,
+            report: &|_| (),
+        };
+        let (one, three) = (workers(1), workers(3));
+        let mut grown = Table::new(&one, 3, nodes(-18.0, 0.5, 2), nodes(14.5, 0.5, 2)).unwrap();
+        for end in [End::LowRange, End::HighModulus, End::HighRange, End::LowModulus] {
+            grown.extend(&three, end, 1).unwrap();
+        }
+        assert_eq!(computed.load(Ordering::Relaxed), 3 * 16);
+        let whole = Table::new(&three, 3, nodes(-18.5, 0.5, 4), nodes(14.0, 0.5, 4)).unwrap();
+        assert_eq!((&grown.ranges, &grown.moduli), (&whole.ranges, &whole.moduli));
+        assert_eq!(grown.lines, whole.lines);
+        let stopped = Workers { specimen: Specimen { stop: &|| true, ..one.specimen }, ..one };
+        assert!(stopped.curves(1, &[-18.0], &[14.5]).is_err());
     }
 }
