@@ -1,8 +1,7 @@
 //! `asperity fit … --lines`: the work of adhesion of a rough body by comparison with random profiles.
 
 use super::error::CliError;
-use super::fit::FitArguments;
-use super::fits::files_of;
+use super::fits::{Curves, files_of};
 use super::output::Origin;
 use super::progress::ProgressLine;
 use super::scene::{open_scene, threads};
@@ -65,12 +64,16 @@ fn is_modulus_free(free: &[Free]) -> Result<bool, CliError> {
 }
 
 /// Compares the curves of `fit` with `lines` random profiles.
-pub(super) fn ensemble(arguments: &FitArguments, lines: u32, stdout: &mut dyn Write) -> Result<(), CliError> {
+pub(super) fn ensemble(
+    arguments: &Curves<'_>,
+    compared: &EnsembleArguments,
+    lines: u32,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
-    let is_modulus_free = is_modulus_free(&arguments.free)?;
-    let (scene, files) = arguments.scene_and_curves()?;
-    let document = arguments.overrides.apply(open_scene(&scene)?)?;
-    let reading = arguments.reading_with(&document);
+    let is_modulus_free = is_modulus_free(arguments.free)?;
+    let document = arguments.overrides.apply(open_scene(arguments.scene)?)?;
+    let reading = arguments.reading_for(&document);
     let read = |path: &std::path::PathBuf| {
         let name = path_name(path);
         match MeasuredCurve::read(path, &reading) {
@@ -78,11 +81,11 @@ pub(super) fn ensemble(arguments: &FitArguments, lines: u32, stdout: &mut dyn Wr
             Err(error) => Err(CliError::named(&name, no_curve(path, &error))),
         }
     };
-    let curves = files_of(files, arguments.output.output.as_deref())?
+    let curves = files_of(arguments.paths, arguments.output.file())?
         .iter()
         .map(read)
         .collect::<Result<Vec<_>, _>>()?;
-    let EnsembleArguments { height_error, hurst_error, .. } = arguments.ensemble;
+    let EnsembleArguments { height_error, hurst_error, .. } = *compared;
     let options = EnsembleOptions {
         lines: u64::from(lines),
         is_modulus_free,

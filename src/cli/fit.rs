@@ -12,9 +12,7 @@ use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as 
 use asperity_report::FitReport;
 use asperity_report::Format;
 use asperity_report::named_from;
-use asperity_scene::Document;
 use clap::Args;
-use std::borrow::Cow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -31,9 +29,9 @@ Examples:
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
 retraction, or a retraction alone that ends without contact. The scene is the last argument. A
 form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, or a folder of them, give a
-row each; a table (-o FILE.csv) that is not complete is continued by the same command. JSON is one object with the parameters and their errors; CSV and .npy hold
-the columns displacement, force, model, residual and segment. docs/experiment.md lists the
-parameters.";
+row each; a table (-o FILE.csv) that is not complete is continued by the same command. JSON of
+one curve is one object with the parameters and their errors; CSV and .npy hold the columns
+displacement, force, model, residual and segment. docs/experiment.md lists the parameters.";
 
 /// Arguments of `fit`.
 #[derive(Args, Debug)]
@@ -63,54 +61,33 @@ pub struct FitArguments {
     pub output: OutputArguments,
 }
 
-impl FitArguments {
-    /// Options of reading, with the instrument of the scene.
-    pub(super) fn reading_with(&self, document: &Document) -> CurveOptions {
-        CurveOptions { instrument: document.scene().loading_stiffness, ..self.reading.clone() }
-    }
-
-    /// The scene, which is the last file, and the curves before it.
-    ///
-    /// # Errors
-    /// There is one file alone.
-    pub(super) fn scene_and_curves(&self) -> Result<(Cow<'_, str>, &[PathBuf]), CliError> {
-        match self.files.split_last() {
-            Some((scene, curves)) if !curves.is_empty() => Ok((scene.to_string_lossy(), curves)),
-            only => {
-                let only = only.map(|(path, _)| path_name(path)).unwrap_or_default();
-                Err(CliError::named(only, "one file; allowed: a curve or several, and last the scene"))
-            }
-        }
-    }
-}
-
 pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let (scene, curves) = arguments.scene_and_curves()?;
-    if let Some(lines) = arguments.ensemble.lines {
-        return ensemble(arguments, lines, stdout);
-    }
-    let path = match curves {
-        [path] if !path.is_dir() => path,
-        _ if arguments.scene.is_some() => {
-            return Err(CliError::named(
-                "--scene",
-                "several curves; allowed: one curve, whose scene is written",
-            ));
-        }
-        _ => {
-            let FitArguments { overrides, free, reading, jobs, output, .. } = arguments;
-            let jobs = *jobs;
-            let curves = Curves { paths: curves, scene: &scene, overrides, free, reading, jobs, output };
-            return fit_all(&curves, stdout);
-        }
+    let FitArguments { files, overrides, free, reading, jobs, output, ensemble: compared, .. } = arguments;
+    let Some((scene, paths)) = files.split_last().filter(|(_, paths)| !paths.is_empty()) else {
+        let only = files.first().map(|path| path_name(path)).unwrap_or_default();
+        return Err(CliError::named(only, "one file; allowed: a curve or several, and last the scene"));
     };
+    let scene = scene.to_string_lossy();
+    let curves = Curves { paths, scene: &scene, overrides, free, reading, jobs: *jobs, output };
+    let is_one = matches!(paths, [path] if !path.is_dir());
+    if arguments.scene.is_some() && !(is_one && compared.lines.is_none()) {
+        let fault = "several curves or profiles; allowed: a fit of one curve, whose scene is written";
+        return Err(CliError::named("--scene", fault));
+    }
+    if let Some(lines) = compared.lines {
+        return ensemble(&curves, compared, lines, stdout);
+    }
+    let [path] = paths else { return fit_all(&curves, stdout) };
+    if path.is_dir() {
+        return fit_all(&curves, stdout);
+    }
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
         check_file(file, "ron", arguments.output.force)?;
     }
     let document = arguments.overrides.apply(open_scene(&scene)?)?;
     let title = path_name(path);
-    let reading = arguments.reading_with(&document);
+    let reading = curves.reading_for(&document);
     let curve = MeasuredCurve::read(path, &reading)
         .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
     let options = FitOptions { free: arguments.free.clone(), lines: 1, jobs: threads(arguments.jobs) };

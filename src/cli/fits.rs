@@ -72,6 +72,13 @@ pub(super) struct Curves<'a> {
     pub output: &'a OutputArguments,
 }
 
+impl Curves<'_> {
+    /// Options of reading, with the instrument of the scene.
+    pub(super) fn reading_for(&self, document: &Document) -> CurveOptions {
+        CurveOptions { instrument: document.scene().loading_stiffness, ..self.reading.clone() }
+    }
+}
+
 /// What all curves have in common.
 struct Batch<'a> {
     document: Document,
@@ -99,7 +106,7 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     let batch = Batch {
         options: FitOptions { free: curves.free.to_vec(), lines: 1, jobs: 1 },
         free: Parameter::ALL.into_iter().filter(is_free).collect(),
-        reading: CurveOptions { instrument: document.scene().loading_stiffness, ..curves.reading.clone() },
+        reading: curves.reading_for(&document),
         curves,
         provenance: provenance.map_err(CliError::message)?,
         document,

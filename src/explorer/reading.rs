@@ -4,7 +4,7 @@ use super::measured::Measured;
 use asperity_data::{exact_quantity, format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_experiment::{CurveOptions, Drift, Negate, Tilt};
 use asperity_scene::{Field, Range, ron_float};
-use std::ops::Bound::Included;
+use std::ops::Bound::{Excluded, Included};
 
 /// Path of the group of the measured curve in the list of parameters.
 pub const GROUP: &str = "measured";
@@ -30,6 +30,8 @@ pub struct ReadingOption {
 
 const TEXT: Range = Range::Text { least: 0, most: 4096, lines: false };
 const FORCE: Range = Range::Real(Included(-1e6), Included(1e6));
+/// Allowed lengths, m.
+const LENGTH: Range = Range::Real(Excluded(0.0), Included(1e3));
 const NEGATED: &[&str] = &["by the approach", "none", "displacement", "force", "both"];
 const KEPT: &[&str] = &["keep", "remove"];
 
@@ -38,7 +40,7 @@ const fn option(path: &'static str, name: &'static str, range: Range, meaning: &
 }
 
 /// The options in the order of the list: those that decide whether a curve is read at all come first.
-pub static OPTIONS: [ReadingOption; 9] = [
+pub static OPTIONS: [ReadingOption; 10] = [
     ReadingOption {
         field: option(
             "measured.columns",
@@ -89,6 +91,25 @@ pub static OPTIONS: [ReadingOption; 9] = [
     },
     ReadingOption {
         field: option(
+            "measured.ramp",
+            "travel of the piezo",
+            LENGTH,
+            "travel over which the forces of a file with one column are spaced, there and back (--ramp)",
+        )
+        .in_unit("m"),
+        usual: "of the file",
+        choices: &[],
+        written: |options, format| options.ramp.map(|ramp| format(ramp, "m")),
+        take: |options, typed| {
+            options.ramp = quantity(typed, "m")?;
+            match options.ramp {
+                Some(ramp) if ramp <= 0.0 => Err("allowed: a length above 0, such as 500 nm".to_owned()),
+                _ => Ok(()),
+            }
+        },
+    },
+    ReadingOption {
+        field: option(
             "measured.negate",
             "reversed quantity",
             Range::Choice(NEGATED),
@@ -114,7 +135,7 @@ pub static OPTIONS: [ReadingOption; 9] = [
         choices: &[],
         written: |options, format| options.zero.map(|zero| format(zero, "N")),
         take: |options, typed| {
-            options.zero = force(typed)?;
+            options.zero = quantity(typed, "N")?;
             Ok(())
         },
     },
@@ -168,7 +189,7 @@ pub static OPTIONS: [ReadingOption; 9] = [
         choices: &[],
         written: |options, format| options.noise.map(|noise| format(noise, "N")),
         take: |options, typed| {
-            options.noise = force(typed)?;
+            options.noise = quantity(typed, "N")?;
             match options.noise {
                 Some(noise) if noise <= 0.0 => {
                     Err("allowed: a standard deviation above 0, such as 2 nN".to_owned())
@@ -204,11 +225,11 @@ fn listed(words: &[String]) -> Option<String> {
     (!words.is_empty()).then(|| words.join(","))
 }
 
-fn force(typed: &str) -> Result<Option<f64>, String> {
+fn quantity(typed: &str, unit: &str) -> Result<Option<f64>, String> {
     if typed.is_empty() {
         return Ok(None);
     }
-    parse_quantity(typed, "N").map(Some).map_err(|error| error.to_string())
+    parse_quantity(typed, unit).map(Some).map_err(|error| error.to_string())
 }
 
 fn one_of(typed: &str, choices: &'static [&'static str]) -> String {

@@ -126,8 +126,10 @@ fn a_curve_is_opened_by_its_path_and_closed_by_an_undo() {
     driver.press("o");
     driver.type_text(path.to_str().unwrap());
     driver.press("Enter");
-    driver
-        .shows_all(["the scene has the loading of the measured curve; u closes it", "points in 2 segments"]);
+    driver.shows_all([
+        "the scene has the loading of the measured curve; u closes it",
+        "points used in 2 segments",
+    ]);
     let loading = driver.document().scene().loading.clone();
     assert!(matches!(loading[0], Move::ToDisplacement(_)), "{loading:?}");
     assert_eq!(driver.app.edit.parameter().map(|row| &*row.path), Some("measured"));
