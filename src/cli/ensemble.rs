@@ -72,6 +72,11 @@ pub(super) fn ensemble(
 ) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let is_modulus_free = is_modulus_free(arguments.free)?;
+    if arguments.reading.noise.is_some() {
+        let refused =
+            "not with --lines, whose computed curves have the noise before contact; allowed: without it";
+        return Err(CliError::named("--noise", refused));
+    }
     let document = arguments.overrides.apply(open_scene(arguments.scene)?)?;
     let reading = arguments.reading_for(&document);
     let read = |path: &std::path::PathBuf| {

@@ -4,11 +4,11 @@ use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
 use super::fits::{Curves, fit_all};
 use super::output::{Origin, OutputArguments, check_file};
-use super::scene::{Overrides, open_scene, threads};
+use super::scene::{Overrides, open_scene};
 use crate::explorer::recognition::no_curve;
 use asperity_data::path_name;
 use asperity_data::write_new;
-use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, fit as find};
+use asperity_experiment::{CurveOptions, Free, MeasuredCurve, fit as find};
 use asperity_report::FitReport;
 use asperity_report::Format;
 use asperity_report::named_from;
@@ -90,8 +90,7 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
     let reading = curves.reading_for(&document);
     let curve = MeasuredCurve::read(path, &reading)
         .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
-    let options = FitOptions { free: arguments.free.clone(), lines: 1, jobs: threads(arguments.jobs) };
-    let found = find(&curve, &document, &options, &|| false, &mut |_| ());
+    let found = find(&curve, &document, &arguments.free, &|| false, &mut |_| ());
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     if let Some(file) = &arguments.scene {
         let folder = file.parent().unwrap_or(Path::new(""));

@@ -7,7 +7,7 @@ use super::scene::{Overrides, threads};
 use asperity_data::{
     check_writable, grouped, on_threads, path_name, printable, read_regular_text, write_new,
 };
-use asperity_experiment::{CurveOptions, FitOptions, Free, MeasuredCurve, Parameter, fit as find};
+use asperity_experiment::{CurveOptions, Free, MeasuredCurve, Parameter, fit as find};
 use asperity_report::FitReport;
 use asperity_report::scene_provenance;
 use asperity_report::{CurveRow, FitsReport};
@@ -82,7 +82,6 @@ impl Curves<'_> {
 /// What all curves have in common.
 struct Batch<'a> {
     document: Document,
-    options: FitOptions,
     free: Vec<Parameter>,
     reading: CurveOptions,
     curves: &'a Curves<'a>,
@@ -104,7 +103,6 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     let provenance = scene_provenance(&command(), document.scene(), &document.resolve(""), output.folder());
     let is_free = |one: &Parameter| curves.free.iter().any(|free| free.parameter == *one);
     let batch = Batch {
-        options: FitOptions { free: curves.free.to_vec(), lines: 1, jobs: 1 },
         free: Parameter::ALL.into_iter().filter(is_free).collect(),
         reading: curves.reading_for(&document),
         curves,
@@ -171,7 +169,7 @@ impl Batch<'_> {
 
     fn row(&self, path: &Path, name: String) -> CurveRow {
         let fitted = MeasuredCurve::read(path, &self.reading).and_then(|curve| {
-            let fit = find(&curve, &self.document, &self.options, &|| false, &mut |_| ())?;
+            let fit = find(&curve, &self.document, self.curves.free, &|| false, &mut |_| ())?;
             Ok(CurveRow::of(name.clone(), &FitReport { title: &name, curve: &curve, fit: &fit }))
         });
         fitted.unwrap_or_else(|error| CurveRow {

@@ -5,7 +5,7 @@ use crate::baseline::dot;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::model::Model;
-use crate::parameter::{Coordinate, FitOptions, Parameter, Values};
+use crate::parameter::{Coordinate, Free, Parameter, Values};
 use crate::population::WRONG_SIDE;
 use crate::reason::{Reason, reason};
 use crate::scene::{with_values, wrong};
@@ -13,7 +13,6 @@ use crate::search::{Found, MISFIT, Search};
 use crate::space::Space;
 use crate::statistics::{block_error, correlated, correlation, spread, widen};
 use asperity_data::format_within;
-use asperity_data::on_threads;
 use asperity_scene::Document;
 use asperity_scene::Simulation;
 use asperity_scene::scene_tabor_number;
@@ -41,8 +40,6 @@ pub struct FittedParameter {
     pub interval: (f64, f64),
     /// Standard error due to the noise.
     pub noise_error: f64,
-    /// Standard deviation of the value over fits on other random profiles.
-    pub profile_error: Option<f64>,
     /// Value at which the search began.
     pub start: f64,
     /// Range in which the value was searched.
@@ -127,15 +124,14 @@ impl Fit {
 pub fn fit(
     curve: &MeasuredCurve,
     document: &Document,
-    options: &FitOptions,
+    free: &[Free],
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(usize),
 ) -> Result<Fit, ExperimentError> {
     let mut simulation = Simulation::new(document.resolve(""));
     let instrument = curve.with_instrument(document).map_err(wrong)?.1;
-    let (document, space) = Space::of(curve, document, &mut simulation, options, stop)?;
+    let (document, space) = Space::of(curve, document, &mut simulation, free, stop)?;
     let (found, rests, evaluations) = searched(curve, &document, &mut simulation, &space, report)?;
-    let others = other_profiles(&document, options, &space)?;
     let values = space.values(&found.best.at);
     let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
         samples.iter().map(|at| space.values(at)[one.parameter as usize]).collect()
@@ -149,17 +145,13 @@ pub fn fit(
         let of = |values: &Values| values[one.parameter as usize];
         let (noise_error, (low, high)) = spread(of_samples(&samples, one));
         let noise_error = noise_error.max(by_blocks(one));
-        let over_profiles = || spread(others.iter().chain([&values]).map(of).collect()).0;
-        let profile_error = (!others.is_empty()).then(over_profiles);
-        // The profile of the specimen is one draw, and that of the scene another one.
-        let error = (2.0 * profile_error.unwrap_or(0.0).powi(2) + noise_error.powi(2)).sqrt();
-        let (value, half) = (of(&values), NORMAL * error);
+        let (value, half) = (of(&values), NORMAL * noise_error);
         let least = if one.parameter.is_signed() { f64::NEG_INFINITY } else { 0.0 };
         let is_bound = one.parameter == Parameter::Work && is_without_adhesion;
         let low = if is_bound { 0.0 } else { low.min(value - half).max(least) };
         let Coordinate { parameter, start, range, .. } = *one;
         let interval = (low, high.max(value + half));
-        FittedParameter { parameter, start, range, value, interval, noise_error, profile_error }
+        FittedParameter { parameter, start, range, value, interval, noise_error }
     };
     let parameters: Vec<FittedParameter> = space.coordinates.iter().map(fitted).collect();
     let name = |index: usize| space.coordinates[index].parameter;
@@ -241,30 +233,11 @@ fn searched(
     Ok((found, rests, evaluations))
 }
 
-/// Values of fits to the same curve on other random profiles of the scene.
-fn other_profiles(
-    document: &Document,
-    options: &FitOptions,
-    space: &Space<'_>,
-) -> Result<Vec<Values>, ExperimentError> {
-    let worker = || {
-        let mut simulation = Simulation::new(document.resolve(""));
-        move |number: u64| {
-            let seed = document.scene().seed().unwrap_or_default().wrapping_add(number + 1);
-            let model = Model::new(space.curve, &document.scene().with_seed(seed), &mut simulation);
-            let mut search = Search { space, model, report: &mut |_| (), lines: space.lines() };
-            Ok(space.values(&search.roughly()?))
-        }
-    };
-    on_threads(options.lines.saturating_sub(1), options.jobs, worker)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::made::{
-        Made, fit_from, fitted, force_curve, gauss, measured, noise, on_rubber, random, read, rubber,
-        rubber_of, truth,
+        Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
     };
     use crate::options::Drift;
     use asperity_contact::Move;
@@ -402,24 +375,5 @@ mod tests {
         };
         assert_eq!(found(0.05), []);
         assert_eq!(found(0.2), [(Parameter::Modulus, Parameter::Modulus)]);
-    }
-
-    /// The scatter over random profiles counts twice: for the profile of the specimen and for the profile of the scene.
-    #[test]
-    fn the_interval_holds_the_scatter_over_profiles() {
-        let made = random(11, 1024);
-        let points = force_curve(&made.scene).into_iter().zip(noise(&made, 11)).step_by(5);
-        let curve =
-            read(points.map(|((displacement, force), noise)| (displacement, force + noise)), Drift::Keep);
-        let document = Document::from_scene(&made.scene, "made").unwrap();
-        let options = |lines| FitOptions { free: vec!["work".parse().unwrap()], lines, jobs: 1 };
-        let fit =
-            |lines| fit(&curve, &document, &options(lines), &|| false, &mut |_| ()).unwrap().parameters[0];
-        let (one, two) = (fit(1), fit(2));
-        assert_eq!((one.profile_error, one.value, one.noise_error), (None, two.value, two.noise_error));
-        let profile_error = two.profile_error.unwrap();
-        assert!(profile_error > 1e-3 * two.value, "{two:?}");
-        let half = NORMAL * (2.0 * profile_error.powi(2) + two.noise_error.powi(2)).sqrt();
-        assert!((two.interval.1 - two.value - half).abs() < 0.01 * half, "{two:?}");
     }
 }

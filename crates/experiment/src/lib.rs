@@ -41,5 +41,5 @@ pub use ensemble::result::{
 pub use error::ExperimentError;
 pub use fit::{Fit, FittedParameter, fit};
 pub use options::{CurveOptions, Drift, Negate, Tilt};
-pub use parameter::{FitOptions, Free, Parameter, Row};
+pub use parameter::{Free, Parameter, Row};
 pub use reason::Reason;

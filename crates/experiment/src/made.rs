@@ -3,8 +3,7 @@
 use crate::curve::MeasuredCurve;
 use crate::fit::{Fit, fit};
 use crate::options::{CurveOptions, Drift};
-use crate::parameter::FitOptions;
-use crate::parameter::Parameter;
+use crate::parameter::{Free, Parameter};
 use crate::scene::radius_of;
 use asperity_contact::CurvePoint;
 use asperity_contact::Move;
@@ -201,8 +200,8 @@ pub(crate) fn truth(made: &Made, parameter: Parameter) -> f64 {
 }
 
 pub(crate) fn fit_from(curve: &MeasuredCurve, document: &Document, free: &str) -> Fit {
-    let free = free.split(',').map(|one| one.parse().unwrap()).collect();
-    fit(curve, document, &FitOptions { free, lines: 1, jobs: 1 }, &|| false, &mut |_| ()).unwrap()
+    let free: Vec<Free> = free.split(',').map(|one| one.parse().unwrap()).collect();
+    fit(curve, document, &free, &|| false, &mut |_| ()).unwrap()
 }
 
 /// The fit of free parameters whose search begins far from the truth.

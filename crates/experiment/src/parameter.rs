@@ -155,17 +155,6 @@ impl FromStr for Free {
     }
 }
 
-/// Options of a fit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FitOptions {
-    /// Parameters to be fitted.
-    pub free: Vec<Free>,
-    /// Number of random profiles on which the fit is repeated; 1 for the profile of the scene alone.
-    pub lines: u64,
-    /// Number of threads that share the profiles.
-    pub jobs: usize,
-}
-
 /// Coordinate in which a free parameter is searched: value over a unit, share of the work of adhesion (for the work on
 /// closing), or logarithm. The coordinate of the work of adhesion is linear up to its unit, so that it reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -234,11 +234,6 @@ impl Search<'_> {
         Ok(Found { best: population.best, rests, noise, samples, blocks, without_adhesion })
     }
 
-    /// Coordinates of the best member of a single population.
-    pub fn roughly(&mut self) -> Result<Vec<f64>, ExperimentError> {
-        Ok(self.first()?.0.best.at)
-    }
-
     /// Smallest cost of a scene without adhesion less the cost of the best member; infinite if no sample comes close to no
     /// adhesion.
     fn without_adhesion(

@@ -3,7 +3,7 @@
 use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
-use crate::parameter::{Coordinate, FitOptions, Free, Parameter, Values};
+use crate::parameter::{Coordinate, Free, Parameter, Values};
 use crate::population::WRONG_SIDE;
 use crate::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use crate::start::{Known, Starts};
@@ -46,10 +46,10 @@ impl<'a> Space<'a> {
         curve: &'a MeasuredCurve,
         document: &Document,
         simulation: &mut Simulation,
-        options: &FitOptions,
+        free: &[Free],
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Result<(Document, Self), ExperimentError> {
-        check_free(&options.free)?;
+        check_free(free)?;
         let document = curve.with_instrument(document).map_err(wrong)?.0;
         let scene = document.scene();
         if scene.numerics.solver != Solver::Exact {
@@ -58,10 +58,7 @@ impl<'a> Space<'a> {
                 "numerics.solver = Exact",
             );
         }
-        if options.lines > 1 && scene.seed().is_none() {
-            return refused("--lines: the scene has no random profile", "a scene with random roughness");
-        }
-        let is_free = |parameter| options.free.iter().any(|free| free.parameter == parameter);
+        let is_free = |parameter| free.iter().any(|free| free.parameter == parameter);
         let radius = radius_of(scene);
         if is_free(Parameter::Radius) && radius.is_none() {
             return refused(
@@ -115,8 +112,7 @@ impl<'a> Space<'a> {
         let mut coordinates = Vec::new();
         for parameter in Parameter::ALL.into_iter().filter(|&parameter| is_free(parameter)) {
             let start = base[parameter as usize];
-            let given =
-                options.free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
+            let given = free.iter().filter(|free| free.parameter == parameter).find_map(|free| free.range);
             let range = given.unwrap_or_else(|| match parameter {
                 Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
                 Parameter::Zero => (-extent, extent),
@@ -211,9 +207,9 @@ mod tests {
             let changes = [("form", form), ("adhesion", "None")];
             let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
             let document = on_rubber(1e-3, 2e6).set_all(&changes).unwrap();
-            let options = FitOptions { free: vec!["work".parse().unwrap()], lines: 1, jobs: 1 };
+            let free = ["work".parse().unwrap()];
             let mut simulation = Simulation::default();
-            let (_, space) = Space::of(&curve, &document, &mut simulation, &options, &|| false).unwrap();
+            let (_, space) = Space::of(&curve, &document, &mut simulation, &free, &|| false).unwrap();
             let Coordinate { start, range, .. } = space.coordinates[0];
             assert!((start / expected - 1.0).abs() < 1e-12, "{form}: {start:e} {expected:e}");
             assert!(

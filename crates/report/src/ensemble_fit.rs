@@ -3,7 +3,7 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{AxisScale, Kind, Table};
-use asperity_data::{format_quantity, format_range, format_rounded, format_within, grouped, per_cent};
+use asperity_data::{format_quantity, format_range, format_rounded, grouped, per_cent};
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, Estimate, SummaryDeviation};
 use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 
@@ -30,6 +30,7 @@ impl Report for EnsembleFitReport<'_> {
             sheet.paragraph(&text);
         }
         sheet.heading(&format!("Many random profiles of {title}"));
+        fit.instrument.iter().for_each(|text| sheet.paragraph(text));
         let number = fit.curves.len();
         let curves = if number == 1 { "1 curve".to_owned() } else { format!("{number} curves") };
         let spectrum = if has_roughness_errors { "this roughness" } else { "exactly this roughness" };
@@ -172,7 +173,7 @@ const INDEPENDENT: &str = "Each curve counts as a place with a profile of its ow
 
 /// `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
 fn with_interval(of: &Estimate, unit: &str) -> String {
-    let value = format_within(of.value, 0.5 * (of.high - of.low), unit);
+    let value = format_rounded(of.value, 3, unit);
     format!("{value}, {} (95 %)", format_range((of.low, of.high), 3, unit))
 }
 

@@ -50,14 +50,13 @@ impl Report for FitReport<'_> {
         curve.statements.iter().chain(&fit.instrument).for_each(|sentence| sheet.paragraph(sentence));
         sheet.heading(&format!("Fit of {}", fit.document.title()));
         let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
-        let header = ["", "value", "95 % interval", "error by noise", "by profile", "start"];
+        let header = ["", "value", "95 % interval", "standard error", "start"];
         let row = |one: &FittedParameter| {
             [
                 format!("{} {}", one.parameter.row().term, one.parameter.row().symbol),
                 one.text(one.value),
                 format!("{} to {}", one.text(one.interval.0), one.text(one.interval.1)),
                 quantity(one, one.noise_error),
-                one.profile_error.map_or("-".to_owned(), |error| quantity(one, error)),
                 quantity(one, one.start),
             ]
         };

@@ -10,7 +10,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::reading::{OPTIONS, ReadingOption};
 use crate::explorer::studies::Study;
 use asperity_data::{format_quantity, one_unit};
-use asperity_experiment::{Fit, FitOptions, FittedParameter, Free, Parameter, fit};
+use asperity_experiment::{Fit, FittedParameter, Free, Parameter, fit};
 use std::sync::Arc;
 
 /// Number of computed curves between two progress reports of a fit.
@@ -19,25 +19,24 @@ const REPORTED: usize = 64;
 /// The study of the measured curve: the requested fit, or else the position of the curve and the residual.
 pub fn study(app: &App) -> Option<Study> {
     let (curve, document) = (Arc::clone(&app.edit.measured.as_ref()?.curve), app.edit.document.clone());
-    let options = |free| FitOptions { free, lines: 1, jobs: 1 };
     Some(match app.studies.value::<Fitting>() {
         Some(Fitting { free, .. }) => {
-            let (free, options) = (free.clone(), options(free.clone()));
+            let free = free.clone();
             Study::new(app.edit.generation, true, move |_, stop, report| {
                 let mut count = |evaluations: usize| {
                     if evaluations.is_multiple_of(REPORTED) {
                         report(Fitting { free: free.clone(), evaluations, found: None });
                     }
                 };
-                let found = fit(&curve, &document, &options, stop, &mut count);
+                let found = fit(&curve, &document, &free, stop, &mut count);
                 let found = found.map(Arc::new).map_err(|error| error.to_string());
                 Ok(Fitting { free: free.clone(), evaluations: 0, found: Some(found) })
             })
         }
         None => {
-            let options = options(vec![Free { parameter: Parameter::Offset, range: None }]);
+            let free = [Free { parameter: Parameter::Offset, range: None }];
             Study::new(app.edit.generation, true, move |_, stop, _| {
-                let found = fit(&curve, &document, &options, stop, &mut |_| ());
+                let found = fit(&curve, &document, &free, stop, &mut |_| ());
                 found.map(Arc::new).map_err(|error| error.to_string())
             })
         }

@@ -11,7 +11,8 @@ use super::summary::{LOOP_AREA, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF, sum
 use super::table::{Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
-use asperity_data::{mean, median, standard_deviation};
+use crate::scene::wrong;
+use asperity_data::{format_quantity, mean, median, standard_deviation};
 use asperity_scene::{Document, Governing, Roughness, Scene, Simulation, Solver};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -38,6 +39,8 @@ const MOST_GROWTH: usize = 6;
 const DIFFERENT: f64 = 2.0;
 /// Factor within which estimates of the noise of all curves are estimates of one noise, their median.
 const ONE_NOISE: f64 = 1.5;
+/// Difference of the logarithms of two stiffnesses that count as one.
+const SAME_STIFFNESS: f64 = 0.01;
 /// Distance of a curve from the others beyond which lies one of a thousand: quantiles of χ² for one and for two values.
 const FOREIGN: [f64; 2] = [10.8, 13.8];
 /// Smallest pull-off force that is stated, in standard deviations of the noise.
@@ -66,6 +69,7 @@ pub fn fit_ensemble(
     report: &(dyn Fn(usize) + Sync),
 ) -> Result<EnsembleFit, ExperimentError> {
     check(curves, document.scene(), options)?;
+    let (document, instrument) = &of_instrument(curves, document)?;
     let measured = Measured::of(curves)?;
     let (_, governing) = Simulation::new(document.resolve("")).contact(document.scene())?;
     let closing = governing.adhesive_works().map_or(1.0, |[closing, opening]| closing / opening);
@@ -179,6 +183,7 @@ pub fn fit_ensemble(
         },
         prospects: PROSPECTS.into_iter().filter(|one| *one > curves.len() as u64).map(prospect).collect(),
         roughness,
+        instrument: instrument.clone(),
         lines: options.lines,
         computed: computed.load(Ordering::Relaxed),
         preload: mean(&measured.preloads),
@@ -189,6 +194,27 @@ pub fn fit_ensemble(
         deviations,
         at_end_of_table: !posterior.beyond().is_empty(),
     })
+}
+
+/// The scene with the stiffness of the instrument that the files state, and what they change, in words.
+fn of_instrument(
+    curves: &[(String, MeasuredCurve)],
+    document: &Document,
+) -> Result<(Document, Option<String>), ExperimentError> {
+    let of = |curve: &MeasuredCurve| curve.with_instrument(document).map_err(wrong);
+    let first = of(&curves[0].1)?;
+    for (name, curve) in curves {
+        let [one, other] = [&first.0, &of(curve)?.0]
+            .map(|document| document.scene().loading_stiffness.unwrap_or(f64::INFINITY));
+        if one != other && (one / other).ln().abs() > SAME_STIFFNESS {
+            let [one, other] = [one, other].map(|stiffness| format_quantity(stiffness, "N/m"));
+            return refused(
+                format!("{name}: a loading stiffness of {other}, and of {one} in {}", curves[0].0),
+                "curves of one instrument",
+            );
+        }
+    }
+    Ok(first)
 }
 
 /// Returns an error for a scene or options with which curves cannot be compared.
