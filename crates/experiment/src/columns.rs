@@ -85,7 +85,10 @@ impl Choice {
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS);
         let count = columns.len();
         let names = columns.iter().map(|column| &*column.name).filter(|name| !name.is_empty());
-        let all = format!("{count} columns {}", names.map(shown).collect::<Vec<_>>().join(", "));
+        let all = match &*names.map(shown).collect::<Vec<_>>().join(", ") {
+            "" => format!("{count} columns without names"),
+            names => format!("{count} columns {names}"),
+        };
         let named: Vec<Named> = columns.iter().map(Named::of).collect();
         let known = known(&named);
         let place = |wanted: &String| {
