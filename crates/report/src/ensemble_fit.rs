@@ -96,6 +96,12 @@ impl Report for EnsembleFitReport<'_> {
         let header = ["curve", "pull-off", "loop area", "stiffness", "γ", "95 % interval"];
         let rows = fit.curves.iter().map(row);
         sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
+        let ends = fit.curves.iter().filter(|curve| curve.at_end_of_table).count();
+        if ends > 0 {
+            sheet.paragraph(&format!(
+                "{ends} of these intervals reach the end of the computed values, and may be wider."
+            ));
+        }
         sheet.heading(&self.preloads());
         if let Some(ratio) = fit.scatter_ratio {
             let usual = (USUAL_SCATTER[0]..=USUAL_SCATTER[1]).contains(&ratio);
@@ -179,11 +185,7 @@ fn with_interval(of: &Estimate, unit: &str) -> String {
 
 fn row(curve: &CurveOfEnsemble) -> [String; 6] {
     let quantity = |value: f64, unit: &str| format_rounded(value, 3, unit);
-    let mark = match (curve.foreign, curve.at_end_of_table) {
-        (true, _) => ", foreign",
-        (_, true) => ", or beyond",
-        _ => "",
-    };
+    let mark = if curve.foreign { ", foreign" } else { "" };
     [
         curve.name.clone(),
         curve.pull_off_force.map_or("-".to_owned(), |force| quantity(force, "N")),
