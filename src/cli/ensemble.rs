@@ -19,13 +19,13 @@ const LINES: &str = "128";
 /// Arguments of a comparison with random profiles.
 #[derive(Args, Debug)]
 pub struct EnsembleArguments {
-    /// Compare the curves with COUNT random profiles of the roughness; default: 128
+    /// Compare the curves with random profiles of the roughness; default: 128
     ///
-    /// One work of adhesion for all curves of a rough body, each at a place of its own, whose
-    /// profile is unknown. --free work, or work,modulus; the displacement at first touch does
-    /// not matter.
+    /// One work of adhesion for all curves of a rough body of unknown profile, each at a place of
+    /// its own. --free work, or work,modulus; the displacement at first touch does not matter.
     #[arg(
         long,
+        verbatim_doc_comment,
         value_name = "COUNT",
         num_args = 0..=1,
         default_missing_value = LINES,
