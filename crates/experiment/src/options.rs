@@ -99,9 +99,9 @@ pub struct CurveOptions {
     pub ramp: Option<f64>,
     /// Segments that are used: 2 is the retraction alone
     ///
-    /// 1 is the first approach, 2 its retraction, and so on. Default: all; pauses are left out. The
-    /// model runs through the other segments too, and the part before contact still gives zero and
-    /// noise.
+    /// 1 is the first approach, 2 its retraction, and so on. Default: all; pauses are left out.
+    /// The model runs through the other segments too, and the part before contact still gives
+    /// zero and noise.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "NUMBER,...", value_delimiter = ',', verbatim_doc_comment,
