@@ -33,9 +33,9 @@ Examples:
   asperity surface afm.gwy --tip-radius 10nm -o spectra.svg
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
-Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR, Nanoscope
-or NetCDF, also compressed by gzip. Several files are samples of the same roughness. A profile is a
-cut through the surface; the contact is computed on its equivalent line.
+Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR,
+Nanoscope or NetCDF, also compressed by gzip. Several files are samples of the same roughness. A
+profile is a cut through the surface; the contact is computed on its equivalent line.
 
 JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
