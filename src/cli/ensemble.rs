@@ -19,7 +19,7 @@ const LINES: &str = "128";
 /// Arguments of a comparison with random profiles.
 #[derive(Args, Debug)]
 pub struct EnsembleArguments {
-    /// Compare the curves with random profiles of the roughness; default: 128
+    /// Compare the curves with COUNT random profiles; default: 128
     ///
     /// One work of adhesion for all curves of a rough body of unknown profile, each at a place of
     /// its own. --free work, or work,modulus; the displacement at first touch does not matter.
