@@ -1,54 +1,31 @@
 //! The comparison of measured curves with random profiles, step by step.
 
-use super::branches::Branches;
-use super::computed::{Place, Protocol, Specimen};
-use super::deviation::{Mean, Response, deviations};
-use super::learn::{Described, Learned};
-use super::posterior::{Estimate, Grid, Posterior};
-use super::result::{CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares};
-use super::scatter::{Scatter, distance};
-use super::summary::{LOOP_AREA, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF, summaries};
+use super::compared::Compared;
+use super::computed::Specimen;
+use super::deviation::{Response, deviations};
+use super::measured::Measured;
+use super::place::placed;
+use super::posterior::Estimate;
+use super::result::{EnsembleFit, EnsembleOptions, Prospect, Shares};
+use super::shifts::Shifts;
 use super::table::{Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
 use crate::scene::wrong;
-use asperity_data::{format_quantity, mean, median, standard_deviation};
-use asperity_scene::{Document, Governing, Roughness, Scene, Simulation, Solver};
+use asperity_data::{format_quantity, mean};
+use asperity_scene::{Document, Roughness, Scene, Simulation, Solver};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Fewest random profiles: the covariance of fewer is too uncertain.
-pub(crate) const FEWEST_LINES: u64 = 16;
-/// Grid that finds the place of the table: number of lines, steps and numbers of nodes.
-const ROUGH_LINES: u64 = 8;
-const ROUGH_STEPS: [f64; 2] = [0.8, 0.7];
-const ROUGH_NODES: [usize; 2] = [13, 7];
-const MOST_MOVES: usize = 4;
-/// Number of places between two nodes of that grid.
-const FINE_STEPS: usize = 6;
-/// Largest κ = √(h⟨∇z⟩E*/γ) of the first of these grids, which extends to about 1.
-const HIGHEST_KAPPA: f64 = 80.0;
-/// Least scatter of a summary on that grid.
-const LEAST_SCATTER: f64 = 0.1;
-/// Grid of the table: steps and numbers of nodes over ln(γ/E*) and ln E*.
+const FEWEST_LINES: u64 = 16;
+/// Steps and numbers of nodes of the table over ln(γ/E*) and ln E*.
 const STEPS: [f64; 2] = [0.2, 0.462];
 const NODES: [usize; 2] = [16, 4];
 /// Number of nodes by which a table that is too short grows, and number of times.
 const MORE_NODES: [usize; 2] = [4, 1];
 const MOST_GROWTH: usize = 6;
-/// Scatter of the preloads, in units of that by noise, above which they differ.
-const DIFFERENT: f64 = 2.0;
-/// Factor within which estimates of the noise of all curves are estimates of one noise, their median.
-const ONE_NOISE: f64 = 1.5;
 /// Difference of the logarithms of two stiffnesses that count as one.
 const SAME_STIFFNESS: f64 = 0.01;
-/// Distance of a curve from the others beyond which lies one of a thousand: quantiles of χ² for one and for two values.
-const FOREIGN: [f64; 2] = [10.8, 13.8];
-/// Smallest pull-off force that is stated, in standard deviations of the noise.
-const LEAST_PULL_OFF: f64 = 5.0;
-const FEWEST_FOR_SCATTER: usize = 4;
-/// Changes of the logarithm of the rms height and of the Hurst exponent for their derivatives.
-const HEIGHT_STEP: f64 = 0.05;
-const HURST_STEP: f64 = 0.05;
 const NORMAL: f64 = 1.96;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
@@ -110,40 +87,8 @@ pub fn fit_ensemble(
     let posterior = compared.posterior(&measured);
     let best = posterior.best();
     let response = Response::at(&compared.scatter, best, known.is_none());
-    let shifted = |change: &dyn Fn(&mut Roughness, f64)| {
-        let at = |sign: f64| {
-            let mut scene = Scene::clone(document.scene());
-            if let Some(roughness) = &mut scene.roughness {
-                change(roughness, sign);
-            }
-            let others = Workers { specimen: Specimen { scene: &scene, ..workers.specimen }, ..workers };
-            let curves = others.curves(options.lines, &[best.range], &[best.modulus])?;
-            let of = |(line, curve): (usize, &Vec<Summaries>)| compared.of_line(line, &curve[0], &measured);
-            let all: Vec<[f64; 2]> = curves.iter().enumerate().map(of).collect();
-            Ok::<_, ExperimentError>(
-                [0, 1].map(|index| mean(&all.iter().map(|of| of[index]).collect::<Vec<_>>())),
-            )
-        };
-        let [low, high] = [at(-1.0)?, at(1.0)?];
-        // A model whose values are larger needs parameters that make them smaller again.
-        Ok::<_, ExperimentError>(response.explain([0, 1].map(|index| low[index] - high[index])))
-    };
-    let roughness = match document.scene().roughness {
-        Some(Roughness::SelfAffine { hurst, .. }) => {
-            let [work_by_height, modulus_by_height] =
-                shifted(&|roughness, sign| scale_height(roughness, (sign * HEIGHT_STEP).exp()))?
-                    .map(|shift| shift / (2.0 * HEIGHT_STEP));
-            let step = HURST_STEP.min(0.5 * hurst).min(0.5 * (1.0 - hurst));
-            let [work_by_hurst, modulus_by_hurst] = shifted(&|roughness, sign| {
-                if let Roughness::SelfAffine { hurst, .. } = roughness {
-                    *hurst += sign * step;
-                }
-            })?
-            .map(|shift| shift / (2.0 * step));
-            Some(RoughnessShifts { work_by_height, work_by_hurst, modulus_by_height, modulus_by_hurst })
-        }
-        _ => None,
-    };
+    let shifts = Shifts { workers: &workers, compared: &compared, measured: &measured, response: &response };
+    let roughness = shifts.at(best, options.lines)?;
     let by_roughness = |by_height: f64, by_hurst: f64| {
         let [height, hurst] = [options.height_error, options.hurst_error].map(Option::unwrap_or_default);
         NORMAL * (by_height * height).hypot(by_hurst * hurst)
@@ -234,6 +179,11 @@ fn check(
         let found = "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
         return refused(found, "numerics.solver = Exact");
     }
+    let states_errors = options.height_error.or(options.hurst_error).is_some();
+    if states_errors && !matches!(scene.roughness, Some(Roughness::SelfAffine { .. })) {
+        let found = "errors of the roughness, which is measured";
+        return refused(found, "roughness: SelfAffine(…), or no --height-error and --hurst-error");
+    }
     if options.lines < FEWEST_LINES {
         return refused(format!("--lines {}", options.lines), format!("at least {FEWEST_LINES}"));
     }
@@ -246,225 +196,6 @@ fn check(
         }
     }
     Ok(())
-}
-
-fn scale_height(roughness: &mut Roughness, factor: f64) {
-    if let Roughness::SelfAffine { rms_height, rms_gradient, .. } = roughness {
-        rms_height.iter_mut().chain(rms_gradient).for_each(|of| *of *= factor);
-    }
-}
-
-/// The measured curves as far as they are compared.
-struct Measured {
-    protocols: Vec<Protocol>,
-    /// Largest force of each curve, N.
-    preloads: Vec<f64>,
-    /// Scatter of the preloads over their mean, if they differ.
-    preload_scatter: Option<f64>,
-    summaries: Vec<Summaries>,
-}
-
-impl Measured {
-    fn of(curves: &[(String, MeasuredCurve)]) -> Result<Self, ExperimentError> {
-        let mut branches = Vec::with_capacity(curves.len());
-        for (name, curve) in curves {
-            let of = Branches::of(curve).map_err(|error| match error {
-                ExperimentError::Refused { found, allowed } => {
-                    ExperimentError::Refused { found: format!("{name}: {found}"), allowed }
-                }
-                error => error,
-            })?;
-            if of.preload() <= of.noise {
-                return refused(
-                    format!("{name}: the force at the turning point is not above the noise"),
-                    "a preload",
-                );
-            }
-            branches.push(of);
-        }
-        let noise = median(&mut branches.iter().map(|of| of.noise).collect::<Vec<_>>()).unwrap_or_default();
-        let is_alike = |of: &Branches| (of.noise / noise).ln().abs() < ONE_NOISE.ln();
-        if branches.iter().all(is_alike) {
-            branches.iter_mut().for_each(|of| of.noise = noise);
-        }
-        let preloads: Vec<f64> = branches.iter().map(Branches::preload).collect();
-        let average = mean(&preloads);
-        let by_noise = mean(&branches.iter().map(Branches::preload_error).collect::<Vec<_>>());
-        let scatter = standard_deviation(&preloads, average);
-        let differ = curves.len() > 1 && scatter > DIFFERENT * by_noise;
-        let preload_of = |index: usize| if differ { preloads[index] } else { average };
-        let of = |(index, branches): (usize, &Branches)| summaries(branches, preload_of(index));
-        let summaries = branches.iter().enumerate().map(of).collect();
-        let of = |(index, branches): (usize, &Branches)| Protocol::of(branches, preload_of(index));
-        let protocols = branches.iter().enumerate().map(of).collect();
-        Ok(Measured { protocols, preload_scatter: differ.then(|| scatter / average), preloads, summaries })
-    }
-
-    fn mean(&self) -> Mean {
-        let of = |index: usize| mean(&self.summaries.iter().map(|of| of[index]).collect::<Vec<_>>());
-        Mean { summaries: std::array::from_fn(of), curves: self.summaries.len() }
-    }
-
-    /// Summaries with the preload, if the preloads differ.
-    fn described(&self, summaries: Summaries, curve: usize) -> Described {
-        let preload = self.preload_scatter.map(|_| self.protocols[curve % self.protocols.len()].preload.ln());
-        Described { summaries, preload }
-    }
-}
-
-/// Finds the place whose computed curves have the mean summaries of the measured ones, to about a step of the grid.
-fn placed(
-    workers: &Workers<'_>,
-    measured: &Measured,
-    governing: &Governing,
-    known: Option<f64>,
-) -> Result<Place, ExperimentError> {
-    let target = measured.mean().summaries;
-    let of_roughness = governing.amplitude.map_or(0.0, |of| of.rms_height * of.rms_gradient);
-    let largest = of_roughness.max(f64::MIN_POSITIVE).ln();
-    let modulus = governing.effective_modulus.ln();
-    let width = |index: usize| (ROUGH_NODES[index] - 1) as f64 * ROUGH_STEPS[index];
-    let (mut low, mut soft) = (largest - HIGHEST_KAPPA.powi(2).ln(), modulus - 0.5 * width(1));
-    let variance = 1.0 / measured.summaries.len() as f64 + 1.0 / ROUGH_LINES as f64;
-    for last in (0..MOST_MOVES).rev() {
-        let ranges = nodes(low, ROUGH_STEPS[0], ROUGH_NODES[0]);
-        let moduli =
-            known.map_or_else(|| nodes(soft, ROUGH_STEPS[1], ROUGH_NODES[1]), |modulus| vec![modulus]);
-        let table = Table::new(workers, ROUGH_LINES, ranges, moduli)?;
-        let of_summary =
-            |index: usize| Scatter::of(&table, |line, node| [table.lines[line][node][index], 0.0]);
-        let scatters: Vec<Scatter> = (0..SUMMARIES).map(of_summary).collect();
-        let misfit = |place: Place| {
-            let of = |(scatter, target): (&Scatter, f64)| {
-                let moments = scatter.at(place);
-                let square = moments.covariance[0] + LEAST_SCATTER.powi(2);
-                (moments.mean[0] - target).powi(2) / square / variance + square.ln()
-            };
-            scatters.iter().zip(target).map(of).sum::<f64>()
-        };
-        let within = |axis: &[f64]| {
-            let fine = FINE_STEPS * (axis.len() - 1);
-            let (first, last) = (axis[0], axis[axis.len() - 1]);
-            (0..=fine).map(move |index| first + (last - first) * index as f64 / fine.max(1) as f64).collect()
-        };
-        let (ranges, moduli): (Vec<f64>, Vec<f64>) = (within(&table.ranges), within(&table.moduli));
-        let places =
-            ranges.iter().flat_map(|&range| moduli.iter().map(move |&modulus| Place { range, modulus }));
-        let misfits = places.map(|place| (misfit(place), place));
-        let Some((_, best)) = misfits.min_by(|one, other| one.0.total_cmp(&other.0)) else { break };
-        let is_at_end = |axis: &[f64], at: f64, step: f64| {
-            axis.len() > 1 && (at - axis[0]).min(axis[axis.len() - 1] - at) < 0.5 * step
-        };
-        let moved = [
-            is_at_end(&table.ranges, best.range, ROUGH_STEPS[0]),
-            is_at_end(&table.moduli, best.modulus, ROUGH_STEPS[1]),
-        ];
-        if moved == [false; 2] || last == 0 {
-            return Ok(best);
-        }
-        if moved[0] {
-            low = best.range - 0.5 * width(0);
-        }
-        if moved[1] {
-            soft = best.modulus - 0.5 * width(1);
-        }
-    }
-    Ok(Place { range: low, modulus })
-}
-
-/// A table with what was learned from it.
-struct Compared {
-    polynomials: Learned,
-    has_one_modulus: bool,
-    /// Learned values of each line at each node.
-    learned: Vec<Vec<[f64; 2]>>,
-    scatter: Scatter,
-    grid: Grid,
-    /// Learned values of each measured curve.
-    of_curves: Vec<[f64; 2]>,
-}
-
-impl Compared {
-    fn new(table: &Table, measured: &Measured, known: Option<f64>) -> Self {
-        let places: Vec<Place> = table.places().collect();
-        let curves: Vec<_> = table
-            .lines
-            .iter()
-            .enumerate()
-            .flat_map(|(line, curves)| {
-                let of = curves.iter().zip(&places);
-                of.map(move |(curve, place)| {
-                    (line as u64, measured.described(*curve, line), place.parameters())
-                })
-            })
-            .collect();
-        let polynomials = Learned::from(&curves);
-        let has_one_modulus = table.moduli.len() == 1;
-        let of_line = |(line, described, _): &(u64, Described, [f64; 2])| {
-            alone(polynomials.of_line(*line, described), has_one_modulus)
-        };
-        let learned: Vec<Vec<[f64; 2]>> =
-            curves.chunks(places.len()).map(|line| line.iter().map(of_line).collect()).collect();
-        let scatter = Scatter::of(table, |line, node| learned[line][node]);
-        let grid = Grid::new(table, &scatter, known);
-        let of_curve = |(index, curve): (usize, &Summaries)| {
-            alone(polynomials.of_curve(&measured.described(*curve, index)), has_one_modulus)
-        };
-        let of_curves = measured.summaries.iter().enumerate().map(of_curve).collect();
-        Compared { polynomials, has_one_modulus, learned, scatter, grid, of_curves }
-    }
-
-    fn of_line(&self, line: usize, curve: &Summaries, measured: &Measured) -> [f64; 2] {
-        let described = measured.described(*curve, line);
-        alone(self.polynomials.of_line(line as u64, &described), self.has_one_modulus)
-    }
-
-    fn posterior(&self, measured: &Measured) -> Posterior<'_> {
-        let of = |index: usize| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>());
-        self.grid.posterior([of(0), of(1)], measured.summaries.len() as f64)
-    }
-
-    /// Standard deviation of the curves over that of the lines.
-    fn scatter_ratio(&self, measured: &Measured, best: Place) -> Option<f64> {
-        let count = self.of_curves.len();
-        let inverse = self.scatter.at(best).inverse().0;
-        let centre = [0, 1].map(|index| mean(&self.of_curves.iter().map(|of| of[index]).collect::<Vec<_>>()));
-        let sum: f64 = self.of_curves.iter().map(|of| distance(centre, inverse, *of)).sum();
-        let values = if self.has_one_modulus { 1.0 } else { 2.0 };
-        (measured.summaries.len() >= FEWEST_FOR_SCATTER).then(|| (sum / (count as f64 - 1.0) / values).sqrt())
-    }
-
-    fn rows(
-        &self,
-        curves: &[(String, MeasuredCurve)],
-        measured: &Measured,
-        best: Place,
-    ) -> Vec<CurveOfEnsemble> {
-        let moments = self.scatter.at(best);
-        let inverse = moments.inverse().0;
-        let row = |(index, (name, _)): (usize, &(String, MeasuredCurve))| {
-            let (of, at) = (measured.summaries[index], self.of_curves[index]);
-            let posterior = self.grid.posterior(at, 1.0);
-            let away = distance(moments.mean, inverse, at) / (1.0 + 1.0 / self.learned.len() as f64);
-            CurveOfEnsemble {
-                name: name.clone(),
-                preload: measured.preloads[index],
-                pull_off_force: Some(of[PULL_OFF].exp())
-                    .filter(|force| *force > LEAST_PULL_OFF * measured.protocols[index].noise),
-                loop_area: of[LOOP_AREA].exp(),
-                stiffness: 0.5 * measured.protocols[index].preload / of[WAY_TO_HALF].exp(),
-                work: posterior.estimate(0),
-                at_end_of_table: !posterior.beyond().is_empty(),
-                foreign: away > FOREIGN[usize::from(!self.has_one_modulus)],
-            }
-        };
-        curves.iter().enumerate().map(row).collect()
-    }
-}
-
-/// Learned values, of which only the first one counts with one modulus.
-fn alone(values: [f64; 2], has_one_modulus: bool) -> [f64; 2] {
-    if has_one_modulus { [values[0], 0.0] } else { values }
 }
 
 #[cfg(test)]

@@ -1,18 +1,24 @@
 //! One work of adhesion from many curves of a rough body, whose profile is unknown: the curves are compared as a whole with
 //! curves computed for random profiles of the spectrum of the scene.
 //!
-//! Each curve becomes a few numbers ([`summary`]). A table of curves of random profiles ([`table`]) gives the combinations of
-//! these numbers that predict the parameters ([`learn`]), and their mean and scatter over all profiles ([`scatter`]). The mean
-//! over the measured curves is compared with it ([`posterior`]).
+//! Each curve becomes a few numbers ([`summary`], [`measured`]). Curves of random profiles ([`computed`]) have them at all nodes
+//! of a table ([`place`], [`table`]), from which the combinations are learned that predict the parameters ([`learn`]), and
+//! their mean and scatter over all profiles ([`scatter`]). The mean over the measured curves is compared with it
+//! ([`posterior`]). What the roughness changes ([`shifts`]) and whether the profiles describe the curves ([`deviation`]) belong
+//! to the result ([`find`]).
 
 pub(crate) mod branches;
+pub(crate) mod compared;
 pub(crate) mod computed;
 pub(crate) mod deviation;
 pub(crate) mod find;
 pub(crate) mod learn;
+pub(crate) mod measured;
+pub(crate) mod place;
 pub(crate) mod posterior;
 pub(crate) mod result;
 pub(crate) mod scatter;
+pub(crate) mod shifts;
 pub(crate) mod summary;
 pub(crate) mod table;
 
