@@ -99,7 +99,8 @@ impl Effect {
 
 /// The lines of a function, from its declaration to the brace that closes it.
 fn lines_of(file: &str, declared: &str) -> std::ops::RangeInclusive<u64> {
-    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a source");
+    let project = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let text = std::fs::read_to_string(project.join(file)).expect("a source");
     let lines: Vec<&str> = text.lines().collect();
     let first = lines.iter().position(|line| line.contains(declared));
     let first = first.unwrap_or_else(|| panic!("{file} has no {declared}"));

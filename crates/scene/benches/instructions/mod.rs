@@ -8,7 +8,7 @@ mod kernels;
 pub use cases::Case;
 
 use asperity_contact::{History, Work};
-use asperity_scene::{Outcome, Simulation};
+use asperity_scene::{Document, Outcome, Simulation};
 use callgrind::Profile;
 use executed::EFFECTS;
 use std::fmt::Write;
@@ -37,9 +37,9 @@ impl What {
 }
 
 /// The program's own way from a scene to its outcome.
-pub fn program(case: &Case) -> Outcome {
+pub fn program(document: &Document) -> Outcome {
     let mut simulation = Simulation::default();
-    let outcome = simulation.run(case.document().scene(), &|| false, &mut |_, _, _| Ok(()));
+    let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(()));
     outcome.expect("a scene that can be computed")
 }
 
@@ -51,7 +51,7 @@ pub fn run_as_child() -> bool {
     let document = case.document();
     match What::ALL[words.next().expect("what to do")] {
         What::Nothing => drop(std::hint::black_box(document)),
-        What::Program => drop(std::hint::black_box(program(&case))),
+        What::Program => drop(std::hint::black_box(program(&document))),
         What::Kernel => drop(std::hint::black_box(kernels::kernel(&case))),
     }
     true
@@ -59,7 +59,7 @@ pub fn run_as_child() -> bool {
 
 /// Asserts that a kernel has the results of the program: otherwise it is no measure.
 pub fn assert_agree(case: &Case) {
-    let (outcome, given) = (program(case), kernels::kernel(case));
+    let (outcome, given) = (program(&case.document()), kernels::kernel(case));
     let what = case.name();
     let forces = |history: &History| -> Vec<u64> {
         history.legs.iter().flat_map(|leg| &leg.curve).map(|point| point.force.to_bits()).collect()
@@ -113,7 +113,7 @@ impl Report {
         let [nothing, program, kernel] = What::ALL.map(profile);
         let beyond = |profile: &Profile| profile.total() - nothing.total();
         let (counted, of_kernel) = (beyond(&program), beyond(&kernel));
-        let work = self::program(&case).history.work;
+        let work = self::program(&case.document()).history.work;
         Report { case, program: counted, kernel: of_kernel, profile: program, work }
     }
 
