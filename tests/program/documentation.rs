@@ -21,7 +21,8 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 220;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 12] = [
+const PAGES: [(&str, &str); 13] = [
+    ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
     ("keys.md", "panes and keys of the explorer, typed values, appearance, configuration"),
     ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
     ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
@@ -150,8 +151,21 @@ fn errors_of_a_sphere_are_those_of_the_program() {
 #[test]
 fn pictures_are_those_of_their_commands() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::create_dir(folder.path().join("docs")).unwrap();
+    for inside in ["docs/learn", "docs/examples"] {
+        std::fs::create_dir_all(folder.path().join(inside)).unwrap();
+    }
+    for file in ["docs/examples/five-springs.ron", "docs/examples/five-springs.txt"] {
+        std::fs::write(folder.path().join(file), read(file)).unwrap();
+    }
+    let protocols = "asperity run pressure-sensitive --set \
+                     \"loading=[ToTouch,ToSeparation,ToZeroForce,ToSeparation]\" -o docs/learn/protocols.svg";
+    let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
+                     -o docs/learn/five-springs.svg";
     for (page, command) in [
+        ("docs/learn.md", "asperity run jkr-sphere -o docs/learn/sphere.svg"),
+        ("docs/learn.md", staircase),
+        ("docs/learn.md", "asperity run pressure-sensitive -o docs/learn/rough.svg"),
+        ("docs/learn.md", protocols),
         ("README.md", "asperity demo pressure-sensitive --at 9 --size 120x36 --picture docs/explorer.svg"),
         ("docs/reversals.md", "asperity reversals pressure-sensitive --count 64 -o docs/reversals.svg"),
     ] {
@@ -164,7 +178,8 @@ fn pictures_are_those_of_their_commands() {
 
 /// Runs a command in a folder.
 fn succeeded(folder: &Path, command: &str) -> String {
-    asperity_in(folder, &command.split(' ').skip(1).collect::<Vec<_>>()).succeeded()
+    asperity_in(folder, &command.split(' ').skip(1).map(|word| word.trim_matches('"')).collect::<Vec<_>>())
+        .succeeded()
 }
 
 #[test]
