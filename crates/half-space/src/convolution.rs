@@ -1,0 +1,185 @@
+//! Convolution of a square grid of real numbers with a kernel that is real and even in both directions.
+
+use asperity_data::{OutOfMemory, resized};
+use asperity_fourier::{
+    Complex64, ComplexToReal, Fft, RealToComplex, plan_forward, plan_inverse, plan_real_forward,
+    plan_real_inverse,
+};
+use std::sync::Arc;
+
+/// Columns that are transformed together: memory is read in rows, columns are computed contiguously.
+const BLOCK: usize = 8;
+
+/// A planned convolution. Rows are transformed first; then each block of columns is gathered, transformed, multiplied,
+/// transformed back and stored, in one pass over the memory.
+pub struct Convolution {
+    /// Rows and columns of the grid.
+    cells: usize,
+    /// Rows and columns of the grid with its margin of zeros.
+    padded: usize,
+    /// Transform of the kernel over the number of padded cells, column by column.
+    transfer: Vec<f64>,
+    rows: (Arc<dyn RealToComplex<f64>>, Arc<dyn ComplexToReal<f64>>),
+    columns: (Arc<dyn Fft<f64>>, Arc<dyn Fft<f64>>),
+    /// Distance of the rows of the half spectra: no power of two, which would fall on the same lines of the cache.
+    stride: usize,
+    spectra: Vec<Complex64>,
+    row: Vec<f64>,
+    block: Vec<Complex64>,
+    scratch: Vec<Complex64>,
+}
+
+impl Convolution {
+    /// Bytes of a planned convolution.
+    pub fn bytes(cells: usize, padded: usize) -> u64 {
+        let complex = stride(padded) * cells + (2 * BLOCK + 4) * padded;
+        (8 * padded * (padded / 2 + 1) + 16 * complex) as u64
+    }
+
+    /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves over the padded
+    /// grid, is `transform`; wave numbers beyond the half of the grid are negative ones.
+    pub fn by_transform(
+        cells: usize,
+        padded: usize,
+        transform: impl Fn(f64, f64) -> f64,
+    ) -> Result<Self, OutOfMemory> {
+        let mut planned = Convolution::plan(cells, padded)?;
+        let scale = 1.0 / (padded * padded) as f64;
+        for (column, values) in planned.transfer.chunks_exact_mut(padded).enumerate() {
+            for (row, value) in values.iter_mut().enumerate() {
+                *value = scale * transform(column as f64, row.min(padded - row) as f64);
+            }
+        }
+        Ok(planned)
+    }
+
+    /// Plans the convolution with a kernel given at the distances (x, y), in cells, on a grid padded to twice its size.
+    pub fn by_kernel(cells: usize, kernel: impl Fn(usize, usize) -> f64) -> Result<Self, OutOfMemory> {
+        let padded = 2 * cells;
+        let mut planned = Convolution::plan(cells, padded)?;
+        let half = padded / 2 + 1;
+        let mut rows = resized(Vec::new(), padded * half, Complex64::default())?;
+        let apart = |index: usize| index.min(padded - index);
+        for (y, spectrum) in rows.chunks_exact_mut(half).enumerate() {
+            (0..padded).zip(&mut planned.row).for_each(|(x, value)| *value = kernel(apart(x), apart(y)));
+            // The lengths are those of the plan.
+            let _ = planned.rows.0.process_with_scratch(&mut planned.row, spectrum, &mut planned.scratch);
+        }
+        let scale = 1.0 / (padded * padded) as f64;
+        let column = &mut planned.block[..padded];
+        for (k, values) in planned.transfer.chunks_exact_mut(padded).enumerate() {
+            column.iter_mut().zip(rows.chunks_exact(half)).for_each(|(value, row)| *value = row[k]);
+            planned.columns.0.process_with_scratch(column, &mut planned.scratch);
+            values.iter_mut().zip(&*column).for_each(|(value, of)| *value = scale * of.re);
+        }
+        Ok(planned)
+    }
+
+    fn plan(cells: usize, padded: usize) -> Result<Self, OutOfMemory> {
+        let rows = (plan_real_forward(padded), plan_real_inverse(padded));
+        let columns = (plan_forward(padded), plan_inverse(padded));
+        let scratch = [rows.0.get_scratch_len(), rows.1.get_scratch_len()].into_iter();
+        let scratch =
+            scratch.chain([columns.0.get_inplace_scratch_len(), columns.1.get_inplace_scratch_len()]);
+        Ok(Convolution {
+            cells,
+            padded,
+            transfer: resized(Vec::new(), padded * (padded / 2 + 1), 0.0)?,
+            stride: stride(padded),
+            spectra: resized(Vec::new(), stride(padded) * cells, Complex64::default())?,
+            row: resized(Vec::new(), padded, 0.0)?,
+            block: resized(Vec::new(), BLOCK * padded, Complex64::default())?,
+            scratch: resized(Vec::new(), scratch.max().unwrap_or(0), Complex64::default())?,
+            rows,
+            columns,
+        })
+    }
+
+    /// Convolves the grid `from` into `to`, both row by row.
+    pub fn apply(&mut self, from: &[f64], to: &mut [f64]) {
+        let (cells, padded, half) = (self.cells, self.padded, self.padded / 2 + 1);
+        for (values, spectrum) in from.chunks_exact(cells).zip(self.spectra.chunks_exact_mut(self.stride)) {
+            if values.iter().all(|value| *value == 0.0) {
+                spectrum[..half].fill(Complex64::default());
+                continue;
+            }
+            self.row[..cells].copy_from_slice(values);
+            self.row[cells..].fill(0.0);
+            // The lengths are those of the plan.
+            let _ =
+                self.rows.0.process_with_scratch(&mut self.row, &mut spectrum[..half], &mut self.scratch);
+        }
+        for first in (0..half).step_by(BLOCK) {
+            let width = BLOCK.min(half - first);
+            for (row, spectrum) in self.spectra.chunks_exact(self.stride).enumerate() {
+                let values = spectrum[first..first + width].iter().enumerate();
+                values.for_each(|(column, value)| self.block[column * padded + row] = *value);
+            }
+            let block = &mut self.block[..width * padded];
+            block.chunks_exact_mut(padded).for_each(|column| column[cells..].fill(Complex64::default()));
+            self.columns.0.process_with_scratch(block, &mut self.scratch);
+            let transfer = &self.transfer[first * padded..];
+            block.iter_mut().zip(transfer).for_each(|(value, factor)| *value *= *factor);
+            self.columns.1.process_with_scratch(block, &mut self.scratch);
+            for (row, spectrum) in self.spectra.chunks_exact_mut(self.stride).enumerate() {
+                let values = spectrum[first..first + width].iter_mut().enumerate();
+                values.for_each(|(column, value)| *value = block[column * padded + row]);
+            }
+        }
+        for (values, spectrum) in to.chunks_exact_mut(cells).zip(self.spectra.chunks_exact_mut(self.stride)) {
+            // Rounding leaves an imaginary part, which the spectrum of real numbers does not have.
+            spectrum[0].im = 0.0;
+            spectrum[half - 1].im = 0.0;
+            let _ =
+                self.rows.1.process_with_scratch(&mut spectrum[..half], &mut self.row, &mut self.scratch);
+            values.copy_from_slice(&self.row[..cells]);
+        }
+    }
+}
+
+fn stride(padded: usize) -> usize {
+    (padded / 2 + 1).next_multiple_of(BLOCK) + 4
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(count: usize) -> Vec<f64> {
+        (0..count).map(|index| (index as f64 * 12.9898).sin() * 43.758 % 1.0).collect()
+    }
+
+    #[test]
+    fn a_kernel_is_summed_over_all_pairs_of_cells() {
+        for cells in [4, 6, 16] {
+            let kernel = |x: usize, y: usize| 1.0 / (1.0 + (3 * x + x * y + 2 * y * y) as f64);
+            let mut planned = Convolution::by_kernel(cells, kernel).unwrap();
+            let (from, mut to) = (numbers(cells * cells), vec![0.0; cells * cells]);
+            planned.apply(&from, &mut to);
+            for (at, found) in to.iter().enumerate() {
+                let of = |other: usize| {
+                    kernel((at % cells).abs_diff(other % cells), (at / cells).abs_diff(other / cells))
+                };
+                let sum: f64 = from.iter().enumerate().map(|(other, value)| value * of(other)).sum();
+                assert!((sum - found).abs() < 1e-13, "{cells}: {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_wave_is_multiplied_by_its_transform() {
+        let cells = 12;
+        let transform = |x: f64, y: f64| 1.0 / (1.0 + x * x + 3.0 * y);
+        let mut planned = Convolution::by_transform(cells, cells, transform).unwrap();
+        for (kx, ky) in [(0, 0), (2, 5), (6, 1), (1, 6), (3, 0)] {
+            let phase = |at: usize| {
+                std::f64::consts::TAU * ((kx * (at % cells) + ky * (at / cells)) as f64) / cells as f64
+            };
+            let from: Vec<f64> = (0..cells * cells).map(|at| phase(at).cos()).collect();
+            let mut to = vec![0.0; cells * cells];
+            planned.apply(&from, &mut to);
+            let factor = transform(f64::from(kx as u32), f64::from(ky as u32));
+            assert!(from.iter().zip(&to).all(|(one, other)| (factor * one - other).abs() < 1e-13));
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! What is refused, and what is allowed.
+
+use asperity_data::OutOfMemory;
+use thiserror::Error;
+
+/// Reason why a contact is not computed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum HalfSpaceError {
+    /// The number of cells along a side.
+    #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]
+    Cells(usize),
+    /// The number of heights for this number of cells along a side.
+    #[error("{found} heights; allowed: {allowed}, one for each cell")]
+    Heights {
+        /// The number of heights.
+        found: usize,
+        /// The allowed number.
+        allowed: usize,
+    },
+    /// A value of a body, a load or an option.
+    #[error("{name} = {found:e}; allowed: {allowed}")]
+    Value {
+        /// What it is.
+        name: &'static str,
+        /// The value.
+        found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// An array does not fit into memory.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
+    /// The computation was stopped from outside.
+    #[error("the computation was stopped")]
+    Stopped,
+}

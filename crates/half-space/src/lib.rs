@@ -1,0 +1,15 @@
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+#![doc = include_str!("../README.md")]
+
+mod convolution;
+mod error;
+mod half_space;
+mod map;
+mod operators;
+mod press;
+
+pub use error::HalfSpaceError;
+pub use map::random_map;
+pub use half_space::{HalfSpace, Load, Pressed, Square};
+pub use operators::Boundary;

@@ -1,0 +1,79 @@
+//! Isotropic random surfaces with a given spectrum.
+
+use super::error::HalfSpaceError;
+use asperity_data::resized;
+use asperity_fourier::{Complex64, plan_inverse};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::TAU;
+
+/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. `variance` is the
+/// share of a wave of k waves over the side in the mean square height: the sum over all pairs (k_x, k_y) other than (0, 0)
+/// is h². Phases are random, and the same for a pair whatever the number of cells, so that more cells refine the same surface.
+///
+/// # Errors
+/// Memory is insufficient.
+pub fn random_map(
+    cells: usize,
+    variance: impl Fn(f64) -> f64,
+    seed: u64,
+) -> Result<Vec<f64>, HalfSpaceError> {
+    let mut waves = resized(Vec::new(), cells * cells, Complex64::default())?;
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let half = cells as i64 / 2;
+    let mut set = |x: i64, y: i64| {
+        let phase = TAU * (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        // A pair of opposite waves is one cosine, whose mean square is half its squared amplitude.
+        let amplitude = 2.0 * variance((x as f64).hypot(y as f64)).sqrt();
+        let at = |k: i64| k.rem_euclid(cells as i64) as usize;
+        waves[at(y) * cells + at(x)] = Complex64::from_polar(amplitude, phase);
+    };
+    // Shell by shell, half of each: the other half are the opposite waves. Waves of half the cells have no phase.
+    for shell in 1..half {
+        (1 - shell..=shell).for_each(|y| set(shell, y));
+        (1 - shell..=shell).for_each(|x| set(-x, shell));
+    }
+    let plan = plan_inverse(cells);
+    let mut scratch = resized(Vec::new(), plan.get_inplace_scratch_len(), Complex64::default())?;
+    plan.process_with_scratch(&mut waves, &mut scratch);
+    let mut column = resized(Vec::new(), cells, Complex64::default())?;
+    let mut heights = resized(Vec::new(), cells * cells, 0.0)?;
+    for x in 0..cells {
+        column.iter_mut().enumerate().for_each(|(y, value)| *value = waves[y * cells + x]);
+        plan.process_with_scratch(&mut column, &mut scratch);
+        column.iter().enumerate().for_each(|(y, value)| heights[y * cells + x] = value.re);
+    }
+    Ok(heights)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_has_its_spectrum_and_is_refined_by_more_cells() {
+        let variance = |k: f64| if (1.0..=6.0).contains(&k) { k.powf(-3.6) } else { 0.0 };
+        let (coarse, fine) = (random_map(32, variance, 7).unwrap(), random_map(64, variance, 7).unwrap());
+        let expected: f64 = (-16..=16_i32)
+            .flat_map(|x| (-16..=16_i32).map(move |y| (x, y)))
+            .filter(|wave| *wave != (0, 0))
+            .map(|(x, y)| variance(f64::from(x).hypot(f64::from(y))))
+            .sum();
+        let square = |of: &[f64]| of.iter().map(|height| height * height).sum::<f64>() / of.len() as f64;
+        assert!((square(&coarse) / expected - 1.0).abs() < 1e-12, "{} {expected}", square(&coarse));
+        for at in 0..32 * 32 {
+            assert!((coarse[at] - fine[at / 32 * 2 * 64 + at % 32 * 2]).abs() < 1e-12);
+        }
+        assert_ne!(random_map(32, variance, 8).unwrap(), coarse);
+        // Isotropic in the mean: as much power along x as along y, over many maps.
+        let slopes = |along: usize| -> f64 {
+            let of = |seed: u64| {
+                let map = random_map(32, variance, seed).unwrap();
+                let slope = |at: usize| if along == 1 && at % 32 == 31 { 0.0 } else { map[at + along] - map[at] };
+                (0..31 * 32).map(|at| slope(at).powi(2)).sum::<f64>()
+            };
+            (0..40).map(of).sum()
+        };
+        assert!((slopes(1) / slopes(32) - 1.0).abs() < 0.05, "{} {}", slopes(1), slopes(32));
+    }
+}

@@ -1,0 +1,201 @@
+//! Linear operators of a half-space on a square grid, in units of the side L and the effective modulus E*: displacement
+//! by pressure, its approximate inverse, and the extension of numbers from a contact to the grid around it.
+
+use super::convolution::Convolution;
+use asperity_data::{OutOfMemory, resized};
+use std::f64::consts::{PI, TAU};
+
+/// Number of sweeps by which a residual is extended beyond the contact.
+const SWEEPS: usize = 4;
+
+/// Surroundings of the square.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// The square is alone on the half-space.
+    Free,
+    /// The square is repeated in both directions without an end.
+    Periodic,
+}
+
+/// Displacement of the middle of a square cell by a pressure of E* on it, in units of the side of the cell: (4/π) ln(1+√2).
+pub const OWN_DISPLACEMENT: f64 = 1.122_199_7;
+
+/// Operators of one grid.
+pub struct Operators {
+    cells: usize,
+    displacement: Convolution,
+    stiffness: Convolution,
+    /// Number of convolutions so far.
+    pub convolutions: u64,
+    extended: Vec<f64>,
+    other: Vec<f64>,
+}
+
+impl Operators {
+    /// Bytes of the operators of a grid.
+    pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
+        let (displacement, stiffness) = paddings(cells, boundary);
+        Convolution::bytes(cells, displacement)
+            + Convolution::bytes(cells, stiffness)
+            + 16 * (cells * cells) as u64
+    }
+
+    pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
+        let (_, padded) = paddings(cells, boundary);
+        let length = padded as f64 / cells as f64;
+        let displacement = match boundary {
+            // 2/(E*|q|); the mean displacement of a periodic half-space is infinite and left out.
+            Boundary::Periodic => Convolution::by_transform(cells, cells, |x, y| {
+                if x == 0.0 && y == 0.0 { 0.0 } else { 2.0 / (TAU * x.hypot(y)) }
+            })?,
+            Boundary::Free => {
+                Convolution::by_kernel(cells, |x, y| of_a_cell(x as f64, y as f64) / cells as f64)?
+            }
+        };
+        // A mean pressure takes the inverse of the longest wave: under a force it is taken out, else it need not be exact.
+        let stiffness = |x: f64, y: f64| 0.5 * TAU / length * x.hypot(y).max(0.5);
+        Ok(Operators {
+            cells,
+            displacement,
+            stiffness: Convolution::by_transform(cells, padded, stiffness)?,
+            convolutions: 0,
+            extended: resized(Vec::new(), cells * cells, 0.0)?,
+            other: resized(Vec::new(), cells * cells, 0.0)?,
+        })
+    }
+
+    /// Displacements by pressures.
+    pub fn displace(&mut self, pressure: &[f64], displacement: &mut [f64]) {
+        self.convolutions += 1;
+        self.displacement.apply(pressure, displacement);
+    }
+
+    /// Approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E, where D is E*|q|/2 and E
+    /// extends displacements smoothly beyond the contact, since zeros there would act as a wall at each edge. The operator
+    /// is symmetric. `outside` is 1 off the contact and 0 on it.
+    pub fn precondition(&mut self, residual: &[f64], outside: &[f64], pressure: &mut [f64]) {
+        let cells = self.cells;
+        self.extended.copy_from_slice(residual);
+        for _ in 0..SWEEPS {
+            extend(cells, residual, &self.extended, outside, &mut self.other);
+            std::mem::swap(&mut self.extended, &mut self.other);
+        }
+        self.convolutions += 1;
+        self.stiffness.apply(&self.extended, pressure);
+        for _ in 0..SWEEPS {
+            self.other.iter_mut().zip(&*pressure).zip(outside).for_each(|((to, of), out)| *to = of * out);
+            contract(cells, &self.other, outside, pressure);
+        }
+        pressure.iter_mut().zip(outside).for_each(|(value, out)| *value *= 1.0 - out);
+    }
+}
+
+/// Sides of the padded grids of both operators.
+fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
+    match boundary {
+        Boundary::Periodic => (cells, cells),
+        Boundary::Free => (2 * cells, cells + cells / 4),
+    }
+}
+
+/// Displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in units of the cell (Love 1929).
+fn of_a_cell(x: f64, y: f64) -> f64 {
+    let part = |x: f64, y: f64| {
+        let r = x.hypot(y);
+        // y ln(x + r), written without the difference of near numbers for negative x.
+        let along = |x: f64, y: f64| {
+            y * if x < 0.0 { (y * y / (r - x)).ln() } else { (x + r).ln() }
+        };
+        along(x, y) + along(y, x)
+    };
+    (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5) + part(x - 0.5, y - 0.5)) / PI
+}
+
+/// Rows above and below a row of a grid; at its ends the row itself.
+fn around(values: &[f64], cells: usize, row: usize) -> [&[f64]; 3] {
+    [row.saturating_sub(1), row, (row + 1).min(cells - 1)].map(|row| &values[row * cells..][..cells])
+}
+
+/// Sum of the four neighbours in a row between two others; a neighbour beyond the grid is the cell itself.
+#[inline]
+fn neighbours([above, middle, below]: [&[f64]; 3], column: usize) -> f64 {
+    let last = middle.len() - 1;
+    above[column] + below[column] + middle[column.saturating_sub(1)] + middle[(column + 1).min(last)]
+}
+
+/// Fills each cell off the contact with the mean of its neighbours; cells of the contact keep `fixed`.
+fn extend(cells: usize, fixed: &[f64], from: &[f64], outside: &[f64], to: &mut [f64]) {
+    for (row, to) in to.chunks_exact_mut(cells).enumerate() {
+        let rows = around(from, cells, row);
+        let (fixed, outside) = (&fixed[row * cells..][..cells], &outside[row * cells..][..cells]);
+        each_column(rows, |column, sum| to[column] = fixed[column] + 0.25 * outside[column] * sum);
+    }
+}
+
+/// The transposed sweep: each cell gains a quarter of its neighbours off the contact, and loses its own number if it is off the
+/// contact. `off` has the numbers off the contact alone.
+fn contract(cells: usize, off: &[f64], outside: &[f64], to: &mut [f64]) {
+    for (row, to) in to.chunks_exact_mut(cells).enumerate() {
+        let rows = around(off, cells, row);
+        let outside = &outside[row * cells..][..cells];
+        each_column(rows, |column, sum| to[column] = to[column] * (1.0 - outside[column]) + 0.25 * sum);
+    }
+}
+
+/// Calls a function with each column and the sum of its four neighbours.
+#[inline]
+fn each_column(rows: [&[f64]; 3], mut visit: impl FnMut(usize, f64)) {
+    let [above, middle, below] = rows;
+    let last = middle.len() - 1;
+    visit(0, neighbours(rows, 0));
+    for column in 1..last {
+        visit(column, above[column] + below[column] + middle[column - 1] + middle[column + 1]);
+    }
+    visit(last, neighbours(rows, last));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_displaces_by_the_integral_over_it() {
+        assert!((of_a_cell(0.0, 0.0) - OWN_DISPLACEMENT).abs() < 1e-7);
+        // By the sum over small parts of the cell.
+        for (x, y) in [(1.0, 0.0), (3.0, 2.0), (0.0, 7.0), (40.0, 9.0)] {
+            let parts = 200;
+            let at = |index: usize| (index as f64 + 0.5) / parts as f64 - 0.5;
+            let sum: f64 = (0..parts * parts)
+                .map(|index| 1.0 / (x - at(index % parts)).hypot(y - at(index / parts)))
+                .sum::<f64>()
+                / (parts * parts) as f64
+                / PI;
+            assert!((of_a_cell(x, y) / sum - 1.0).abs() < 1e-5, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn the_preconditioner_is_symmetric_and_positive() {
+        let cells = 16;
+        let number = |index: usize| (index as f64 * 7.13).sin();
+        for boundary in [Boundary::Free, Boundary::Periodic] {
+            let mut operators = Operators::new(cells, boundary).unwrap();
+            let outside: Vec<f64> =
+                (0..cells * cells).map(|index| f64::from(u8::from(number(index) > 0.2))).collect();
+            let vector = |shift: usize| -> Vec<f64> {
+                outside.iter().enumerate().map(|(index, out)| (1.0 - out) * number(index * shift + 3)).collect()
+            };
+            let (one, other) = (vector(1), vector(5));
+            let mut on = |of: &[f64]| {
+                let mut to = vec![0.0; of.len()];
+                operators.precondition(of, &outside, &mut to);
+                to
+            };
+            let (of_one, of_other) = (on(&one), on(&other));
+            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let (left, right) = (product(&one, &of_other), product(&other, &of_one));
+            assert!((left - right).abs() < 1e-12 * product(&one, &of_one).abs(), "{left} {right}");
+            assert!(product(&one, &of_one) > 0.0);
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Contact without adhesion: nested projected conjugate gradients on an active set.
+//!
+//! Each grid halves the cells of the coarser one, whose solution is its start. On a fixed set of cells the gap is made
+//! uniform by preconditioned conjugate gradients (Polak and Ribière), and pressures may become negative meanwhile; the set
+//! changes where the cells that pull or penetrate outweigh what the gradients have left over. The idea of an active set in
+//! one loop with the gradients is that of Polonsky and Keer (1999).
+
+use super::error::HalfSpaceError;
+use super::operators::{Boundary, OWN_DISPLACEMENT, Operators};
+use asperity_data::{OutOfMemory, resized};
+
+/// Cells of the side of the coarsest grid.
+pub const COARSEST: usize = 32;
+/// Residual to which coarser grids are solved, in rms heights.
+const COARSE: f64 = 1e-3;
+/// The set changes when its violations are this many times the residual on it.
+const OUTWEIGHS: f64 = 1.5;
+/// Most steps of the gradients on one grid.
+const MOST_STEPS: u64 = 400;
+
+/// What is given, in units of L and E*.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Given {
+    /// Mean pressure over the square, F/(E* L²).
+    MeanPressure(f64),
+    /// Indentation from first touch, d/L.
+    Indentation(f64),
+}
+
+/// How a solution ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ended {
+    /// Largest violation of the conditions of contact, in rms heights of the surface.
+    pub residual: f64,
+    /// True if the asked residual is reached.
+    pub is_reached: bool,
+    /// Steps of the gradients on the finest grid.
+    pub steps: u64,
+    /// Convolutions on the finest grid.
+    pub convolutions: u64,
+}
+
+/// State and memory of one grid.
+pub struct Grid {
+    pub cells: usize,
+    pub operators: Operators,
+    /// Depth of the rigid surface below its highest point.
+    pub depths: Vec<f64>,
+    pub pressure: Vec<f64>,
+    pub displacement: Vec<f64>,
+    /// 1 off the contact, 0 on it.
+    pub outside: Vec<f64>,
+    /// Displacement less depth on the contact, which is to be uniform.
+    pub level: f64,
+    residual: Vec<f64>,
+    former: Vec<f64>,
+    gradient: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+}
+
+impl Grid {
+    /// Bytes of a grid and its operators.
+    pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
+        Operators::bytes(cells, boundary) + 9 * 8 * (cells * cells) as u64
+    }
+
+    pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
+        let zeros = || resized(Vec::new(), cells * cells, 0.0);
+        Ok(Grid {
+            cells,
+            operators: Operators::new(cells, boundary)?,
+            depths: zeros()?,
+            pressure: zeros()?,
+            displacement: zeros()?,
+            outside: zeros()?,
+            level: 0.0,
+            residual: zeros()?,
+            former: zeros()?,
+            gradient: zeros()?,
+            direction: zeros()?,
+            image: zeros()?,
+        })
+    }
+
+    /// Takes the means of four cells of a finer grid.
+    pub fn coarsen(&mut self, finer: &Grid) {
+        let (cells, fine) = (self.cells, finer.cells);
+        for (at, depth) in self.depths.iter_mut().enumerate() {
+            let corner = 2 * (at / cells) * fine + 2 * (at % cells);
+            let of = [corner, corner + 1, corner + fine, corner + fine + 1].map(|at| finer.depths[at]);
+            *depth = 0.25 * (of[0] + of[1] + (of[2] + of[3]));
+        }
+    }
+
+    /// Begins on the coarsest grid: everything under load, or all that the undeformed half-space would touch.
+    pub fn begin(&mut self, given: Given) {
+        match given {
+            Given::MeanPressure(mean) => {
+                self.pressure.fill(mean);
+                self.outside.fill(0.0);
+            }
+            Given::Indentation(depth) => {
+                self.pressure.fill(0.0);
+                let outside = |of: &f64| f64::from(u8::from(*of >= depth));
+                self.outside.iter_mut().zip(&self.depths).for_each(|(out, of)| *out = outside(of));
+            }
+        }
+    }
+
+    /// Begins with the solution of a coarser grid. The edge of its contact lies where a number that is the pressure, as a
+    /// displacement of one cell, on the contact and minus the gap elsewhere changes its sign.
+    pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
+        let own = OWN_DISPLACEMENT / coarse.cells as f64;
+        let signed = |at: usize| {
+            if coarse.outside[at] == 0.0 {
+                own * coarse.pressure[at]
+            } else {
+                -(coarse.displacement[at] + coarse.depths[at] - coarse.level).max(0.0)
+            }
+        };
+        let (cells, half) = (self.cells, coarse.cells);
+        let apart = |index: usize, is_upper: bool| match (is_upper, boundary) {
+            (true, Boundary::Periodic) => (index + 1) % half,
+            (false, Boundary::Periodic) => (index + half - 1) % half,
+            (true, Boundary::Free) => (index + 1).min(half - 1),
+            (false, Boundary::Free) => index.saturating_sub(1),
+        };
+        let mut any = false;
+        for row in 0..cells {
+            let (near_row, far_row) = (row / 2, apart(row / 2, row % 2 == 1));
+            for column in 0..cells {
+                let (near, far) = (column / 2, apart(column / 2, column % 2 == 1));
+                let corners = [(near_row, near), (near_row, far), (far_row, near), (far_row, far)]
+                    .map(|(row, column)| row * half + column);
+                let mean = |of: &dyn Fn(usize) -> f64| {
+                    let [a, b, c, d] = corners.map(of);
+                    0.0625 * (9.0 * a + 3.0 * (b + c) + d)
+                };
+                let at = row * cells + column;
+                let is_on = mean(&signed) > 0.0;
+                any |= is_on;
+                self.outside[at] = f64::from(u8::from(!is_on));
+                self.pressure[at] =
+                    if is_on { mean(&|at: usize| coarse.pressure[at]).max(0.0) } else { 0.0 };
+            }
+        }
+        if !any && matches!(given, Given::MeanPressure(_)) {
+            // A contact of a few cells, all of whose finer cells would be open.
+            for at in 0..cells * cells {
+                let of = at / cells / 2 * half + at % cells / 2;
+                (self.pressure[at], self.outside[at]) = (coarse.pressure[of], coarse.outside[of]);
+            }
+        }
+    }
+
+    /// Brings the pressures to the given mean, and computes the displacements.
+    fn load(&mut self, given: Given) {
+        if let Given::MeanPressure(mean) = given {
+            let sum: f64 = self.pressure.iter().sum();
+            let factor = mean * self.pressure.len() as f64 / sum;
+            self.pressure.iter_mut().for_each(|pressure| *pressure *= factor);
+        }
+        self.operators.displace(&self.pressure, &mut self.displacement);
+    }
+
+    /// Level of the contact: the given indentation, or the mean over the contact.
+    fn find_level(&mut self, given: Given) {
+        self.level = match given {
+            Given::Indentation(depth) => depth,
+            Given::MeanPressure(_) => {
+                let (mut sum, mut count) = (0.0, 0.0);
+                for ((displacement, depth), out) in
+                    self.displacement.iter().zip(&self.depths).zip(&self.outside)
+                {
+                    let on = 1.0 - out;
+                    sum += on * (displacement + depth);
+                    count += on;
+                }
+                sum / f64::max(count, 1.0)
+            }
+        };
+    }
+
+    /// Residuals on the contact; returns the largest of them, the deepest penetration elsewhere and the lowest pressure.
+    fn judge(&mut self) -> [f64; 3] {
+        std::mem::swap(&mut self.residual, &mut self.former);
+        let (mut on_contact, mut beyond, mut lowest) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let level = self.level;
+        let given = self.displacement.iter().zip(&self.depths).zip(&self.outside).zip(&self.pressure);
+        for (residual, (((displacement, depth), out), pressure)) in self.residual.iter_mut().zip(given) {
+            let missing = level - displacement - depth;
+            *residual = (1.0 - out) * missing;
+            on_contact = on_contact.max(residual.abs());
+            beyond = beyond.max(out * missing);
+            lowest = lowest.min(*pressure);
+        }
+        [on_contact, beyond, lowest]
+    }
+
+    /// Removes cells that pull or carry nothing, and adds cells that penetrate. Returns true if a pressure was removed.
+    fn change_set(&mut self) -> bool {
+        let mut is_clipped = false;
+        let level = self.level;
+        let given = self.displacement.iter().zip(&self.depths);
+        for ((pressure, out), (displacement, depth)) in
+            self.pressure.iter_mut().zip(&mut self.outside).zip(given)
+        {
+            if *out == 0.0 && *pressure <= 0.0 {
+                is_clipped |= *pressure < 0.0;
+                (*pressure, *out) = (0.0, 1.0);
+            } else if *out == 1.0 && level - displacement - depth > 0.0 {
+                *out = 0.0;
+            }
+        }
+        is_clipped
+    }
+
+    /// Solves the contact on this grid to a residual in rms heights `height`.
+    pub fn solve(
+        &mut self,
+        given: Given,
+        (tolerance, height): (f64, f64),
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Ended, HalfSpaceError> {
+        let before = self.operators.convolutions;
+        let own = OWN_DISPLACEMENT / self.cells as f64;
+        self.load(given);
+        // Scalar product of the last gradient and residual; without one the next step is that of the steepest descent.
+        let mut last = None;
+        let mut steps = 0;
+        loop {
+            self.find_level(given);
+            let [on_contact, beyond, lowest] = self.judge();
+            let residual = on_contact.max(beyond) / height;
+            let is_reached = residual <= tolerance && lowest >= 0.0;
+            if is_reached || steps == MOST_STEPS {
+                let convolutions = self.operators.convolutions - before;
+                return Ok(Ended { residual, is_reached, steps, convolutions });
+            }
+            if stop() {
+                return Err(HalfSpaceError::Stopped);
+            }
+            if last.is_some() && beyond.max(own * -lowest) > OUTWEIGHS * on_contact {
+                if self.change_set() {
+                    self.load(given);
+                }
+                last = None;
+                continue;
+            }
+            last = Some(self.step(given, last));
+            steps += 1;
+        }
+    }
+
+    /// One step of the gradients on the present contact; returns the product that the next step needs.
+    fn step(&mut self, given: Given, last: Option<f64>) -> f64 {
+        self.operators.precondition(&self.residual, &self.outside, &mut self.gradient);
+        if let Given::MeanPressure(_) = given {
+            // The mean of the residual over the contact is zero, and so is the mean of the step.
+            let (mut sum, mut count) = (0.0, 0.0);
+            self.gradient.iter().zip(&self.outside).for_each(|(value, out)| {
+                sum += value;
+                count += 1.0 - out;
+            });
+            let mean = sum / f64::max(count, 1.0);
+            self.gradient.iter_mut().zip(&self.outside).for_each(|(value, out)| *value -= (1.0 - out) * mean);
+        }
+        let (mut product, mut turned) = (0.0, 0.0);
+        for ((gradient, residual), former) in self.gradient.iter().zip(&self.residual).zip(&self.former) {
+            product += gradient * residual;
+            turned += gradient * (residual - former);
+        }
+        let carried = last.map_or(0.0, |last| if last > 0.0 { (turned / last).max(0.0) } else { 0.0 });
+        self.direction.iter_mut().zip(&self.gradient).for_each(|(to, of)| *to = of + carried * *to);
+        self.operators.displace(&self.direction, &mut self.image);
+        let (mut along, mut curvature) = (0.0, 0.0);
+        for ((direction, residual), image) in self.direction.iter().zip(&self.residual).zip(&self.image) {
+            along += direction * residual;
+            curvature += direction * image;
+        }
+        if curvature > 0.0 {
+            let length = along / curvature;
+            self.pressure.iter_mut().zip(&self.direction).for_each(|(to, of)| *to += length * of);
+            self.displacement.iter_mut().zip(&self.image).for_each(|(to, of)| *to += length * of);
+        }
+        product
+    }
+}
+
+/// Solves a contact on nested grids, the finest one last, whose depths are set.
+pub fn press(
+    grids: &mut [Grid],
+    boundary: Boundary,
+    given: Given,
+    (tolerance, height): (f64, f64),
+    stop: &dyn Fn() -> bool,
+) -> Result<Ended, HalfSpaceError> {
+    for finer in (1..grids.len()).rev() {
+        let (coarse, fine) = grids.split_at_mut(finer);
+        coarse[finer - 1].coarsen(&fine[0]);
+    }
+    grids[0].begin(given);
+    let finest = grids.len() - 1;
+    for at in 0..=finest {
+        if at > 0 {
+            let (coarse, fine) = grids.split_at_mut(at);
+            fine[0].refine(&coarse[at - 1], given, boundary);
+        }
+        let asked = if at == finest { tolerance } else { tolerance.max(COARSE) };
+        let ended = grids[at].solve(given, (asked, height), stop)?;
+        if at == finest {
+            return Ok(ended);
+        }
+    }
+    Err(HalfSpaceError::Stopped)
+}
