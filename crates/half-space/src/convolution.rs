@@ -53,9 +53,13 @@ impl Convolution {
         Ok(planned)
     }
 
-    /// Plans the convolution with a kernel given at the distances (x, y), in cells, on a grid padded to twice its size.
-    pub fn by_kernel(cells: usize, kernel: impl Fn(usize, usize) -> f64) -> Result<Self, OutOfMemory> {
-        let padded = 2 * cells;
+    /// Plans the convolution with a kernel given at the distances (x, y), in cells, on a grid padded to at least twice its
+    /// size.
+    pub fn by_kernel(
+        cells: usize,
+        padded: usize,
+        kernel: impl Fn(usize, usize) -> f64,
+    ) -> Result<Self, OutOfMemory> {
         let mut planned = Convolution::plan(cells, padded)?;
         let half = padded / 2 + 1;
         let mut rows = resized(Vec::new(), padded * half, Complex64::default())?;
@@ -106,8 +110,7 @@ impl Convolution {
             self.row[..cells].copy_from_slice(values);
             self.row[cells..].fill(0.0);
             // The lengths are those of the plan.
-            let _ =
-                self.rows.0.process_with_scratch(&mut self.row, &mut spectrum[..half], &mut self.scratch);
+            let _ = self.rows.0.process_with_scratch(&mut self.row, &mut spectrum[..half], &mut self.scratch);
         }
         for first in (0..half).step_by(BLOCK) {
             let width = BLOCK.min(half - first);
@@ -130,8 +133,7 @@ impl Convolution {
             // Rounding leaves an imaginary part, which the spectrum of real numbers does not have.
             spectrum[0].im = 0.0;
             spectrum[half - 1].im = 0.0;
-            let _ =
-                self.rows.1.process_with_scratch(&mut spectrum[..half], &mut self.row, &mut self.scratch);
+            let _ = self.rows.1.process_with_scratch(&mut spectrum[..half], &mut self.row, &mut self.scratch);
             values.copy_from_slice(&self.row[..cells]);
         }
     }
@@ -153,7 +155,7 @@ mod tests {
     fn a_kernel_is_summed_over_all_pairs_of_cells() {
         for cells in [4, 6, 16] {
             let kernel = |x: usize, y: usize| 1.0 / (1.0 + (3 * x + x * y + 2 * y * y) as f64);
-            let mut planned = Convolution::by_kernel(cells, kernel).unwrap();
+            let mut planned = Convolution::by_kernel(cells, 2 * cells + 2, kernel).unwrap();
             let (from, mut to) = (numbers(cells * cells), vec![0.0; cells * cells]);
             planned.apply(&from, &mut to);
             for (at, found) in to.iter().enumerate() {

@@ -2,6 +2,7 @@
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
 
+mod adhesive;
 mod convolution;
 mod error;
 mod half_space;
@@ -9,7 +10,8 @@ mod map;
 mod operators;
 mod press;
 
+pub use adhesive::{AdhesiveSquare, AdhesiveState};
 pub use error::HalfSpaceError;
-pub use map::random_map;
 pub use half_space::{HalfSpace, Load, Pressed, Square};
+pub use map::random_map;
 pub use operators::Boundary;

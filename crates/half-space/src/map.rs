@@ -69,7 +69,8 @@ mod tests {
         let slopes = |along: usize| -> f64 {
             let of = |seed: u64| {
                 let map = random_map(32, variance, seed).unwrap();
-                let slope = |at: usize| if along == 1 && at % 32 == 31 { 0.0 } else { map[at + along] - map[at] };
+                let slope =
+                    |at: usize| if along == 1 && at % 32 == 31 { 0.0 } else { map[at + along] - map[at] };
                 (0..31 * 32).map(|at| slope(at).powi(2)).sum::<f64>()
             };
             (0..40).map(of).sum()

@@ -41,7 +41,7 @@ impl Operators {
     }
 
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
-        let (_, padded) = paddings(cells, boundary);
+        let (margin, padded) = paddings(cells, boundary);
         let length = padded as f64 / cells as f64;
         let displacement = match boundary {
             // 2/(E*|q|); the mean displacement of a periodic half-space is infinite and left out.
@@ -49,7 +49,7 @@ impl Operators {
                 if x == 0.0 && y == 0.0 { 0.0 } else { 2.0 / (TAU * x.hypot(y)) }
             })?,
             Boundary::Free => {
-                Convolution::by_kernel(cells, |x, y| of_a_cell(x as f64, y as f64) / cells as f64)?
+                Convolution::by_kernel(cells, margin, |x, y| of_a_cell(x as f64, y as f64) / cells as f64)?
             }
         };
         // A mean pressure takes the inverse of the longest wave: under a force it is taken out, else it need not be exact.
@@ -94,7 +94,8 @@ impl Operators {
 fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
     match boundary {
         Boundary::Periodic => (cells, cells),
-        Boundary::Free => (2 * cells, cells + cells / 4),
+        // Multiples of 16 have no large prime factor on the grids used.
+        Boundary::Free => ((2 * cells).next_multiple_of(16), (cells + cells / 4).next_multiple_of(16)),
     }
 }
 
@@ -103,9 +104,7 @@ fn of_a_cell(x: f64, y: f64) -> f64 {
     let part = |x: f64, y: f64| {
         let r = x.hypot(y);
         // y ln(x + r), written without the difference of near numbers for negative x.
-        let along = |x: f64, y: f64| {
-            y * if x < 0.0 { (y * y / (r - x)).ln() } else { (x + r).ln() }
-        };
+        let along = |x: f64, y: f64| y * if x < 0.0 { (y * y / (r - x)).ln() } else { (x + r).ln() };
         along(x, y) + along(y, x)
     };
     (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5) + part(x - 0.5, y - 0.5)) / PI
@@ -183,7 +182,11 @@ mod tests {
             let outside: Vec<f64> =
                 (0..cells * cells).map(|index| f64::from(u8::from(number(index) > 0.2))).collect();
             let vector = |shift: usize| -> Vec<f64> {
-                outside.iter().enumerate().map(|(index, out)| (1.0 - out) * number(index * shift + 3)).collect()
+                outside
+                    .iter()
+                    .enumerate()
+                    .map(|(index, out)| (1.0 - out) * number(index * shift + 3))
+                    .collect()
             };
             let (one, other) = (vector(1), vector(5));
             let mut on = |of: &[f64]| {

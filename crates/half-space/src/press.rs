@@ -141,8 +141,7 @@ impl Grid {
                 let is_on = mean(&signed) > 0.0;
                 any |= is_on;
                 self.outside[at] = f64::from(u8::from(!is_on));
-                self.pressure[at] =
-                    if is_on { mean(&|at: usize| coarse.pressure[at]).max(0.0) } else { 0.0 };
+                self.pressure[at] = if is_on { mean(&|at: usize| coarse.pressure[at]).max(0.0) } else { 0.0 };
             }
         }
         if !any && matches!(given, Given::MeanPressure(_)) {
@@ -251,6 +250,30 @@ impl Grid {
             last = Some(self.step(given, last));
             steps += 1;
         }
+    }
+
+    /// Solves on the present contact, whose pressures may pull, at the indentation `depth`, until no displacement on it is
+    /// off by more than `tolerance`.
+    pub fn solve_fixed(
+        &mut self,
+        depth: f64,
+        tolerance: f64,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<(), HalfSpaceError> {
+        let given = Given::Indentation(depth);
+        let mut last = None;
+        for _ in 0..MOST_STEPS {
+            self.find_level(given);
+            let [on_contact, ..] = self.judge();
+            if on_contact <= tolerance {
+                break;
+            }
+            if stop() {
+                return Err(HalfSpaceError::Stopped);
+            }
+            last = Some(self.step(given, last));
+        }
+        Ok(())
     }
 
     /// One step of the gradients on the present contact; returns the product that the next step needs.
