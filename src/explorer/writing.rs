@@ -14,10 +14,11 @@ use asperity_data::{WriteError, object, write_new_file};
 use asperity_plot::{Figure, Palette};
 use asperity_report::scene_provenance;
 use asperity_report::{Format, Json, Report};
-use asperity_scene::{Scene, command_line};
+use asperity_scene::{Scene, command_line, own_folder};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
+use std::fs::create_dir_all;
 use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
@@ -31,9 +32,12 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
         if file.content == Content::Scene && file.path.extension().is_none() && is_file {
             file.path.set_extension("ron");
         }
-        write_new_file(&folder.join(&file.path), file.overwrite, |out| {
-            write_content(out, app, &file.path, file.content)
-        })
+        let path = folder.join(&file.path);
+        // The folder of the user's own scenes comes with the first of them.
+        if let Some(own) = own_folder().filter(|own| path.parent() == Some(own)) {
+            create_dir_all(&own).map_err(|reason| WriteError::Failed { path: own.clone().into(), reason })?;
+        }
+        write_new_file(&path, file.overwrite, |out| write_content(out, app, &file.path, file.content))
     };
     let result = written().map_err(|error| match error {
         WriteError::Exists { .. } => WriteFailure::Exists,

@@ -1,7 +1,7 @@
 //! The chart of force loops, the same in figures of scenes and in the explorer.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord};
-use asperity_data::AxisScale;
+use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
 use asperity_scene::Outcome;
 use asperity_scene::{DisplacementCurve, DisplacementPoint, Mark, marks};
@@ -86,6 +86,11 @@ impl LoopUnits {
         let [x, y] =
             self.quantities().map(|one| (one.of)(point, stiffness) / one.over.map_or(1.0, |(over, _)| over));
         (x, y)
+    }
+
+    /// A force in words, in the unit of the chart.
+    pub fn force_in_words(&self, force: f64) -> String {
+        self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
     /// Returns true if a mark lies on the drawn curve: over the displacement, a compliant instrument jumps over the states

@@ -37,10 +37,10 @@ fn the_ending_of_a_name_shows_what_is_exported() {
     let mut driver = pressed("");
     assert!(export(&mut driver, Path::new("a.gif")).is_empty() && driver.files().is_empty());
     driver.states("unsupported file extension .gif; use .csv, .npy, .json, .svg, .png, .pdf or .txt");
-    // The proposed name is that of the scene.
+    // The proposed name is that of the scene with the pane.
     let mut driver = pressed("");
     driver.press("E Enter");
-    assert_eq!(driver.files(), ["rough-line.csv"]);
+    assert_eq!(driver.files(), ["rough-line-force.csv"]);
     assert!(pressed("E Ctrl+u Enter").files().is_empty(), "no name is no file");
 }
 
@@ -126,7 +126,7 @@ fn the_text_is_the_screen_without_the_prompt() {
         let seen = picture::text(&driver.screen());
         let written = exported(&mut driver, "a.txt");
         assert_eq!(written, seen);
-        assert!(written.contains("Force F(d)") && !written.contains("Export to"));
+        assert!(written.contains("Force F (") && !written.contains("Export to"));
         assert_eq!(written.lines().count(), 40);
         assert_eq!(marker == Marker::Ascii, written.is_ascii());
     }

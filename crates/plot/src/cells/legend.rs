@@ -20,7 +20,7 @@ fn text_of(sample: Sample) -> String {
             let [left, middle, right] = stroke.map_or(["", "", ""], strokes);
             format!("{left}{}{right}", sign.map_or(middle, glyph))
         }
-        Sample::Area => strokes(Stroke::Sparse).concat(),
+        Sample::Area => "⠪⠕⠪".to_owned(),
         Sample::Solid => "■".to_owned(),
         Sample::Guide => "┊".to_owned(),
         Sample::Contour => "▁▕".to_owned(),
