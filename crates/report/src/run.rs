@@ -1,5 +1,6 @@
 //! A computed scene as JSON, and its force curve as a table and a figure; and the table of a profile.
 
+use crate::ensemble::{caption, ensemble_value};
 use crate::loop_chart::force_figure;
 use crate::report::{Json, Report};
 use crate::summary::{summary, warning};
@@ -11,6 +12,7 @@ use asperity_scene::Outcome;
 use asperity_scene::displacements;
 use asperity_scene::{Choice, Estimate};
 use asperity_scene::{Observer, Scene};
+use asperity_study::Ensemble;
 use asperity_surface::Line;
 
 #[derive(Clone, Copy, Debug)]
@@ -22,11 +24,13 @@ pub struct RunReport<'a> {
     pub choice: Option<&'a Choice>,
     /// Estimated error of the adhesion force, if it is known.
     pub estimate: Option<&'a Estimate>,
+    /// Results on random profiles, if they are computed.
+    pub ensemble: Option<&'a Ensemble>,
 }
 
 impl Report for RunReport<'_> {
     fn text(&self) -> Option<String> {
-        Some(summary(self.scene, self.outcome, self.estimate, self.choice))
+        Some(summary(self.scene, self.outcome, self.estimate, self.choice, self.ensemble))
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
@@ -36,6 +40,7 @@ impl Report for RunReport<'_> {
         Some(Box::new(object! {
             "scene": scene,
             "choice"?: choice,
+            "ensemble": self.ensemble.map(ensemble_value),
             "line": object! {
                 "points": line.points,
                 "length": line.length,
@@ -99,7 +104,8 @@ impl Report for RunReport<'_> {
     }
 
     fn figure(&self) -> Option<Figure> {
-        Some(force_figure(&[(self.title, self.outcome)]))
+        let figure = force_figure(&[(self.title, self.outcome)]);
+        Some(Figure { notes: self.ensemble.and_then(caption).into_iter().collect(), ..figure })
     }
 }
 

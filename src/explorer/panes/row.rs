@@ -50,6 +50,13 @@ pub fn outcome(app: &App) -> Exported<'_> {
         return Some((OPEN_COMMAND.into(), Box::new(PathReport { scene, loading, path, stages })));
     }
     let outcome = &app.current()?.outcome;
-    let report = RunReport { title, scene, outcome, choice: None, estimate: app.studies.value() };
+    let report = RunReport {
+        title,
+        scene,
+        outcome,
+        choice: None,
+        estimate: app.studies.value(),
+        ensemble: app.studies.value(),
+    };
     Some(("asperity run".into(), Box::new(report)))
 }
