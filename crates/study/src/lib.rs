@@ -4,9 +4,12 @@
 
 mod axis;
 mod boundary;
+mod budget;
 mod case_outcome;
 mod cells;
 mod check;
+mod criteria;
+mod criterion;
 mod error;
 mod grid;
 mod live_map;
@@ -21,6 +24,7 @@ mod preloads;
 mod quantity;
 mod recorder;
 mod results;
+mod rough_contact;
 mod run;
 mod select;
 mod sensitivity;
@@ -33,8 +37,11 @@ mod tables;
 
 pub use axis::{Axis, DERIVED, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, USUAL_LEVELS, boundaries, protocol_name};
+pub use budget::Budget;
 pub use check::case::Case;
 pub use check::{Check, Verdict, catalogue, checks, judge};
+pub use criteria::{Medians, criteria};
+pub use criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR};
 pub use error::StudyError;
 pub use grid::{Cell, Grid, Layer, Place};
 pub use live_map::{Level, LiveMap};
