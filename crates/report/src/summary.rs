@@ -2,6 +2,7 @@
 
 use crate::measured_face::steep;
 use crate::sheet::Sheet;
+use crate::trust::{trust, without_jkr};
 use asperity_contact::Move;
 use asperity_contact::Work;
 use asperity_data::format_quantity;
@@ -26,11 +27,13 @@ pub(crate) fn summary(
     choice: Option<&Choice>,
 ) -> String {
     let mut sheet = Sheet::default();
+    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
     line(&mut sheet, scene, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
+    trust(&mut sheet, scene, outcome, estimate);
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     if let Some(choice) = choice {
@@ -43,6 +46,7 @@ pub(crate) fn summary(
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
+    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
