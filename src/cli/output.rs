@@ -44,7 +44,7 @@ pub struct OutputArguments {
     /// Width of a printed figure: 85mm, 170mm; letters keep their size
     #[arg(long, value_name = "LENGTH", value_parser = |text: &str| length(text, LEAST[0]))]
     pub width: Option<f64>,
-    /// Height of a printed figure: 60mm; default: as its panels need, up to a page
+    /// Height of a printed figure: 60mm; default: what its panels need
     #[arg(long, value_name = "LENGTH", value_parser = |text: &str| length(text, LEAST[1]))]
     pub height: Option<f64>,
     /// Draw these panels of a figure alone: a, or a,c

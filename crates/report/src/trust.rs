@@ -43,7 +43,7 @@ fn theories(sheet: &mut Sheet, outcome: &Outcome, criteria: &[Criterion]) {
 /// random profiles of the median.
 fn errors(sheet: &mut Sheet, scene: &Scene, estimate: Option<&Estimate>, budget: &Budget, profiles: usize) {
     let share = |share: Option<f64>| share.map(|share| format!("± {}", per_cent(share)));
-    sheet.heading("Errors of the adhesion force");
+    sheet.heading("Errors of F_a by their sources");
     let grid = match share(budget.grid) {
         Some(grid) if estimate.is_some_and(|estimate| estimate.near_step) => {
             format!("{grid}, near a step of F_a(F_n)")
