@@ -43,7 +43,7 @@ fn summary(folder: &Path, plan: &str) -> Table {
 /// Boundaries of a study in κ or in e_el/γ, for half and a tenth of F_a,max.
 fn boundaries(folder: &Path, study: &str, over: &str) -> String {
     let levels = ["--level", "0.5", "--level", "0.1"];
-    let command = [&["sweep", "boundary", study, "--over", over, "--format", "csv"], &levels[..]].concat();
+    let command = [&["sweep", "boundary", study, "--x", over, "--format", "csv"], &levels[..]].concat();
     asperity_in(folder, &command).succeeded()
 }
 

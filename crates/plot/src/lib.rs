@@ -11,6 +11,7 @@ mod contour;
 pub mod judge;
 mod label;
 mod pdf;
+mod pdf_font;
 mod png;
 mod scale;
 mod svg;

@@ -28,6 +28,7 @@ mod spectrum_figure;
 mod study_figure;
 mod summary;
 mod surface;
+mod trust;
 mod work_precision;
 
 pub use cost::CostReport;
@@ -35,7 +36,7 @@ pub use ensemble_fit::EnsembleFitReport;
 pub use find::{FindReport, found_in_words};
 pub use fit::FitReport;
 pub use fits::{CurveRow, FitsReport};
-pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, loop_chart, sign};
+pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
 pub use measured_face::{MeasuredFace, SurfaceFile};
 pub use parameters::parameter_lines;
 pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, warning};

@@ -12,7 +12,7 @@ use asperity_scene::Outcome;
 use asperity_scene::displacements;
 use asperity_scene::{Choice, Estimate};
 use asperity_scene::{Observer, Scene};
-use asperity_study::Ensemble;
+use asperity_study::{Budget, Ensemble, criteria};
 use asperity_surface::Line;
 
 #[derive(Clone, Copy, Debug)]
@@ -74,6 +74,8 @@ impl Report for RunReport<'_> {
             "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
             "tabor_number": outcome.tabor_number,
             "steep_waves"?: outcome.steep_waves,
+            "criteria": criteria(scene, outcome, None),
+            "budget": Budget::of(outcome, estimate, &[], None),
             "warnings"?: warning(scene, outcome).map(|warning| [warning]),
             "curve": self.table(),
             "contacts": &history.contacts,

@@ -3,6 +3,7 @@
 use crate::ensemble::headline;
 use crate::measured_face::steep;
 use crate::sheet::Sheet;
+use crate::trust::{trust, without_jkr};
 use asperity_contact::Move;
 use asperity_contact::Work;
 use asperity_data::format_quantity;
@@ -29,6 +30,7 @@ pub(crate) fn summary(
     ensemble: Option<&Ensemble>,
 ) -> String {
     let mut sheet = Sheet::default();
+    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
     match ensemble {
@@ -39,6 +41,7 @@ pub(crate) fn summary(
     line(&mut sheet, scene, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
+    trust(&mut sheet, scene, outcome, estimate);
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     if let Some(choice) = choice {
@@ -51,6 +54,7 @@ pub(crate) fn summary(
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
+    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");

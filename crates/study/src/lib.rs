@@ -4,9 +4,12 @@
 
 mod axis;
 mod boundary;
+mod budget;
 mod case_outcome;
 mod cells;
 mod check;
+mod criteria;
+mod criterion;
 mod ensemble;
 mod error;
 mod find;
@@ -25,6 +28,7 @@ mod profiles;
 mod quantity;
 mod recorder;
 mod results;
+mod rough_contact;
 mod run;
 mod select;
 mod sensitivity;
@@ -37,8 +41,11 @@ mod tables;
 
 pub use axis::{Axis, DERIVED, Spacing};
 pub use boundary::{Boundaries, Boundary, Crossing, USUAL_LEVELS, boundaries, protocol_name};
+pub use budget::Budget;
 pub use check::case::Case;
 pub use check::{Check, Verdict, catalogue, checks, judge};
+pub use criteria::{Medians, criteria};
+pub use criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR};
 pub use ensemble::Ensemble;
 pub use error::StudyError;
 pub use find::{Answer, Found, Question, WITHIN, parse_condition};

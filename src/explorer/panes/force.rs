@@ -11,7 +11,7 @@ use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction};
 use asperity_data::{AxisScale, format_rounded, grouped};
 use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
-use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart};
+use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
 use asperity_scene::quoted;
 use asperity_scene::{LEAST_TABOR_NUMBER, Mark, marks};
 use ratatui::layout::Size;
@@ -22,6 +22,7 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| match fit_report(app) {
         Some(report) => report.figure(),
+        None if app.manual.is_none() && !app.ghosts.is_empty() => compared(app),
         None => Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     },
     report: |app| fit(app).or_else(|| outcome(app)),
@@ -38,6 +39,18 @@ pub static ROW: PaneRow = PaneRow {
 fn fit_report(app: &App) -> Option<FitReport<'_>> {
     let Measured { name, curve, .. } = app.edit.measured.as_ref()?;
     Some(FitReport { title: name, curve, fit: fitted(&app.studies).filter(|_| app.is_current())? })
+}
+
+/// The curves of the kept scenes and of the present one, by their titles, or by what differs where the titles are the same.
+fn compared(app: &App) -> Option<Figure> {
+    let present = app.edit.document.title();
+    let name = |ghost: &Ghost| match ghost.document.title() {
+        same if same == present => differences(app, ghost),
+        other => other.to_owned(),
+    };
+    let names: Vec<String> = app.ghosts.iter().map(name).chain([present.to_owned()]).collect();
+    let outcomes = app.ghosts.iter().map(|ghost| &*ghost.outcome).chain([&app.current()?.outcome]);
+    Some(force_figure(&names.iter().map(String::as_str).zip(outcomes).collect::<Vec<_>>()))
 }
 
 /// The report of the measured curve, with the command that computes the fit.
@@ -214,6 +227,11 @@ fn stiffness(app: &App) -> Option<f64> {
 /// The chart without the names that the pane writes elsewhere: of marks, kept scenes and axes.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
+    if let Some(snapshot) = app.present() {
+        let (x, y) = units(app).place(&snapshot.point);
+        let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
+        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
+    }
     for layer in chart.layers.iter_mut().filter(|layer| matches!(layer.ink, Ink::Text | Ink::Compared(_))) {
         layer.name = Label::default();
     }
@@ -270,11 +288,6 @@ fn chart(app: &App) -> Option<Chart> {
     if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
         let border = app.legs().iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
         chart.layers.insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
-    }
-    if let Some(snapshot) = app.present() {
-        let (x, y) = units.place(&snapshot.point);
-        let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
-        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
     }
     Some(chart)
 }

@@ -100,6 +100,6 @@ fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
     let x = &chart.x;
     let crosshair = app.view.crosshair.map(|share| x.scale.number(x.span.low + share * x.span.width()));
     let read = crosshair.or(present.map(|(preload, _)| preload));
-    let beside = read.and_then(|preload| distribution(&curve.results, preload, &chart.y));
+    let beside = read.and_then(|preload| distribution(&curve.results, preload, Some(&chart.y)));
     (chart, beside)
 }

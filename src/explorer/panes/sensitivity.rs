@@ -6,7 +6,7 @@ use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
 use crate::explorer::text::filled;
 use asperity_data::parallel::threads;
-use asperity_plot::Label;
+use asperity_plot::{Figure, Label};
 use asperity_report::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
 use asperity_study::Sensitivity;
 use ratatui::layout::Size;
@@ -18,6 +18,11 @@ const BESIDE: u16 = 5;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
+    figure: |app, _| {
+        let found = app.studies.value::<Sensitivity>().filter(|found| found.missing().is_none())?;
+        let chart = sensitivity_chart(found, 0, found.influences.len());
+        Some(Figure::of_chart(app.edit.document.title(), chart))
+    },
     report,
     studies: |_, computed| {
         let scene = Arc::clone(&computed.scene);

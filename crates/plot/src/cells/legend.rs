@@ -10,6 +10,7 @@ fn strokes(stroke: Stroke) -> [&'static str; 3] {
         Stroke::Solid => ["⠒"; 3],
         Stroke::Dashed => ["⠒", "⠂", "⠒"],
         Stroke::Dotted => ["⠒", " ", "⠒"],
+        Stroke::DashDotted => ["⠒", "⠐", "⠒"],
         Stroke::Sparse => ["⠂", " ", "⠂"],
     }
 }

@@ -119,6 +119,7 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
         Stroke::Solid => true,
         Stroke::Dashed => dot % 8 < 6,
         Stroke::Dotted => dot % 4 < 2,
+        Stroke::DashDotted => !matches!(dot % 10, 6 | 7 | 9),
         Stroke::Sparse => dot.is_multiple_of(4),
     }
 }

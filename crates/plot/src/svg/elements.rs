@@ -42,6 +42,7 @@ impl Pen {
             Stroke::Solid => "",
             Stroke::Dashed => " stroke-dasharray=\"6 3.5\"",
             Stroke::Dotted => " stroke-dasharray=\"2.5 2.5\"",
+            Stroke::DashDotted => " stroke-dasharray=\"8 2.5 1.5 2.5\"",
             Stroke::Sparse => " stroke-dasharray=\"1.5 4.5\"",
         };
         format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(self.colour), px(self.width))
@@ -181,6 +182,16 @@ fn with_minus(text: &str) -> String {
     (0..characters.len()).map(|at| if is_minus(at) { '−' } else { characters[at] }).collect()
 }
 
+/// Makes the blanks at both ends of a part of a label no-break spaces: some viewers drop blanks next to a tag.
+fn with_fixed_ends(text: &str) -> String {
+    let inner = text.trim_matches(' ');
+    let fixed = |part: &str| part.replace(' ', "\u{a0}");
+    match text.find(inner).filter(|_| !inner.is_empty()) {
+        Some(start) => fixed(&text[..start]) + inner + &fixed(&text[start + inner.len()..]),
+        None => fixed(text),
+    }
+}
+
 /// The parts of a label as elements within a text of this font size, px.
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
@@ -198,7 +209,7 @@ fn runs(label: &Label, size: f64) -> String {
             step => format!(" dy=\"{step}\""),
         };
         shift = below;
-        let text = escaped(&with_minus(text));
+        let text = escaped(&with_fixed_ends(&with_minus(text)));
         if step.is_empty() && looks.is_empty() {
             elements.push_str(&text);
         } else {
@@ -247,7 +258,7 @@ mod tests {
         assert_eq!(
             runs(&label, 10.0),
             "<tspan font-style=\"italic\">F</tspan><tspan dy=\"2.5\" font-size=\"7.2\">a,max</tspan>\
-             <tspan dy=\"-2.5\"> &lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
+             <tspan dy=\"-2.5\">\u{a0}&lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
         );
     }
 
