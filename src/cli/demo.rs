@@ -7,10 +7,10 @@ use super::scene::Overrides;
 use crate::explorer::demo::Demo;
 use crate::explorer::demo::script::{ONE_SCENE, TOUR};
 use crate::explorer::demo::watch::play;
-use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};
 use crate::explorer::writing::{picture_of, screenshot};
 use asperity_data::write_new;
+use asperity_plot::screen_text;
 use asperity_scene::{open_argument, presets};
 use clap::Args;
 use std::io;
@@ -105,7 +105,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
             Some(file) => {
                 Ok(write_new(file, arguments.force, |out| out.write_all(screenshot(app).as_bytes()))?)
             }
-            None => Ok(stdout_.write_all(text(&picture_of(app)).as_bytes())?),
+            None => Ok(stdout_.write_all(screen_text(&picture_of(app)).as_bytes())?),
         };
     }
     if watched {
@@ -113,7 +113,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     }
     while let Some(seconds) = demo.advance() {
         writeln!(stdout_, "== {seconds:.2} s ==")?;
-        stdout_.write_all(text(&picture_of(demo.app())).as_bytes())?;
+        stdout_.write_all(screen_text(&picture_of(demo.app())).as_bytes())?;
     }
     Ok(())
 }

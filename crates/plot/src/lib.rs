@@ -14,6 +14,7 @@ mod pdf;
 mod pdf_font;
 mod png;
 mod scale;
+mod screen;
 mod svg;
 mod ticks;
 
@@ -28,4 +29,6 @@ pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stro
 pub use colour::{Ink, Palette, Rgb, Shades, hex};
 pub use label::{Label, prefixed, statement, value_label};
 pub use scale::Span;
-pub use svg::elements::{Svg, escaped};
+pub use screen::ascii::to_ascii;
+pub use screen::screen_text;
+pub use screen::svg::screen_svg;

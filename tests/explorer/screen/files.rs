@@ -2,7 +2,6 @@
 
 use super::*;
 use asperity::explorer::action::{Content, OutputFile};
-use asperity::explorer::picture;
 use asperity::explorer::theme::Marker;
 use asperity::scene::command_line;
 use asperity_report::RunReport;
@@ -124,7 +123,7 @@ fn the_text_is_the_screen_without_the_prompt() {
         let mut driver = pressed("c L d { j");
         driver.app.view.appearance.marker = marker;
         driver.perform(vec![Task::Ask]);
-        let seen = picture::text(&driver.screen());
+        let seen = asperity_plot::screen_text(&driver.screen());
         let written = exported(&mut driver, "a.txt");
         assert_eq!(written, seen);
         assert!(written.contains("Force F (") && !written.contains("Export to"));

@@ -4,7 +4,8 @@
 //! so that they meet from cell to cell with any font.
 
 use super::{Glyph, dots, glyphs};
-use asperity_plot::{Palette, Rgb, Svg, escaped, hex};
+use crate::colour::{Palette, Rgb, hex};
+use crate::svg::elements::{Svg, escaped};
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
@@ -31,7 +32,7 @@ enum Kind {
 }
 
 /// The screen as a self-contained SVG document; equal screens give equal bytes.
-pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
+pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
     let mut svg = Svg::new(f64::from(width), f64::from(height), title);
@@ -170,7 +171,7 @@ fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_plot::judge::parsed;
+    use crate::judge::parsed;
     use ratatui::layout::Rect;
     use ratatui::style::Style;
 
@@ -178,7 +179,7 @@ mod tests {
     fn drawn(text: &str, style: Style) -> Vec<String> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 1));
         buffer.set_string(1, 0, text, style);
-        let svg = svg(&buffer, &Palette::DARK, "");
+        let svg = screen_svg(&buffer, &Palette::DARK, "");
         parsed(&svg);
         let inner = svg.split_once("\"preserve\">\n").unwrap().1;
         inner.lines().filter(|line| !line.starts_with("</")).map(str::to_owned).collect()
@@ -186,7 +187,8 @@ mod tests {
 
     #[test]
     fn the_document_has_a_title_and_the_size_of_the_screen() {
-        let svg = svg(&Buffer::empty(Rect::new(5, 5, 120, 40)), &Palette::LIGHT, "κ < 6 & \"h\" > 0\u{1}");
+        let svg =
+            screen_svg(&Buffer::empty(Rect::new(5, 5, 120, 40)), &Palette::LIGHT, "κ < 6 & \"h\" > 0\u{1}");
         let (elements, text) = parsed(&svg);
         assert_eq!(text.trim(), "κ < 6 & \"h\" > 0\u{fffd}");
         assert!(
@@ -195,7 +197,7 @@ mod tests {
         );
         assert_eq!(elements[2], r##"rect width="976" height="656" rx="6" fill="#ffffff""##);
         assert_eq!(elements.len(), 4, "{svg}");
-        parsed(&super::svg(&Buffer::empty(Rect::ZERO), &Palette::LIGHT, ""));
+        parsed(&super::screen_svg(&Buffer::empty(Rect::ZERO), &Palette::LIGHT, ""));
     }
 
     #[test]
