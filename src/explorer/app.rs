@@ -19,13 +19,13 @@ use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::Move;
 use asperity_contact::{CurvePoint, LegRecord};
-use asperity_data::AxisScale;
+use asperity_data::{AxisScale, format_rounded};
 use asperity_report::LoopQuantities;
 use asperity_report::Section;
 use asperity_scene::Outcome;
 use asperity_scene::{Document, ron_float};
 use asperity_scene::{Governing, marks};
-use asperity_study::{Axis, Grid, Place, Quantity};
+use asperity_study::{Axis, Ensemble, Grid, Place, Quantity};
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -398,6 +398,32 @@ impl App {
     pub fn without_rounding(&self, force: f64) -> f64 {
         let largest = marks(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
         if force.abs() < 1e-12 * largest { 0.0 } else { force }
+    }
+
+    /// Returns true if forces are shown in units of F_a,max, which the shown scene has.
+    pub fn is_normalised(&self) -> bool {
+        self.view.curve.normalised && self.ideal_adhesion_force().is_some()
+    }
+
+    fn ideal_adhesion_force(&self) -> Option<f64> {
+        self.solved.as_ref()?.outcome.ideal_adhesion_force.filter(|force| *force > 0.0)
+    }
+
+    /// A force of the shown scene in words: in N, or in units of F_a,max.
+    pub fn force_in_words(&self, force: f64) -> String {
+        match self.ideal_adhesion_force().filter(|_| self.is_normalised()) {
+            Some(ideal) => format!("{} F_a,max", format_rounded(force / ideal, 3, "1")),
+            None => format_rounded(force, 3, "N"),
+        }
+    }
+
+    /// F_a/F_a,max in words: the median over random profiles, or of a scene without them its own.
+    pub fn adhesion_share_in_words(&self) -> Option<String> {
+        let of_profiles = || self.studies.value::<Ensemble>()?.statistics(Quantity::AdhesionShare);
+        let own =
+            || Some(self.solved.as_ref()?.outcome.figures.adhesion_force? / self.ideal_adhesion_force()?);
+        let share = of_profiles().map(|all| all.quartiles[1]).or_else(own)?;
+        Some(format!("F_a/F_a,max {} %", format_rounded(100.0 * share, 2, "1")))
     }
 
     /// Value of a parameter in the notation of the scene; for a value that follows from others the computed one, if known.

@@ -29,6 +29,8 @@ pub struct Prompt {
 pub enum Purpose {
     Value,
     Force,
+    /// A quantity with its value, for the inverse question on the selected row.
+    Target,
     /// A relative error, for the choice of the number of springs.
     Tolerance,
     /// Names of parameters, for a fit to the measured curve.

@@ -1,6 +1,6 @@
 //! Prompts: opening, editing, accepting and cancelling them.
 
-use super::{accuracy, edit, files, measured, movement};
+use super::{accuracy, edit, files, measured, movement, target};
 use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
@@ -116,6 +116,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     match &prompt.purpose {
         Purpose::Value if measured::is_option(app) => return measured::accept_option(app, typed),
         Purpose::Value => return edit::accept_value(app, typed),
+        Purpose::Target => return target::accept(app, typed),
         Purpose::Force => return movement::accept_force(app, typed),
         Purpose::Tolerance => return accuracy::accept_tolerance(app, typed),
         Purpose::Fit => return measured::accept_fit(app, typed),
@@ -160,6 +161,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
 pub fn cancel(app: &mut App) {
     match app.prompt.take().map(|prompt| prompt.purpose) {
         Some(Purpose::Value) => edit::preview(app),
+        Some(Purpose::Target) => app.effects.push(Task::Study),
         Some(Purpose::Parameter { before }) => app.view.pane = before,
         _ => {}
     }

@@ -1,5 +1,6 @@
 //! Edits of the scene. Each gives a new document and can be undone.
 
+use super::accuracy::ensemble_key;
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget, Message};
 use crate::explorer::editor::Edited;
@@ -111,8 +112,10 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     }
     (prompt.refused, prompt.paths) = (None, Vec::new());
     prompt.search(&app.edit.parameters);
-    if matches!(prompt.purpose, Purpose::Value) {
-        preview(app);
+    match prompt.purpose {
+        Purpose::Value => preview(app),
+        Purpose::Target => app.effects.push(Task::Study),
+        _ => {}
     }
 }
 
@@ -235,7 +238,7 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
-fn set_selected(app: &mut App, written: &str) {
+pub fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
         Ok(document) => apply(app, Ok(document)),
         Err(why) => refuse(app, why),
@@ -402,7 +405,7 @@ fn after_edit(app: &mut App) {
     app.progress = Some(0);
     app.map.moving = false;
     let map = app.map.key(&app.edit.scene).unwrap_or_default();
-    app.studies.keep(&[&map, app.edit.document.text()]);
+    app.studies.keep(&[&map, app.edit.document.text(), &ensemble_key(&app.edit.scene)]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");

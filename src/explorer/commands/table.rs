@@ -1,7 +1,9 @@
 //! The one table of keys with their functions, for dispatch, footer, help, list of commands, configuration, demo and
 //! docs/keys.md.
 
-use super::{accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, view};
+use super::{
+    accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target, view,
+};
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::{ANY, Bindings, Command, Context, EXPLORE, MANUAL, Row};
@@ -169,6 +171,7 @@ static TABLE: &[Entry] = &[
     row("0–9", LIST, "start-value", Key(edit::start_value), "type", "type a number for the selected parameter; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
     row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, while the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
+    row("f", LIST, "find-value", Do(target::ask), "for target", "find the value of the selected row, or the preload, for a target such as F_a/F_a,max = 80 %", PARAMETERS).words("inverse question goal reach required which"),
     row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
     row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS).words("seed realisation realization random"),
     row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS).words("accuracy precision error convergence springs"),

@@ -83,7 +83,7 @@ fn describe(app: &App, PatchFacts { patch, state, .. }: PatchFacts) -> [String; 
     };
     [
         format!("δx {}", format_rounded(state.length, 3, "m")),
-        format_rounded(app.without_rounding(state.force), 3, "N"),
+        app.force_in_words(app.without_rounding(state.force)),
         stretch,
         counted(patch.springs().len() as u64, "spring"),
     ]

@@ -97,12 +97,16 @@ fn panel(app: &App, size: Size) -> Panel {
     }
     let below = residuals(app, &chart.x);
     let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
+    let share = app.adhesion_share_in_words().map(|share| vec![Text::raw(share)]);
     let edge = state(app).into_iter().enumerate().map(|(number, text)| {
         let sign = (number == 0).then(|| sign.clone());
         sign.into_iter().chain([Text::raw(text)]).collect()
     });
-    let mut panel =
-        Panel { head, edge: edge.collect(), ..Panel::of_chart(title(app, Some(&chart.y)), chart) };
+    let mut panel = Panel {
+        head,
+        edge: share.into_iter().chain(edge).collect(),
+        ..Panel::of_chart(title(app, Some(&chart.y)), chart)
+    };
     if let Body::Chart(plot) = &mut panel.body {
         (plot.names, plot.below) = (names, below);
     }

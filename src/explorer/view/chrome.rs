@@ -4,6 +4,7 @@ use crate::explorer::action::EXPORTS;
 use crate::explorer::app::{App, Message};
 use crate::explorer::commands::accuracy::Choosing;
 use crate::explorer::commands::table::footer as footer_keys;
+use crate::explorer::commands::target;
 use crate::explorer::keys::bindings::Row;
 use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
@@ -16,7 +17,7 @@ use asperity_data::{format_quantity, format_range, format_rounded};
 use asperity_experiment::Fit;
 use asperity_scene::Estimate;
 use asperity_scene::SteepWaves;
-use asperity_study::{MeasuredAdhesion, PreloadCurve, Statistics};
+use asperity_study::{Ensemble, Quantity};
 use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
@@ -65,7 +66,10 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
         (Some((prompt, purpose)), _)
             if !matches!(purpose, Purpose::Value | Purpose::Topics { is_typed: false, .. }) =>
         {
-            prompted(app, prompt, width)
+            let mut lines = vec![prompted(app, prompt, width)];
+            let answer = target::answer(app).map(|answer| Line::styled(answer, theme.style(Meaning::Title)));
+            lines.extend(answer.into_iter().flat_map(|answer| wrapped_within(&answer, width, rows - 1)));
+            return lines;
         }
         (_, Some(Message::Error(why) | Message::Refused(why))) => return refusal(why, rows),
         (_, Some(Message::Done(text))) if Span::raw(text.as_str()).width() + 2 > width.into() => {
@@ -97,6 +101,8 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
         Purpose::Value | Purpose::Overwrite(_) | Purpose::Leave => String::new(),
+        Purpose::Target if is_narrow => "For: ".to_owned(),
+        Purpose::Target => format!("Find {} for: ", target::name(app)),
         Purpose::Force => format!("Go to the force ({}): ", typed::unit_of_force(app)),
         Purpose::Tolerance if is_narrow => "Tolerance: ".to_owned(),
         Purpose::Tolerance => "Relative error allowed (0.1 % or 1e-3): ".to_owned(),
@@ -138,13 +144,13 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         (regimes, Meaning::Title)
     });
     let force = |value| format_quantity(value, "N");
-    let error = error(app).filter(|_| is_wide).map_or_else(String::new, |error| format!(" ({error})"));
+    let error = error(app).filter(|_| is_wide);
     let mut facts = Vec::new();
     if let Some(tried) = app.tried_outcome().filter(|_| app.is_typing_value()) {
         let shown = match tried.figures.adhesion_force {
             _ if !app.is_tried() => "computing…".to_owned(),
             None => "F_a none".to_owned(),
-            Some(adhesion) => format!("F_a {}", force(adhesion)),
+            Some(adhesion) => format!("F_a {}", app.force_in_words(adhesion)),
         };
         facts.push((format!("preview: {shown}"), Meaning::Title));
         facts.push(("Enter accepts".to_owned(), Meaning::Quiet));
@@ -154,15 +160,16 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         facts.push((format!("computing, stage {stage} of {stages}"), Meaning::Quiet));
     }
     if let Some(adhesion) = figures.adhesion_force.filter(|force| *force != 0.0) {
-        let profiles = profiles(app).filter(|_| is_wide);
-        let whose = if profiles.is_some() { " of this profile" } else { "" };
-        facts.push((format!("F_a{whose} {}{error}", force(adhesion)), Meaning::Title));
-        facts.extend(profiles.map(|Statistics { count, quartiles: [lower, median, upper], .. }| {
-            let (median, quartiles) = (format_rounded(median, 2, "N"), format_range((lower, upper), 2, "N"));
-            (format!("{count} profiles: median {median} ({quartiles})"), Meaning::Title)
-        }));
+        let is_fixed = Ensemble::profiles_of(app.edit.document.scene()) == 1;
+        let profiles = profiles(app, is_wide);
+        let this = if profiles.is_some() { "this profile" } else { "F_a" };
+        let fixed = if is_fixed && is_wide { ", fixed profile" } else { "" };
+        let error = error.map_or_else(String::new, |error| format!(", {error}"));
+        facts.extend(profiles);
+        facts.push((format!("{this} {}{error}{fixed}", app.force_in_words(adhesion)), Meaning::Text));
     } else if let Some(largest) = figures.preload.filter(|force| *force != 0.0) {
         // Without tensile force.
+        let error = error.map_or_else(String::new, |error| format!(", {error}"));
         facts.push((format!("F_max {}{error}", force(largest)), Meaning::Title));
     }
     if let Some(measured) = &app.edit.measured {
@@ -179,6 +186,7 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         let warning = format!("λ²/AR {ratio:.2} < {least}: JKR pulls {jkr_factor:.2} × the smooth sphere");
         facts.push((warning, Meaning::Error));
     }
+    facts.extend(app.adhesion_share_in_words().map(|share| (share, Meaning::Title)));
     if let Some(coefficient) = figures.adhesion_coefficient {
         facts.push((format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
     }
@@ -188,12 +196,21 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
     facts
 }
 
-/// Statistics of the adhesion force over random profiles, if these are computed at the preload of the scene.
-fn profiles(app: &App) -> Option<Statistics> {
-    let preload = app.current()?.outcome.figures.preload;
-    let at = |preload| app.studies.value::<PreloadCurve>()?.at(preload);
-    let measured = || app.studies.value::<MeasuredAdhesion>()?.adhesion_force();
-    preload.and_then(at).or_else(measured).filter(|forces| forces.count >= 2)
+/// Median and quartiles of the adhesion force over the random profiles computed so far, and with room their number.
+fn profiles(app: &App, is_wide: bool) -> Option<(String, Meaning)> {
+    let ensemble = app.studies.value::<Ensemble>()?;
+    let is_share = app.is_normalised();
+    let quantity = if is_share { Quantity::AdhesionShare } else { Quantity::AdhesionForce };
+    let [lower, median, upper] = ensemble.statistics(quantity)?.quartiles;
+    let unit = if is_share { "1" } else { "N" };
+    let (median, quartiles) = (format_rounded(median, 3, unit), format_range((lower, upper), 2, unit));
+    let count = match (ensemble.computed(), ensemble.profiles()) {
+        _ if !is_wide => String::new(),
+        (computed, all) if computed < all => format!(", {computed} of {all} profiles"),
+        (_, all) => format!(", {all} profiles"),
+    };
+    let symbol = if is_share { "F_a/F_a,max" } else { "F_a" };
+    Some((format!("{symbol} median {median} ({quartiles}{count})"), Meaning::Title))
 }
 
 /// Estimated error of the headline figure in words: `…` while it is awaited, `None` without an estimate.
