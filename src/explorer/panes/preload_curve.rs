@@ -7,7 +7,7 @@ use asperity_plot::Span;
 use asperity_scene::Figures;
 use asperity_scene::Simulation;
 use asperity_scene::Solver;
-use asperity_study::{Axis, Results, Staircase, Statistics};
+use asperity_study::{Axis, Results, Staircase, Statistics, Stop};
 
 /// Number of preloads, and index of the scene's own preload among them: a linear axis extends from the force at first touch
 /// to twice the preload, a logarithmic one over six decades, two of them above the preload.
@@ -40,7 +40,7 @@ impl PreloadCurve {
         scale: AxisScale,
         begun: Option<PreloadCurve>,
         simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
+        stop: &Stop<'_>,
         report: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<PreloadCurve, String> {
         let begun = begun.filter(|begun| begun.axis.scale() == scale && begun.staircase.is_whole());
@@ -54,7 +54,7 @@ impl PreloadCurve {
             found.map_err(|error| error.to_string())?;
         }
         let mut results = curve.results.clone();
-        let done = results.extend(simulation, stop, &mut |part| {
+        let done = results.extend(std::mem::take(simulation), 1, stop, &mut |part| {
             report(&PreloadCurve { results: part.clone(), ..curve.clone() });
         });
         done.map_err(|error| error.to_string())?;
@@ -66,7 +66,7 @@ impl PreloadCurve {
         computed: &SolvedScene,
         scale: AxisScale,
         simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
+        stop: &Stop<'_>,
     ) -> Result<Self, String> {
         let SolvedScene { scene, outcome, .. } = computed;
         if scene.numerics.solver != Solver::Exact {
@@ -121,8 +121,8 @@ mod tests {
     use super::*;
     use asperity_contact::Edges;
     use asperity_scene::open;
-    use std::cell::Cell;
     use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
     const LINEAR: AxisScale = AxisScale::Linear;
 
@@ -140,17 +140,20 @@ mod tests {
     #[test]
     fn the_curve_grows_and_continues_where_it_was_stopped() {
         let computed = computed("pressure-sensitive");
-        let (simulation, profiles, parts) = (&mut Simulation::default(), Cell::new(0), Cell::new(0));
-        let stop = || profiles.get() >= 3;
+        let (simulation, profiles, parts) =
+            (&mut Simulation::default(), AtomicUsize::new(0), AtomicUsize::new(0));
+        let stop = || profiles.load(Relaxed) >= 3;
         let mut last = None;
         let mut see = |curve: &PreloadCurve| {
-            profiles.set(curve.profiles());
-            parts.set(parts.get() + 1);
+            profiles.store(curve.profiles(), Relaxed);
+            parts.fetch_add(1, Relaxed);
             last = Some(curve.clone());
         };
         let done = PreloadCurve::compute(&computed, LINEAR, None, simulation, &stop, &mut see);
         let begun = last.unwrap();
-        assert!(done.is_err() && begun.staircase.is_whole() && begun.profiles() == 3 && parts.get() > 4);
+        assert!(
+            done.is_err() && begun.staircase.is_whole() && begun.profiles() == 3 && parts.load(Relaxed) > 4
+        );
         let mut first = None;
         let mut see = |part: &PreloadCurve| {
             first.get_or_insert(part.profiles());
