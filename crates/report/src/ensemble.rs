@@ -32,15 +32,13 @@ pub(crate) fn profiles_named(count: u64, first: u64) -> String {
 /// Adds the headline of a scene: median, quartiles and range over its random profiles, and their regimes.
 pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     sheet.heading(&profiles_named(ensemble.profiles(), ensemble.results().plan().seed));
-    let mut rows = vec![["", "median", "quartiles", "range"].map(String::from)];
+    let mut rows = vec![["", "median", "quartiles", "range", "profiles"].map(String::from)];
     for (name, quantity) in NAMES.iter().zip(Ensemble::NUMBERS) {
-        let Some(Statistics { quartiles: [lower, median, upper], range, .. }) = ensemble.statistics(quantity)
-        else {
-            continue;
-        };
+        let Some(all) = ensemble.statistics(quantity) else { continue };
+        let Statistics { quartiles: [lower, median, upper], range, count, .. } = all;
         let ends = |ends| format_range(ends, 2, quantity.unit());
         let median = format_rounded(median, 3, quantity.unit());
-        rows.push([(*name).to_owned(), median, ends((lower, upper)), ends(range)]);
+        rows.push([(*name).to_owned(), median, ends((lower, upper)), ends(range), grouped(count as u64)]);
     }
     if rows.len() > 1 {
         sheet.table(&rows);
@@ -48,6 +46,10 @@ pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     let headings = ["regimes, first touch", "regimes, zero force"];
     for (heading, counts) in headings.into_iter().zip(ensemble.regimes()) {
         sheet.row(heading, regimes_in_words(counts));
+    }
+    let failed = ensemble.failed().count();
+    if let Some((seed, reason)) = ensemble.failed().next() {
+        sheet.paragraph(&format!("{failed} of them cannot follow the loading: seed {seed}: {reason}."));
     }
 }
 
