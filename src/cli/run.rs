@@ -236,11 +236,12 @@ fn run_loadings(
     };
     let Chosen { document, scene, choice } = one;
     let choice = choice.as_ref();
+    // First the profile of the scene, whose failure is that of the scene.
+    let outcome = compute(document, scene)?;
     let ensemble = arguments.ensemble(one, format)?;
     if let Some(ensemble) = ensemble.as_ref().filter(|_| format.is_table()) {
         return write(ensemble);
     }
-    let outcome = compute(document, scene)?;
     let estimate = match choice {
         Some(choice) => Some(choice.estimate()),
         None if matches!(format, Format::Text | Format::Json) => {

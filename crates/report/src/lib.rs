@@ -50,7 +50,7 @@ pub use scene_figure::ContactSets;
 pub use scene_spectra::SceneSpectra;
 pub use scenes::{ComparedScene, ScenesReport};
 pub use section::{Contact, LineColumns, Part, Section};
-pub use sensitivity::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
+pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;
 pub use study_figure::{study_curves, study_figure, study_map};
