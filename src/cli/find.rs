@@ -28,8 +28,8 @@ pub struct FindArguments {
     pub field: String,
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// The quantity by symbol or name, and its value: 'F_a/F_a,max = 80 %'
-    #[arg(long = "where", value_name = "QUANTITY = VALUE", value_parser = parse_condition)]
+    /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
+    #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
     pub condition: (Quantity, f64),
     /// Smallest searched number; default: a hundredth of that of the scene
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]

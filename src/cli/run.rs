@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE};
 use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments, compute, open_scene, simulation_of};
+use super::surface::MOST_SPRINGS;
 use asperity_contact::{Leg, LegRecord};
 use asperity_data::{grouped, wrap};
 use asperity_plot::Figure;
@@ -15,7 +16,7 @@ use asperity_report::{ComparedScene, ScenesReport};
 use asperity_report::{Format, Report};
 use asperity_scene::{CheckedScene, Document, Scene, Simulation};
 use asperity_scene::{Choice, choose, estimate, parse_tolerance};
-use asperity_study::{Axis, Ensemble, Quantity, Results, Staircase, parse_preloads};
+use asperity_study::{Axis, Ensemble, MeasuredAdhesion, Quantity, Results, Staircase, parse_preloads};
 use clap::Args;
 use std::io;
 use std::io::Write;
@@ -161,6 +162,17 @@ impl RunArguments {
         ensemble.map(Some).map_err(|error| CliError::named(document.name(), error))
     }
 
+    /// Standard deviation of the adhesion force by the spectrum of a measured surface, N, on the profiles of an ensemble; `None`
+    /// for any other scene, and for so many springs that it takes long.
+    fn deviation(&self, chosen: &Chosen<'_>, ensemble: &Ensemble) -> Option<f64> {
+        let Chosen { document, scene, .. } = chosen;
+        if scene.measured().is_none() || scene.numerics.points > MOST_SPRINGS {
+            return None;
+        }
+        let measured = MeasuredAdhesion::of(document, ensemble.profiles() as u32, self.profiles.threads());
+        measured.ok()?.fit_deviation()
+    }
+
     /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads are below zero.
     fn adhesion(
         &self,
@@ -224,11 +236,12 @@ fn run_loadings(
     };
     let Chosen { document, scene, choice } = one;
     let choice = choice.as_ref();
+    // First the profile of the scene, whose failure is that of the scene.
+    let outcome = compute(document, scene)?;
     let ensemble = arguments.ensemble(one, format)?;
     if let Some(ensemble) = ensemble.as_ref().filter(|_| format.is_table()) {
         return write(ensemble);
     }
-    let outcome = compute(document, scene)?;
     let estimate = match choice {
         Some(choice) => Some(choice.estimate()),
         None if matches!(format, Format::Text | Format::Json) => {
@@ -237,7 +250,8 @@ fn run_loadings(
         None => None,
     };
     let (title, estimate, ensemble) = (document.title(), estimate.as_ref(), ensemble.as_ref());
-    write(&RunReport { title, scene, outcome: &outcome, choice, estimate, ensemble })
+    let deviation = ensemble.and_then(|ensemble| arguments.deviation(one, ensemble));
+    write(&RunReport { title, scene, outcome: &outcome, choice, estimate, ensemble, deviation })
 }
 
 fn run_preloads(

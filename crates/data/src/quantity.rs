@@ -184,8 +184,11 @@ pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> Strin
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }
 
-/// Joins the ends of a range, each a value with its unit; a unit that both share is written once.
+/// Joins the ends of a range, each a value with its unit; a unit that both share is written once, as are equal ends.
 pub fn one_unit([low, high]: [String; 2]) -> String {
+    if low == high {
+        return low;
+    }
     match (low.split_once(' '), high.split_once(' ')) {
         (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => format!("{number} to {high}"),
         _ => format!("{low} to {high}"),

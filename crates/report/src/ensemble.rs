@@ -3,7 +3,7 @@
 use crate::report::Report;
 use crate::sheet::Sheet;
 use asperity_data::{Kind, Table, object};
-use asperity_data::{format_range, format_rounded, grouped};
+use asperity_data::{format_range, format_rounded, grouped, one_unit};
 use asperity_plot::Label;
 use asperity_scene::Regime;
 use asperity_study::{Ensemble, Quantity, RegimeCounts, Statistics};
@@ -29,18 +29,25 @@ pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     }
 }
 
+/// A value of a quantity to this number of digits, a share in per cent.
+pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
+    match quantity.bounds() {
+        (0.0, 1.0) => format!("{} %", format_rounded(100.0 * value, digits, "1")),
+        _ => format_rounded(value, digits, quantity.unit()),
+    }
+}
+
 /// Adds the headline of a scene: median, quartiles and range over its random profiles, and their regimes.
 pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     sheet.heading(&profiles_named(ensemble.profiles(), ensemble.results().plan().seed));
-    let mut rows = vec![["", "median", "quartiles", "range"].map(String::from)];
+    let mut rows = vec![["", "median", "quartiles", "range", "profiles"].map(String::from)];
     for (name, quantity) in NAMES.iter().zip(Ensemble::NUMBERS) {
-        let Some(Statistics { quartiles: [lower, median, upper], range, .. }) = ensemble.statistics(quantity)
-        else {
-            continue;
-        };
-        let ends = |ends| format_range(ends, 2, quantity.unit());
-        let median = format_rounded(median, 3, quantity.unit());
-        rows.push([(*name).to_owned(), median, ends((lower, upper)), ends(range)]);
+        let Some(all) = ensemble.statistics(quantity) else { continue };
+        let Statistics { quartiles: [lower, median, upper], range, count, .. } = all;
+        let shown = |value, digits| rounded(quantity, value, digits);
+        let ends = |(low, high)| one_unit([low, high].map(|end| shown(end, 2)));
+        let median = shown(median, 3);
+        rows.push([(*name).to_owned(), median, ends((lower, upper)), ends(range), grouped(count as u64)]);
     }
     if rows.len() > 1 {
         sheet.table(&rows);
@@ -48,6 +55,10 @@ pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     let headings = ["regimes, first touch", "regimes, zero force"];
     for (heading, counts) in headings.into_iter().zip(ensemble.regimes()) {
         sheet.row(heading, regimes_in_words(counts));
+    }
+    let failed = ensemble.failed().count();
+    if let Some((seed, reason)) = ensemble.failed().next() {
+        sheet.paragraph(&format!("{failed} of them cannot follow the loading: seed {seed}: {reason}."));
     }
 }
 

@@ -1,11 +1,11 @@
 //! The number at which a quantity reaches a target, as text, JSON and a table.
 
-use crate::ensemble::profiles_named;
+use crate::ensemble::{profiles_named, rounded};
 use crate::report::{Json, Report};
 use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
 use asperity_data::{Kind, Table, object};
-use asperity_data::{format_quantity, format_range, format_rounded, grouped};
+use asperity_data::{format_quantity, format_range, format_rounded, grouped, one_unit};
 use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found};
 
@@ -23,12 +23,12 @@ pub struct FindReport<'a> {
 /// The answer in one sentence: the median with quartiles, `at any preload`, or `never` with the values within reach.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
-    let (unit, of) = (question.axis.unit, question.quantity.unit());
+    let unit = question.axis.unit;
     let target = target_in_words(found);
     let name = question.axis.symbol_or_name();
     let count = found.answers.len();
     let searched = format_range(question.searched, 4, unit);
-    let reachable = found.reachable().map_or_else(String::new, |ends| format_range(ends, 4, of));
+    let reachable = found.reachable().map_or_else(String::new, |ends| values_in_words(found, ends));
     let is_reached = |answer: &&Answer| answer.reached == [true; 2] && answer.crossings.is_empty();
     let reached = found.answers.iter().filter(is_reached).count();
     let met = found.values().iter().flatten().count();
@@ -81,14 +81,13 @@ pub fn found_in_words(found: &Found) -> String {
 
 /// The target in words: `F_a/F_a,max = 80 %`.
 fn target_in_words(found: &Found) -> String {
-    let question = &found.question;
-    let value = match question.quantity.unit() {
-        "1" if question.quantity.bounds() == (0.0, 1.0) => {
-            format!("{} %", format_quantity(100.0 * question.target, "1"))
-        }
-        unit => format_quantity(question.target, unit),
-    };
-    format!("{} = {value}", question.quantity.symbol_or_name())
+    let quantity = found.question.quantity;
+    format!("{} = {}", quantity.symbol_or_name(), rounded(quantity, found.question.target, 4))
+}
+
+/// Values of the quantity within reach, in words.
+fn values_in_words(found: &Found, (least, most): (f64, f64)) -> String {
+    one_unit([least, most].map(|value| rounded(found.question.quantity, value, 4)))
 }
 
 impl FindReport<'_> {
@@ -115,7 +114,14 @@ impl FindReport<'_> {
             say(count(&whole), format!("have more at any {name} of the searched range."));
         }
         let never = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [false; 2];
-        say(count(&never), "never reach it in the searched range.".to_owned());
+        let most = found.answers.iter().filter(|answer| never(answer)).filter_map(|answer| answer.reachable);
+        if let Some(most) = most.map(|ends| ends.1).reduce(f64::max) {
+            let most = values_in_words(found, (most, most));
+            say(
+                count(&never),
+                format!("never reach it in the searched range; there they have at most {most}."),
+            );
+        }
         sentences
     }
 

@@ -240,9 +240,17 @@ mod tests {
             let compared = |outcome| ComparedScene { document: &document, outcome, ensemble: None };
             let scenes = [outcome.clone(), outcome.clone()].map(compared);
             let mut figures = vec![
-                RunReport { title, scene, outcome: &outcome, choice: None, estimate: None, ensemble: None }
-                    .figure()
-                    .unwrap(),
+                RunReport {
+                    title,
+                    scene,
+                    outcome: &outcome,
+                    choice: None,
+                    estimate: None,
+                    ensemble: None,
+                    deviation: None,
+                }
+                .figure()
+                .unwrap(),
                 ScenesReport { scenes: &scenes, panels: false }.figure().unwrap(),
                 ScenesReport { scenes: &scenes, panels: true }.figure().unwrap(),
                 sets.profile_figure(title, &outcome, &line),

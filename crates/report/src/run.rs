@@ -26,21 +26,23 @@ pub struct RunReport<'a> {
     pub estimate: Option<&'a Estimate>,
     /// Results on random profiles, if they are computed.
     pub ensemble: Option<&'a Ensemble>,
+    /// Standard deviation of the adhesion force by the spectrum of a measured surface, N, if it is computed.
+    pub deviation: Option<f64>,
 }
 
 impl Report for RunReport<'_> {
     fn text(&self) -> Option<String> {
-        Some(summary(self.scene, self.outcome, self.estimate, self.choice, self.ensemble))
+        Some(summary(self.scene, self.outcome, self.estimate, self.choice, self.ensemble, self.deviation))
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let RunReport { scene, outcome, choice, estimate, .. } = *self;
+        let RunReport { scene, outcome, choice, estimate, ensemble, .. } = *self;
         let Outcome { line, governing, figures, history, .. } = outcome;
         let fragments = scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice());
         Some(Box::new(object! {
             "scene": scene,
             "choice"?: choice,
-            "ensemble": self.ensemble.map(ensemble_value),
+            "ensemble": ensemble.map(ensemble_value),
             "line": object! {
                 "points": line.points,
                 "length": line.length,
@@ -74,8 +76,8 @@ impl Report for RunReport<'_> {
             "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
             "tabor_number": outcome.tabor_number,
             "steep_waves"?: outcome.steep_waves,
-            "criteria": criteria(scene, outcome, None),
-            "budget": Budget::of(outcome, estimate, &[], None),
+            "criteria": criteria(scene, outcome, ensemble),
+            "budget": Budget::of(outcome, estimate, ensemble, self.deviation),
             "warnings"?: warning(scene, outcome).map(|warning| [warning]),
             "curve": self.table(),
             "contacts": &history.contacts,

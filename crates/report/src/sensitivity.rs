@@ -35,8 +35,8 @@ fn change_text(change: f64) -> String {
     }
 }
 
-/// Text in place of changes for a number that the scene does not allow.
-pub const NOT_ALLOWED: &str = "not allowed";
+/// Text in place of the range of changes for a number that the scene does not allow.
+const NOT_ALLOWED: &str = "not allowed";
 const PROFILES: &str = "profiles";
 
 /// Changes of the results for one changed number, or at one end of the range over the profiles.
@@ -53,7 +53,9 @@ struct Side<'a> {
 
 impl Side<'_> {
     fn name(&self) -> Label {
-        self.influence.map_or(PROFILES.into(), |one| Label::symbol_or_name(one.axis.symbol, &one.axis.name))
+        let Some(Influence { axis, .. }) = self.influence else { return PROFILES.into() };
+        let short = axis.name.replace("force of ", "").replace("indentation of ", "");
+        Label::symbol_or_name(axis.symbol, &short)
     }
 
     /// The change of the number in words: in per cent, or for a whole number the difference.
@@ -66,8 +68,8 @@ impl Side<'_> {
     }
 
     fn text(&self, result: usize) -> String {
-        let Some(changes) = self.changes else { return NOT_ALLOWED.to_owned() };
-        changes[result].map_or_else(|| "-".to_owned(), change_text)
+        let change = self.changes.and_then(|changes| changes[result]);
+        change.map_or_else(|| "-".to_owned(), change_text)
     }
 }
 
@@ -109,11 +111,8 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
         let (name, step) = (side.name().to_string(), side.step());
         let named = if side.side == 0 { [name.as_str(), &value] } else { [""; 2] };
         let range = side.range.map(|(least, most)| one_unit([least, most].map(change_text)));
-        // A number that is not allowed says so once.
-        row([named[0], named[1], &step], &range.unwrap_or_default(), &|result| match side.changes {
-            None if result > 0 => String::new(),
-            _ => side.text(result),
-        })
+        let not_allowed = side.changes.is_none().then(|| NOT_ALLOWED.to_owned());
+        row([named[0], named[1], &step], &range.or(not_allowed).unwrap_or_default(), &|of| side.text(of))
     });
     [head, scene].into_iter().chain(changes).collect()
 }
@@ -285,7 +284,7 @@ mod tests {
             "k_min|4|-1|+50 %|-10 % to ×4|-|0 %",
             "||+1|+25 %|-10 % to ×4|-|0 %",
             "ν|0.5|-10 %|-10 %|-10 % to ×4|-|0 %",
-            "||+10 %|not allowed|||",
+            "||+10 %|-|not allowed|-|-",
             "profiles||least|-50 %||-|0 %",
             "||most|×4||-|0 %",
         ];

@@ -21,13 +21,15 @@ use asperity_surface::Form;
 const MOST_STAGES: usize = 8;
 
 /// Results of a scene as plain text of at most 80 columns: first over random profiles, if these are computed, then of its own
-/// profile with the estimated error of the adhesion force and the choice of springs for a tolerance, if these are given.
+/// profile with the estimated error of the adhesion force and the choice of springs for a tolerance, if these are given. `deviation` is that of the adhesion force by the spectrum of a measured
+/// surface, N.
 pub(crate) fn summary(
     scene: &Scene,
     outcome: &Outcome,
     estimate: Option<&Estimate>,
     choice: Option<&Choice>,
     ensemble: Option<&Ensemble>,
+    deviation: Option<f64>,
 ) -> String {
     let mut sheet = Sheet::default();
     without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
@@ -41,7 +43,7 @@ pub(crate) fn summary(
     line(&mut sheet, scene, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
-    trust(&mut sheet, scene, outcome, estimate);
+    trust(&mut sheet, (scene, outcome), estimate, ensemble, deviation);
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     if let Some(choice) = choice {
@@ -343,7 +345,7 @@ mod tests {
     }
 
     fn text(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
-        summary(scene, outcome, estimate, None, None)
+        summary(scene, outcome, estimate, None, None, None)
     }
 
     #[test]

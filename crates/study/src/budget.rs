@@ -1,5 +1,7 @@
 //! Errors of an adhesion force by their sources: grid, sample of random profiles, measured surface, model.
 
+use super::ensemble::Ensemble;
+use super::quantity::Quantity;
 use asperity_data::quantile;
 use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
@@ -28,21 +30,23 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// The budget of an outcome; `forces` are the adhesion forces of random profiles, N, and `deviation` is the standard
-    /// deviation of the force by the spectrum of a measured surface, N. `None` without an adhesion force above zero.
+    /// The budget of an outcome with the estimated error of its adhesion force, with an ensemble of random profiles, and with
+    /// the standard deviation of the force, N, by the spectrum of a measured surface, as far as they are known. `None` without
+    /// an adhesion force above zero.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,
-        forces: &[f64],
+        ensemble: Option<&Ensemble>,
         deviation: Option<f64>,
     ) -> Option<Budget> {
+        let forces = ensemble.map(|ensemble| ensemble.values(Quantity::AdhesionForce));
+        let mut forces: Vec<f64> = forces.into_iter().flatten().flatten().collect();
         let force = outcome.figures.adhesion_force.filter(|force| *force > 0.0)?;
         let finite = |share: f64| Some(share).filter(|share| share.is_finite());
-        let mut sorted = forces.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let median = if sorted.is_empty() { force } else { quantile(&sorted, 0.5) };
+        forces.sort_by(f64::total_cmp);
+        let median = if forces.is_empty() { force } else { quantile(&forces, 0.5) };
         let grid = estimate.and_then(|estimate| finite(estimate.of_adhesion_force(outcome)? / force));
-        let sample = median_interval(&sorted).and_then(|ends| finite(0.5 * (ends.end - ends.start) / median));
+        let sample = median_interval(&forces).and_then(|ends| finite(0.5 * (ends.end - ends.start) / median));
         let surface = deviation.and_then(|deviation| finite(2.0 * deviation / median));
         let known = [("grid", grid), ("sample", sample), ("surface", surface)];
         let known = known.into_iter().filter_map(|(name, share)| Some((name, share?)));
@@ -62,7 +66,7 @@ fn median_interval(ascending: &[f64]) -> Option<Range<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{Evidence, Target, open, run};
+    use asperity_scene::{Evidence, Simulation, Target, open, run};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -88,29 +92,34 @@ mod tests {
 
     #[test]
     fn the_largest_source_is_named() {
-        let outcome = run(&open("jkr-sphere").unwrap()).unwrap();
+        let fields = [("numerics.points", "1024"), ("roughness.modes", "(1, 128)")];
+        let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("pressure-sensitive").unwrap().set_all(&fields).unwrap();
+        let outcome = run(&document).unwrap();
+        let simulation = (Simulation::default(), 1);
+        let ensemble = Ensemble::of(document.scene(), &[], 17, simulation, &|| false, &mut |_| ()).unwrap();
         let estimate = |error| Estimate {
             target: Target::AdhesionForce,
             error,
             near_step: false,
             evidence: Evidence::ClosedForm,
         };
-        let force = outcome.figures.adhesion_force.unwrap();
-        let forces: Vec<f64> = (0..17).map(|index| f64::from(index + 1)).collect();
-        let budget = |error, forces: &[f64], deviation| {
-            Budget::of(&outcome, Some(&estimate(error)), forces, deviation).unwrap()
+        let budget = |error, ensemble, deviation| {
+            Budget::of(&outcome, Some(&estimate(error)), ensemble, deviation).unwrap()
         };
-        let grid = budget(0.01, &[], None);
+        let grid = budget(0.01, None, None);
         assert_eq!((grid.sample, grid.surface, grid.largest), (None, None, Some("grid")));
         assert!((grid.grid.unwrap() / 0.01 - 1.0).abs() < 1e-12);
-        let sample = budget(0.01, &forces, Some(0.9));
-        // Quantiles 1/2 ± 0.98/√17 of 1, 2 … 17, over the median 9.
-        let expected = 16.0 * 0.98 / 17.0_f64.sqrt() / 9.0;
-        assert!((sample.sample.unwrap() / expected - 1.0).abs() < 1e-12, "{sample:?}");
-        assert!((sample.surface.unwrap() - 0.2).abs() < 1e-12 && sample.largest == Some("sample"));
-        assert_eq!(budget(0.01, &[], Some(force)).largest, Some("surface"));
-        assert_eq!(Budget::of(&outcome, None, &[], None).unwrap().largest, None);
+        let all = ensemble.statistics(Quantity::AdhesionForce).unwrap();
+        let median = all.quartiles[1];
+        let sample = budget(0.01, Some(&ensemble), Some(1e-3 * median));
+        // About half of the distance of the quartiles.
+        let quartiles = 0.5 * (all.quartiles[2] - all.quartiles[0]) / median;
+        assert!((sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2, "{sample:?} {quartiles}");
+        assert!((sample.surface.unwrap() - 2e-3).abs() < 1e-12 && sample.largest == Some("sample"));
+        assert_eq!(budget(0.01, Some(&ensemble), Some(9.0 * median)).largest, Some("surface"));
+        assert_eq!(Budget::of(&outcome, None, None, None).unwrap().largest, None);
         let apart = run(&open("jkr-sphere").unwrap().set("adhesion", "None").unwrap()).unwrap();
-        assert_eq!(Budget::of(&apart, None, &[], None), None);
+        assert_eq!(Budget::of(&apart, None, None, None), None);
     }
 }

@@ -4,6 +4,8 @@
 //! since they have different limits.
 
 use super::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR, long_ranged};
+use super::ensemble::Ensemble;
+use super::quantity::Quantity;
 use super::rough_contact::RoughContact;
 use asperity_scene::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, Outcome, Scene, VANISHING_SHARE};
 
@@ -16,22 +18,12 @@ const TABOR: Criterion = Criterion::new(
 const THIS_PROGRAM: Criterion =
     Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", VANISHING_SHARE);
 
-/// Medians of the adhesion force without a preload over random profiles, N.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Medians {
-    /// Number of profiles.
-    pub profiles: usize,
-    /// Median of F_a(0), from first touch.
-    pub zero_load: Option<f64>,
-    /// Median of F_a(F=0), after zero net force.
-    pub zero_force: Option<f64>,
-}
-
-/// Criteria of adhesion for a computed scene, this program last; without `medians` for the profile of the scene alone.
+/// Criteria of adhesion for a computed scene, this program last: by the medians of an ensemble, or without one by the profile
+/// of the scene alone.
 ///
 /// Criteria of roughness are left out for a smooth body, and all criteria for a scene without adhesion. A form does not enter
 /// the criteria of roughness.
-pub fn criteria(scene: &Scene, outcome: &Outcome, medians: Option<Medians>) -> Vec<Criterion> {
+pub fn criteria(scene: &Scene, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let governing = &outcome.governing;
     let Some((work, adhesion)) = governing.adhesive_work().zip(scene.adhesion) else { return Vec::new() };
     let rough = governing.amplitude.filter(|amplitude| amplitude.rms_curvature > 0.0);
@@ -45,7 +37,7 @@ pub fn criteria(scene: &Scene, outcome: &Outcome, medians: Option<Medians>) -> V
     });
     let mut rows = rough.map_or_else(Vec::new, |rough| rough.criteria());
     rows.push(tabor(outcome.tabor_number));
-    rows.extend(this_program(outcome, medians));
+    rows.extend(this_program(outcome, ensemble));
     rows
 }
 
@@ -63,13 +55,15 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
 
 /// Adhesion without a preload by both protocols as a share of the adhesion force of the smooth body: below
 /// [`VANISHING_SHARE`] adhesion has vanished, as in the definition of the regimes.
-fn this_program(outcome: &Outcome, medians: Option<Medians>) -> Vec<Criterion> {
+fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
-    let [zero_load, zero_force] = medians
-        .map_or([outcome.zero_load_adhesion_force, outcome.zero_force_adhesion_force], |medians| {
-            [medians.zero_load, medians.zero_force]
-        });
-    let of = medians.map(|medians| format!(", median of {} profiles", medians.profiles)).unwrap_or_default();
+    let own = [outcome.zero_load_adhesion_force, outcome.zero_force_adhesion_force];
+    let quantities = [Quantity::ZeroLoadAdhesionForce, Quantity::ZeroForceAdhesionForce];
+    let median = |ensemble: &Ensemble, quantity| Some(ensemble.statistics(quantity)?.quartiles[1]);
+    let [zero_load, zero_force] =
+        ensemble.map_or(own, |ensemble| quantities.map(|quantity| median(ensemble, quantity)));
+    let of =
+        ensemble.map(|ensemble| format!(", median of {} profiles", ensemble.computed())).unwrap_or_default();
     let rows = [
         ("F_a(0)/F_smooth", "from first touch", zero_load),
         ("F_a(F=0)/F_smooth", "after zero net force", zero_force),
@@ -90,15 +84,15 @@ fn this_program(outcome: &Outcome, medians: Option<Medians>) -> Vec<Criterion> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{Document, run};
+    use asperity_scene::{Document, Simulation, run};
 
     fn document(fields: &str) -> Document {
         let text = format!("(version: 1, length: 1.0e-5, numerics: (points: 4096), {fields})");
         Document::parse(&text, "test").unwrap_or_else(|errors| panic!("{errors}"))
     }
 
-    fn rows(document: &Document, medians: Option<Medians>) -> Vec<Criterion> {
-        criteria(document.scene(), &run(document).unwrap(), medians)
+    fn rows(document: &Document, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
+        criteria(document.scene(), &run(document).unwrap(), ensemble)
     }
 
     /// Ruby on nanocrystalline diamond (Thimons et al. 2021): stiff, with summits of 40 nm.
@@ -139,12 +133,23 @@ mod tests {
             "material: (effective_modulus: 1.0e6), adhesion: (work: 0.05), \
              roughness: SelfAffine(hurst: 0.3, rms_height: 1.0e-7, modes: (1, 64), seed: 1)",
         );
-        let medians = Medians { profiles: 16, zero_load: Some(0.0), zero_force: None };
-        let found = rows(&rough, Some(medians));
-        assert_eq!(names(&found)[4..], ["Tabor number", "this program"]);
-        assert_eq!(
-            found[5].words(),
-            "F_a(0)/F_smooth = 0, below 0.05: does not adhere (from first touch, median of 16 profiles)"
+        let simulation = (Simulation::default(), 1);
+        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_| ()).unwrap();
+        let found = rows(&rough, Some(&ensemble));
+        assert_eq!(names(&found)[4..], ["Tabor number", "this program", "this program"]);
+        let smooth = run(&rough).unwrap().smooth_adhesion_force.unwrap();
+        for (row, quantity) in
+            found[5..].iter().zip([Quantity::ZeroLoadAdhesionForce, Quantity::ZeroForceAdhesionForce])
+        {
+            let mut forces: Vec<f64> = ensemble.values(quantity).into_iter().flatten().collect();
+            forces.sort_by(f64::total_cmp);
+            assert_eq!((forces.len(), row.value), (5, Some(forces[2] / smooth)));
+            assert_eq!(row.sticks, Some(forces[2] >= VANISHING_SHARE * smooth));
+        }
+        assert!(
+            found[5].words().ends_with("(from first touch, median of 5 profiles)"),
+            "{}",
+            found[5].words()
         );
     }
 }

@@ -40,22 +40,23 @@ impl Ensemble {
 
     /// Computes a checked scene on this number of profiles: the numbers of [`Ensemble::NUMBERS`], the regimes by both
     /// protocols, and these further quantities. `jobs` threads share the profiles, the first with this simulation; no bit
-    /// depends on their number. `report` receives the profiles so far after each.
+    /// depends on their number. `report` receives the profiles so far after each. A profile that cannot follow the loading has
+    /// no values.
     ///
     /// # Errors
-    /// Several profiles of a scene whose profile is fixed, a profile or its contact fails, or `stop` returned true.
+    /// Several profiles of a scene whose profile is fixed, too little memory, or `stop` returned true.
     pub fn of(
         scene: &Scene,
         further: &[Quantity],
         profiles: u64,
-        (simulation, jobs): (Simulation, usize),
+        workers: (Simulation, usize),
         stop: &Stop<'_>,
         report: &mut dyn FnMut(&Ensemble),
     ) -> Result<Ensemble, StudyError> {
         let record = [&Ensemble::NUMBERS[..], &Quantity::REGIMES, further].concat();
         let mut results = Results::begin(scene, &record, profiles, None)?;
-        results
-            .extend(simulation, jobs, stop, &mut |results| report(&Ensemble { results: results.clone() }))?;
+        let mut see = |results: &Results| report(&Ensemble { results: results.clone() });
+        results.extend_each(workers, stop, &mut see)?;
         Ok(Ensemble { results })
     }
 
@@ -66,7 +67,12 @@ impl Ensemble {
 
     /// Number of profiles computed so far.
     pub fn computed(&self) -> u64 {
-        self.results.records_of(0).count() as u64
+        (0..self.profiles()).filter(|line| self.results.has(0, *line)).count() as u64
+    }
+
+    /// The profiles that cannot follow the loading: seed, and reason in one line.
+    pub fn failed(&self) -> impl Iterator<Item = (u64, &str)> {
+        self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
     }
 
     /// The profiles with their seeds, as a study of one cell.
@@ -79,9 +85,9 @@ impl Ensemble {
         self.results.statistics(0, quantity)
     }
 
-    /// Values of a quantity on the computed profiles, in the order of their seeds; `None` for a profile without a value.
+    /// Values of a quantity on all profiles, in the order of their seeds; `None` for a profile without a value.
     pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
-        self.results.records_of(0).map(|(line, _)| self.results.value(0, line, quantity)).collect()
+        (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }
 
     /// Number of profiles in each regime, from first touch and after zero net force.

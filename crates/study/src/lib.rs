@@ -44,7 +44,7 @@ pub use boundary::{Boundaries, Boundary, Crossing, USUAL_LEVELS, boundaries, pro
 pub use budget::Budget;
 pub use check::case::Case;
 pub use check::{Check, Verdict, catalogue, checks, judge};
-pub use criteria::{Medians, criteria};
+pub use criteria::criteria;
 pub use criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR};
 pub use ensemble::Ensemble;
 pub use error::StudyError;

@@ -57,7 +57,7 @@ impl PreloadCurve {
             found.map_err(|error| error.to_string())?;
         }
         let mut results = curve.results.clone();
-        let done = results.extend(std::mem::take(simulation), 1, stop, &mut |part| {
+        let done = results.extend((std::mem::take(simulation), 1), stop, &mut |part| {
             report(&PreloadCurve { results: part.clone(), ..curve.clone() });
         });
         done.map_err(|error| error.to_string())?;

@@ -8,7 +8,7 @@ use super::grid::{Cell, Grid, Layer};
 use super::plan::Plan;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::{Quantity, regime_of};
-use super::recorder::{Recorded, with_recorder};
+use super::recorder::{Recorded, Recorder, with_recorder};
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
 use asperity_data::AxisScale;
@@ -136,7 +136,7 @@ impl Results {
         let mut results = Results::begin(scene, record, lines, preloads)?;
         let simulation = Simulation::new(folder.to_path_buf());
         let simulation = if lines == 1 { simulation.for_one_scene() } else { simulation };
-        results.extend(simulation, jobs, &|| false, &mut |_| ())?;
+        results.extend((simulation, jobs), &|| false, &mut |_| ())?;
         Ok(results)
     }
 
@@ -147,19 +147,41 @@ impl Results {
     /// A profile or its contact fails, or `stop` returned true.
     pub fn extend(
         &mut self,
-        simulation: Simulation,
-        jobs: usize,
+        workers: (Simulation, usize),
         stop: &Stop<'_>,
+        report: &mut dyn FnMut(&Results),
+    ) -> Result<(), StudyError> {
+        let all = |recorder: &mut Recorder<'_>, streak: &Streak| {
+            Ok(recorder.record(streak)?.into_iter().map(Ok).collect())
+        };
+        self.compute(workers, stop, all, report)
+    }
+
+    /// Does the same, but keeps the reason of a profile that fails in place of its values.
+    pub(super) fn extend_each(
+        &mut self,
+        workers: (Simulation, usize),
+        stop: &Stop<'_>,
+        report: &mut dyn FnMut(&Results),
+    ) -> Result<(), StudyError> {
+        self.compute(workers, stop, |recorder, streak| recorder.record_each(streak), report)
+    }
+
+    fn compute(
+        &mut self,
+        workers: (Simulation, usize),
+        stop: &Stop<'_>,
+        record: impl Fn(&mut Recorder<'_>, &Streak) -> Result<Vec<Recorded>, RunError> + Sync,
         report: &mut dyn FnMut(&Results),
     ) -> Result<(), StudyError> {
         let plan = self.plan.clone();
         let missing: Vec<u64> = (0..plan.lines).filter(|line| !self.has(0, *line)).collect();
-        let streak = |line| Streak { cells: 0..plan.cells(), line };
         let solve = |simulation: &mut Simulation, line| {
-            with_recorder(&plan, simulation, stop, |recorder| recorder.record(&streak(line)))
+            let streak = Streak { cells: 0..plan.cells(), line };
+            with_recorder(&plan, simulation, stop, |recorder| record(recorder, &streak))
         };
-        on_profiles(&plan, &missing, (simulation, jobs), solve, &mut |line, records| {
-            (0..).zip(records).for_each(|(cell, values)| self.set(cell * plan.lines + line, &values));
+        on_profiles(&plan, &missing, workers, solve, &mut |line, records| {
+            (0..).zip(records).for_each(|(cell, one)| self.set_record(cell * plan.lines + line, one));
             report(self);
         })
     }

@@ -7,7 +7,7 @@ use crate::explorer::studies::Study;
 use crate::explorer::text::filled;
 use asperity_data::parallel::threads;
 use asperity_plot::{Figure, Label};
-use asperity_report::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
+use asperity_report::{SensitivityReport, sensitivity_chart, sensitivity_table};
 use asperity_study::Sensitivity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
@@ -78,16 +78,14 @@ fn panel(app: &App, size: Size) -> Panel {
 /// Rows of the table, padded to one width: name, change of the number, and changes of the first `results` results.
 fn labels(rows: &[[String; 7]], results: usize) -> Vec<String> {
     let length = |text: &String| text.chars().count();
-    // Short names leave more room.
-    let short = |name: &str| name.replace("force of ", "").replace("indentation of ", "");
-    let mut rows = rows.to_vec();
-    rows.iter_mut().for_each(|row| row[0] = short(&row[0]));
     let line = |row: &[String; 7]| {
         let columns = [0, 2, 3, 5, 6].into_iter().take(2 + results);
         let cell = |at: usize| {
-            // What is not allowed has no other results beside it.
-            let cells = rows.iter().map(|row| &row[at]).filter(|cell| *cell != NOT_ALLOWED);
-            format!("{:width$}  ", row[at], width = cells.map(length).max().unwrap_or(0))
+            format!(
+                "{:width$}  ",
+                row[at],
+                width = rows.iter().map(|row| length(&row[at])).max().unwrap_or(0)
+            )
         };
         columns.map(cell).collect::<String>().trim_end().to_owned()
     };

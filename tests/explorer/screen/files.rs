@@ -70,8 +70,15 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
     let command = command_line("asperity run", driver.document().name(), &[]);
     let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
     let estimate = driver.app.studies.value();
-    let report =
-        RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate, ensemble: None };
+    let report = RunReport {
+        title: "",
+        scene: &scene,
+        outcome: &outcome,
+        choice: None,
+        estimate,
+        ensemble: None,
+        deviation: None,
+    };
     let (mut curve, mut figures) = (Vec::new(), Vec::new());
     write(&mut curve, &report, Format::Csv, &provenance).unwrap();
     write(&mut figures, &report, Format::Json, &provenance).unwrap();

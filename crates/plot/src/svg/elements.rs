@@ -182,21 +182,21 @@ fn with_minus(text: &str) -> String {
     (0..characters.len()).map(|at| if is_minus(at) { '−' } else { characters[at] }).collect()
 }
 
-/// Makes the blanks at both ends of a part of a label no-break spaces: some viewers drop blanks next to a tag.
-fn with_fixed_ends(text: &str) -> String {
-    let inner = text.trim_matches(' ');
-    let fixed = |part: &str| part.replace(' ', "\u{a0}");
-    match text.find(inner).filter(|_| !inner.is_empty()) {
-        Some(start) => fixed(&text[..start]) + inner + &fixed(&text[start + inner.len()..]),
-        None => fixed(text),
-    }
-}
-
 /// The parts of a label as elements within a text of this font size, px.
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
+    // Some viewers drop blanks at the ends of an element: they are between elements, as no-break spaces.
+    let blanks = |count: usize| "\u{a0}".repeat(count);
     for (face, text) in label.runs() {
+        let text = with_minus(text);
+        let is_blank = |character: char| [' ', '\u{a0}'].contains(&character);
+        let inner = text.trim_matches(is_blank);
+        let before = text.chars().take_while(|character| is_blank(*character)).count();
+        elements += &blanks(before);
+        if inner.is_empty() {
+            continue;
+        }
         let small = || format!(" font-size=\"{}\"", px(SMALL * size));
         let (below, looks) = match face {
             Face::Upright => (0.0, String::new()),
@@ -209,12 +209,13 @@ fn runs(label: &Label, size: f64) -> String {
             step => format!(" dy=\"{step}\""),
         };
         shift = below;
-        let text = escaped(&with_fixed_ends(&with_minus(text)));
+        let shown = escaped(inner);
         if step.is_empty() && looks.is_empty() {
-            elements.push_str(&text);
+            elements.push_str(&shown);
         } else {
-            elements.push_str(&format!("<tspan{step}{looks}>{text}</tspan>"));
+            elements.push_str(&format!("<tspan{step}{looks}>{shown}</tspan>"));
         }
+        elements += &blanks(text.chars().count() - inner.chars().count() - before);
     }
     elements
 }
@@ -258,7 +259,7 @@ mod tests {
         assert_eq!(
             runs(&label, 10.0),
             "<tspan font-style=\"italic\">F</tspan><tspan dy=\"2.5\" font-size=\"7.2\">a,max</tspan>\
-             <tspan dy=\"-2.5\">\u{a0}&lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
+             \u{a0}<tspan dy=\"-2.5\">&lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
         );
     }
 
