@@ -1,8 +1,8 @@
 //! Arguments of the program.
 
 use super::{
-    check, completions, cost, demo, explore, fit, line, plan, presets, reversals, run, sensitivity, surface,
-    sweep,
+    check, completions, cost, demo, explore, find, fit, line, plan, presets, reversals, run, sensitivity,
+    surface, sweep,
 };
 use clap::{Parser, Subcommand};
 
@@ -46,9 +46,11 @@ pub struct Arguments {
 pub enum Command {
     /// Compute a scene: a summary, JSON, or the curve as CSV
     Run(run::RunArguments),
+    /// Find the preload, or another number of a scene, at which a quantity has a value
+    Find(find::FindArguments),
     /// Unload a scene from many turning points: reversal curves, adhesion against preload
     Reversals(reversals::ReversalsArguments),
-    /// Change each number of a scene by 10 %: adhesion force, dissipated energy
+    /// Change each number of a scene by 10 %: median adhesion force, dissipated energy
     Sensitivity(sensitivity::SensitivityArguments),
     /// Fit a scene to measured force curves: work of adhesion, other parameters, errors
     Fit(fit::FitArguments),

@@ -1,7 +1,7 @@
 //! `asperity cost`: measures the cost of accuracy for a scene.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, PICTURES};
+use super::output::{Origin, OutputArguments};
 use super::progress::ProgressLine;
 use super::scene::SceneArguments;
 use asperity_data::parse_quantity;
@@ -10,13 +10,12 @@ use asperity_report::Format;
 use asperity_scene::{Progress, measure};
 use clap::Args;
 use std::io::Write;
-use std::path::PathBuf;
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity cost jkr-sphere
-  asperity cost my-scene.ron --budget 30s --picture my-scene.svg
+  asperity cost my-scene.ron --budget 30s -o my-scene.svg
   asperity cost rough-sphere --set adhesion.work=0.1 --format csv -o rough.csv
 
 Errors are relative to the closed form of the adhesion force if the scene has one, else to the
@@ -26,17 +25,13 @@ finest solution within the budget, whose own error is estimated and stated.";
 const LONGEST: f64 = 86_400.0;
 
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, mut_arg("force", |force| force.requires(clap::builder::Resettable::Reset)))]
+#[command(after_help = EXAMPLES)]
 pub struct CostArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Time limit of all measurements together: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// Also draw errors over times into FILE, .svg, .png or .pdf
-    #[arg(long, value_name = "FILE")]
-    pub picture: Option<PathBuf>,
-    /// Destination; --force is for both files.
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -51,15 +46,7 @@ fn budget(text: &str) -> Result<Duration, String> {
 }
 
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let mut output = arguments.output.clone();
-    let picture = arguments.picture.clone().map(|path| {
-        let picture = OutputArguments { output: Some(path), format: None, ..output.clone() };
-        // The look is that of the picture.
-        (output.width, output.parameters) = (None, false);
-        picture.format(PICTURES, Format::Svg).map(|format| (picture, format))
-    });
-    let picture = picture.transpose()?;
-    let format = output.format(&Format::ALL, Format::Text)?;
+    let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let (mut line, mut seen) = (ProgressLine::default(), Vec::new());
@@ -74,12 +61,8 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
         });
     line.clear();
     let table = measured.map_err(|error| CliError::named(document.name(), error))?;
-    let (report, origin) =
-        (CostReport::new(document.title(), scene, &table), Origin::Scene(&document, scene));
-    if let Some((picture, format)) = picture {
-        picture.write(stdout, &report, format, origin)?;
-    }
-    output.write(stdout, &report, format, origin)
+    let report = CostReport::new(document.title(), scene, &table);
+    arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
 }
 
 #[cfg(test)]

@@ -7,10 +7,10 @@ use super::scene::Overrides;
 use crate::explorer::demo::Demo;
 use crate::explorer::demo::script::{ONE_SCENE, TOUR};
 use crate::explorer::demo::watch::play;
-use crate::explorer::picture::text;
 use crate::explorer::theme::{Appearance, Marker, Theme};
 use crate::explorer::writing::{picture_of, screenshot};
 use asperity_data::write_new;
+use asperity_plot::screen_text;
 use asperity_scene::{open_argument, presets};
 use clap::Args;
 use std::io;
@@ -21,8 +21,8 @@ const EXAMPLES: &str = "\
 Examples:
   asperity demo                             Watch a tour of the built-in scenes; any key ends it
   asperity demo rough-sphere                Watch one scene being pressed and pulled off
-  asperity demo --frames --ascii | less     Read the tour frame by frame
-  asperity demo my-scene.ron --at 8 --picture screen.svg
+  asperity demo --marker ascii | less       Read the tour frame by frame
+  asperity demo my-scene.ron --at 8 -o screen.svg
                                             Take a picture of the screen after 8 seconds
 
 The same command gives the same frames, whenever and wherever it runs.";
@@ -38,18 +38,9 @@ pub struct DemoArguments {
     pub scene: Option<String>,
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Print plain frames even on a terminal, as into a pipe
-    #[arg(long)]
-    pub frames: bool,
-    /// Frames per second, 0.1 to 60; default: 12, and 1 for plain frames
-    #[arg(long, value_name = "N", value_parser = |text: &str| number(text, 0.1, 60.0))]
-    pub fps: Option<f64>,
     /// Size of the screen; default: that of the terminal, else 120x40
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
-    /// Use ASCII characters only
-    #[arg(long, conflicts_with = "marker")]
-    pub ascii: bool,
     /// Marker of plots
     ///
     /// Default: braille.
@@ -64,8 +55,8 @@ pub struct DemoArguments {
     #[arg(long, value_name = "SECONDS", value_parser = |text: &str| number(text, 0.0, 3600.0))]
     pub at: Option<f64>,
     /// Write a picture of the screen to FILE, an SVG document
-    #[arg(long, value_name = "FILE", requires = "at")]
-    pub picture: Option<PathBuf>,
+    #[arg(short, long, value_name = "FILE", requires = "at")]
+    pub output: Option<PathBuf>,
     /// Overwrite FILE if it exists
     #[arg(long)]
     pub force: bool,
@@ -87,38 +78,34 @@ fn size(text: &str) -> Result<(u16, u16), String> {
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments.overrides.apply(open_argument(arguments.scene.as_deref().unwrap_or(first))?)?;
-    if let Some(file) = &arguments.picture {
+    if let Some(file) = &arguments.output {
         check_file(file, "svg", arguments.force)?;
     }
     let script = if arguments.scene.is_some() { ONE_SCENE } else { TOUR };
-    let watched =
-        !arguments.frames && arguments.at.is_none() && stdout().is_terminal() && io::stdin().is_terminal();
+    let watched = arguments.at.is_none() && stdout().is_terminal() && io::stdin().is_terminal();
     let environment = Appearance::of_environment();
     let appearance = Appearance {
         // A file does not depend on its environment.
-        theme: arguments.theme.unwrap_or(if arguments.picture.is_some() {
+        theme: arguments.theme.unwrap_or(if arguments.output.is_some() {
             Theme::Dark
         } else {
             environment.theme
         }),
-        marker: match arguments.marker {
-            _ if arguments.ascii => Marker::Ascii,
-            marker => marker.unwrap_or(environment.marker),
-        },
+        marker: arguments.marker.unwrap_or(environment.marker),
     };
     let of_terminal = if watched { crossterm::terminal::size().ok() } else { None };
     let size = arguments.size.or(of_terminal).unwrap_or((120, 40));
     let is_read = !watched && arguments.at.is_none();
-    let fps = arguments.fps.unwrap_or(if is_read { READ } else { WATCHED });
+    let fps = if is_read { READ } else { WATCHED };
     let mut demo = Demo::new(document, script, size, appearance, fps);
     if let Some(at) = arguments.at {
         while demo.advance().is_some_and(|seconds| seconds + 1e-9 < at) {}
         let app = demo.app();
-        return match &arguments.picture {
+        return match &arguments.output {
             Some(file) => {
                 Ok(write_new(file, arguments.force, |out| out.write_all(screenshot(app).as_bytes()))?)
             }
-            None => Ok(stdout_.write_all(text(&picture_of(app)).as_bytes())?),
+            None => Ok(stdout_.write_all(screen_text(&picture_of(app)).as_bytes())?),
         };
     }
     if watched {
@@ -126,7 +113,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     }
     while let Some(seconds) = demo.advance() {
         writeln!(stdout_, "== {seconds:.2} s ==")?;
-        stdout_.write_all(text(&picture_of(demo.app())).as_bytes())?;
+        stdout_.write_all(screen_text(&picture_of(demo.app())).as_bytes())?;
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use super::output::Origin;
 use super::progress::ProgressLine;
 use super::scene::{open_scene, threads};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{grouped, path_name};
+use asperity_data::{grouped, parse_quantity, path_name};
 use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
 use clap::Args;
@@ -41,9 +41,8 @@ pub struct EnsembleArguments {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |number| (number.trim_end(), 0.01));
-    let value = number.parse().ok().map(|value: f64| unit * value);
-    value
+    parse_quantity(text, "1")
+        .ok()
         .filter(|value| (0.0..=0.5).contains(value))
         .ok_or_else(|| "allowed: from 0 to 0.5, such as 0.05 or 5%".to_owned())
 }

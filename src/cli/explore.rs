@@ -18,7 +18,7 @@ use asperity_data::path_name;
 use asperity_experiment::CurveOptions;
 use asperity_report::brief_summary;
 use asperity_scene::Simulation;
-use asperity_scene::{did_you_mean, quoted};
+use asperity_scene::{nearest, quoted};
 use clap::Args;
 use std::fmt::Display;
 use std::io::{IsTerminal, Write, stdin, stdout};
@@ -171,12 +171,13 @@ fn opening(arguments: &ExploreArguments, default: &str, commands: &str) -> Resul
                 return CliError::message(way);
             }
             // A single word that is no scene may be a misspelt command.
-            let is_word = name.chars().all(|c| c.is_ascii_alphabetic());
-            if is_word && !std::path::Path::new(name).exists() {
-                let near = did_you_mean(name, commands.split(", "));
-                CliError::message(format!("{errors}\nCommands: {commands} (see asperity --help{near})"))
-            } else {
-                errors.into()
+            let is_word = name.chars().all(|c| c.is_ascii_alphabetic()) && !Path::new(name).exists();
+            match nearest(name, commands.split(", ")).filter(|_| is_word) {
+                Some(near) => CliError::named(
+                    name,
+                    format!("there is no such command and no such scene; did you mean asperity {near}? (commands: {commands})"),
+                ),
+                None => errors.into(),
             }
         }
         error => CliError::message(error.to_string()),

@@ -10,9 +10,10 @@ use asperity_data::path_name;
 use asperity_data::write_new;
 use asperity_experiment::{CurveOptions, Free, MeasuredCurve, fit as find};
 use asperity_report::FitReport;
-use asperity_report::Format;
 use asperity_report::named_from;
+use asperity_report::{Format, Report};
 use clap::Args;
+use std::io;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -99,5 +100,10 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         write_new(file, arguments.output.force, |out| out.write_all(document.text().as_bytes()))?;
     }
     let report = FitReport { title: &title, curve: &curve, fit: &found };
-    arguments.output.write(stdout, &report, format, Origin::Scene(&document, found.document.scene()))
+    arguments.output.write(stdout, &report, format, Origin::Scene(&document, found.document.scene()))?;
+    if let Some(text) = report.text().filter(|_| output.file().is_some() && format != Format::Text) {
+        // What a picture or a table leaves out; the file is written even if standard error is closed.
+        let _ = io::stderr().write_all(text.as_bytes());
+    }
+    Ok(())
 }

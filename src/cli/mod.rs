@@ -11,12 +11,12 @@ mod demo;
 mod ensemble;
 mod error;
 mod explore;
+mod find;
 mod fit;
 mod fits;
 mod line;
 mod output;
 mod plan;
-mod preloads;
 mod presets;
 mod progress;
 mod removed;
@@ -32,7 +32,7 @@ use arguments::{Arguments, Command};
 use error::CliError;
 
 use asperity_data::{printable, printable_lines};
-use asperity_scene::{did_you_mean, find, presets, quoted};
+use asperity_scene::{did_you_mean, presets, quoted};
 use clap::error::{ContextKind, ErrorKind};
 use clap::{CommandFactory, Parser};
 use std::borrow::Cow;
@@ -111,7 +111,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let Some(first) = words.first() else { return error };
     // A second word without a dash, which the parser takes for a command.
     let second = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
-    let is_scene = || find(first).is_some() || Path::new(&**first).exists();
+    let is_scene = || asperity_scene::find(first).is_some() || Path::new(&**first).exists();
     let message = match (words.iter().find(is_command), &refused, &second) {
         (Some(misplaced), ..)
             if misplaced != first
@@ -151,6 +151,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
     match &arguments.command {
         None => explore::explore(&arguments.explore, &names(&Arguments::command()).join(", "), stdout),
         Some(Command::Run(arguments)) => run::run(arguments, stdout),
+        Some(Command::Find(arguments)) => find::find(arguments, stdout),
         Some(Command::Reversals(arguments)) => reversals::reversals(arguments, stdout),
         Some(Command::Sensitivity(arguments)) => sensitivity::sensitivity(arguments, stdout),
         Some(Command::Fit(arguments)) => fit::fit(arguments, stdout),

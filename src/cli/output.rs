@@ -22,8 +22,9 @@ pub(super) const WITHOUT_PICTURE: &[Format] = &[Format::Text, Format::Json, Form
 /// Formats of results that have neither a table nor a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Allowed widths of a printed figure, m.
-const WIDTHS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
+/// Smallest width and height, and largest of both, of a printed figure, mm.
+const LEAST: [u32; 2] = [50, 30];
+const MOST: u32 = 500;
 /// Number of px (1/96 inch) in a metre of a print.
 const PX: f64 = 96.0 / 0.0254;
 
@@ -41,22 +42,36 @@ pub struct OutputArguments {
     #[arg(long, value_enum, hide_possible_values = true)]
     pub format: Option<Format>,
     /// Width of a printed figure: 85mm, 170mm; letters keep their size
-    #[arg(long, value_name = "LENGTH", value_parser = width)]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| length(text, LEAST[0]))]
     pub width: Option<f64>,
+    /// Height of a printed figure: 60mm; default: what its panels need
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| length(text, LEAST[1]))]
+    pub height: Option<f64>,
+    /// Draw these panels of a figure alone: a, or a,c
+    #[arg(long, value_name = "LETTERS")]
+    pub only: Option<String>,
+    /// Leave out the title of a figure
+    #[arg(long)]
+    pub no_title: bool,
     /// Add the numbers of the scene in a box to a figure
     #[arg(long)]
     pub parameters: bool,
 }
 
+/// Options for figures.
+const LOOK: [&str; 5] = ["width", "height", "only", "no_title", "parameters"];
+
 /// Hides the options for figures in the help of a command without figures.
 pub(super) fn without_look(option: Arg) -> Arg {
-    let is_look = ["width", "parameters"].contains(&option.get_id().as_str());
+    let is_look = LOOK.contains(&option.get_id().as_str());
     option.hide(is_look)
 }
 
-fn width(text: &str) -> Result<f64, String> {
-    let width = parse_quantity(text, "m").map_err(|error| error.to_string())?;
-    if WIDTHS.contains(&width) { Ok(width) } else { Err("allowed: from 50mm to 500mm".to_owned()) }
+/// A length of at least `least` mm, in m.
+fn length(text: &str, least: u32) -> Result<f64, String> {
+    let length = parse_quantity(text, "m").map_err(|error| error.to_string())?;
+    let range = 1e-3 * f64::from(least)..=1e-3 * f64::from(MOST);
+    if range.contains(&length) { Ok(length) } else { Err(format!("allowed: from {least}mm to {MOST}mm")) }
 }
 
 /// What the results are computed from, for their provenance.
@@ -86,15 +101,34 @@ impl OutputArguments {
         let extensions: Vec<_> = PICTURES.iter().map(|format| format.extension()).collect();
         let by_file =
             self.file().is_some_and(|path| check_extension(path, &extensions).is_ok_and(|of| of.is_some()));
-        by_file || self.format.is_some_and(Format::is_picture) || self.width.is_some() || self.parameters
+        by_file || self.format.is_some_and(Format::is_picture) || self.look().is_some()
+    }
+
+    /// The first given option for figures.
+    fn look(&self) -> Option<&'static str> {
+        let OutputArguments { width, height, only, no_title, parameters, .. } = self;
+        let given = [width.is_some(), height.is_some(), only.is_some(), *no_title, *parameters];
+        LOOK.into_iter().zip(given).find_map(|(option, is_given)| is_given.then_some(option))
+    }
+
+    /// A figure with the requested size, panels and title.
+    fn looked(&self, figure: Figure) -> Result<Figure, CliError> {
+        let [width, height] = [self.width, self.height].map(|length| length.map(|length| PX * length));
+        let figure = Figure { width, height, untitled: self.no_title, ..figure };
+        let Some(only) = &self.only else { return Ok(figure) };
+        let letters: String = only.chars().filter(|letter| ![',', ' '].contains(letter)).collect();
+        figure.with_panels(&letters).map_err(|panels| {
+            let allowed = format!("{only:?}; allowed: letters of its panels, {panels}");
+            CliError::named("--only", allowed)
+        })
     }
 
     /// The format of the results: that of the extension of FILE, else the chosen one, else the usual one. Before any
     /// computation, checks also that FILE can be written. A terminal gets text only.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
-        if (self.width.is_some() || self.parameters) && !format.is_picture() {
-            let option = if self.parameters { "--parameters" } else { "--width" };
+        if let Some(option) = self.look().filter(|_| !format.is_picture()) {
+            let option = &format!("--{}", option.replace('_', "-"));
             let refused = match formats.iter().any(|format| format.is_picture()) {
                 true => "only for figures; allowed: with -o FILE.svg, FILE.png or FILE.pdf",
                 false => "this command draws no figure",
@@ -143,7 +177,7 @@ impl OutputArguments {
             Origin::Scenes(scenes) => parameter_lines(scenes),
             Origin::Files(_) => return Err(CliError::named("--parameters", "this figure has no scene")),
         };
-        let figure = Figure { parameters, width: self.width.map(|width| PX * width), ..figure };
+        let figure = self.looked(Figure { parameters, ..figure })?;
         self.fill(stdout, |out| asperity_report::write(out, &figure, format, &provenance))
     }
 

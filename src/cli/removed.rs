@@ -13,6 +13,13 @@ const REMOVED: &[(&str, &str)] = &[
     ("--smoothing", "reversals have no density, and --map writes their forces and Everett function"),
     ("--loops", "asperity run computes minor loops as stages of the loading"),
     ("--memory", "--jobs keeps the memory of a study down, and --check states it"),
+    ("--picture", "-o FILE.svg writes the figure or the screen"),
+    ("--frames", "asperity demo prints frames into a pipe: asperity demo | less"),
+    ("--fps", "asperity demo has 12 frames a second on a terminal, one in a pipe"),
+    ("--ascii", "--marker ascii"),
+    ("--shards", "--jobs is the number of jobs of the array"),
+    ("--dry-run", "--check prints the script"),
+    ("--over", "--x names the parameter"),
     (FIGURE_OF_SENSITIVITY, "its table has the same changes, and the explorer draws them as bars (Y)"),
 ];
 

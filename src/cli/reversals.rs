@@ -2,13 +2,12 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TABLES};
-use super::preloads::{check_reach, parse_range};
 use super::scene::{SceneArguments, simulation_of};
 use asperity_data::AxisScale;
 use asperity_report::Format;
 use asperity_report::ReversalReport;
 use asperity_scene::{RunError, TURNING_POINTS};
-use asperity_study::{Axis, PRELOADS, Results, Staircase};
+use asperity_study::{Axis, PRELOADS, Results, Staircase, parse_range};
 use clap::Args;
 use std::io::Write;
 
@@ -64,9 +63,6 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
     let scene = document.scene();
     let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(&document);
-    if let Some((_, largest)) = options.preloads {
-        check_reach(&document, scene, largest, &mut simulation)?;
-    }
     let (count, never) = (usize::from(options.count), || false);
     let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
     let (mut preloads, mut staircase) = (None, None);

@@ -1,23 +1,22 @@
 //! `asperity run`: computes scenes without the explorer.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE, WITHOUT_PICTURE};
-use super::preloads::{check_reach, parse_preloads};
+use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE};
 use super::progress::ProgressLine;
-use super::scene::{MOST_LINES, SceneArguments, compute, open_scene, simulation_of, threads};
+use super::scene::{ProfileArguments, SceneArguments, compute, open_scene, simulation_of};
+use super::surface::MOST_SPRINGS;
 use asperity_contact::{Leg, LegRecord};
 use asperity_data::{grouped, wrap};
 use asperity_plot::Figure;
 use asperity_report::ContactSets;
-use asperity_report::LinesReport;
 use asperity_report::PreloadReport;
 use asperity_report::RunReport;
-use asperity_report::ScenesReport;
 use asperity_report::check_measured_files;
+use asperity_report::{ComparedScene, ScenesReport};
 use asperity_report::{Format, Report};
-use asperity_scene::{CheckedScene, Document, Scene};
+use asperity_scene::{CheckedScene, Document, Scene, Simulation};
 use asperity_scene::{Choice, choose, estimate, parse_tolerance};
-use asperity_study::{Axis, Quantity, Results, Staircase};
+use asperity_study::{Axis, Ensemble, MeasuredAdhesion, Quantity, Results, Staircase, parse_preloads};
 use clap::Args;
 use std::io;
 use std::io::Write;
@@ -29,7 +28,7 @@ Examples:
   asperity run jkr-sphere --set numerics.points=65536 -o jkr.csv
   asperity run jkr.csv --set adhesion.work=0.1 -o other.npy
   asperity run jkr-sphere --tolerance 0.1%
-  asperity run pressure-sensitive --lines 32 --format csv
+  asperity run pressure-sensitive --lines 32 --format csv     A row for each profile
   asperity run pressure-sensitive --preloads 0..20uN --lines 16
   asperity run pressure-sensitive -o loop.svg
   asperity run pressure-sensitive --profile -o profile.svg
@@ -50,7 +49,7 @@ pub struct RunArguments {
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
     /// Draw the force curve of each scene over axes of its own
-    #[arg(long, requires = "more", conflicts_with_all = ["profile", "fragments", "preloads"])]
+    #[arg(long, conflicts_with_all = ["profile", "fragments", "preloads"])]
     pub panels: bool,
     /// Draw the profile and its contact at the largest force instead of the curve
     #[arg(long, conflicts_with_all = ["fragments", "lines"])]
@@ -65,12 +64,6 @@ pub struct RunArguments {
     /// Replaces numerics.points and numerics.edges of the scene.
     #[arg(long, value_name = "T", value_parser = parse_tolerance, verbatim_doc_comment)]
     pub tolerance: Option<f64>,
-    /// Compute COUNT random profiles: mean and spread
-    ///
-    /// Their seeds begin with that of the scene. CSV has one row for each seed. A tolerance
-    /// applies to the first profile.
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
-    pub lines: Option<u32>,
     /// Compute the adhesion force for many preloads instead of the loading
     ///
     /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128; with :log at
@@ -82,12 +75,20 @@ pub struct RunArguments {
     /// Write a table of the drawn curves instead of all profiles
     #[arg(long, requires = "preloads")]
     pub curves: bool,
-    /// Threads that share the profiles; default: one for each core
-    #[arg(long, value_name = "COUNT", requires = "lines", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub jobs: Option<u16>,
+    #[command(flatten)]
+    pub profiles: ProfileArguments,
     #[command(flatten)]
     pub output: OutputArguments,
 }
+
+/// Quantities of a table of profiles besides those of an ensemble.
+const FURTHER: &[Quantity] = &[
+    Quantity::PreloadIndentation,
+    Quantity::ContactFraction,
+    Quantity::Skewness,
+    Quantity::ExcessKurtosis,
+    Quantity::TaborNumber,
+];
 
 /// Width of messages, columns.
 const WIDTH: usize = 80;
@@ -102,14 +103,16 @@ struct Chosen<'a> {
 impl RunArguments {
     fn format(&self) -> Result<Format, CliError> {
         let several = !self.more.is_empty();
-        if several && self.lines.is_some() && self.preloads.is_none() {
-            return Err(CliError::named("--lines", "several scenes; allowed: one scene, or --preloads"));
+        if self.panels && !several {
+            return Err(CliError::named(
+                "--panels",
+                "one scene; allowed: several scenes, each over axes of its own",
+            ));
         }
         let (formats, usual) = match self.preloads {
             _ if self.profile || self.fragments => (PICTURES, Format::Svg),
             Some(_) if several => (PICTURES, Format::Svg),
             None if several => (TEXT_OR_PICTURE, Format::Text),
-            None if self.lines.is_some() => (WITHOUT_PICTURE, Format::Text),
             _ => (&Format::ALL[..], Format::Text),
         };
         self.output.format(formats, usual)
@@ -140,11 +143,34 @@ impl RunArguments {
         Ok(Chosen { document, scene: choice.apply(document.scene())?, choice: Some(choice) })
     }
 
-    fn solved(&self, chosen: &Chosen<'_>, record: &[Quantity]) -> Result<Results, CliError> {
+    /// Results of a scene on its random profiles, unless a single one is asked for. Shares and heights of the profiles are
+    /// recorded only for a table.
+    fn ensemble(&self, chosen: &Chosen<'_>, format: Format) -> Result<Option<Ensemble>, CliError> {
         let Chosen { document, scene, .. } = chosen;
-        let (lines, jobs) = (self.lines.map_or(1, u64::from), threads(self.jobs));
-        Results::of_scene(scene, &document.resolve(""), record, lines, self.preloads.as_ref(), jobs)
-            .map_err(|error| CliError::named(document.name(), error))
+        let count = self.profiles.count(scene);
+        if count < 2 || format.is_table() && self.profiles.lines.is_none() {
+            return Ok(None);
+        }
+        let further = if self.profiles.lines.is_some() { FURTHER } else { &[] };
+        let mut progress = ProgressLine::default();
+        let mut report = |so_far: &Ensemble| {
+            progress.show(&format!("{} of {count} random profiles", so_far.computed()), None);
+        };
+        let simulation = (Simulation::new(document.resolve("")), self.profiles.threads());
+        let ensemble = Ensemble::of(scene, further, count, simulation, &|| false, &mut report);
+        progress.clear();
+        ensemble.map(Some).map_err(|error| CliError::named(document.name(), error))
+    }
+
+    /// Standard deviation of the adhesion force by the spectrum of a measured surface, N, on the profiles of an ensemble; `None`
+    /// for any other scene, and for so many springs that it takes long.
+    fn deviation(&self, chosen: &Chosen<'_>, ensemble: &Ensemble) -> Option<f64> {
+        let Chosen { document, scene, .. } = chosen;
+        if scene.measured().is_none() || scene.numerics.points > MOST_SPRINGS {
+            return None;
+        }
+        let measured = MeasuredAdhesion::of(document, ensemble.profiles() as u32, self.profiles.threads());
+        measured.ok()?.fit_deviation()
     }
 
     /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads are below zero.
@@ -156,12 +182,14 @@ impl RunArguments {
     ) -> Result<(Results, Option<Staircase>), CliError> {
         let Chosen { document, scene, .. } = chosen;
         let mut simulation = simulation_of(document);
-        check_reach(document, scene, preloads.values[preloads.values.len() - 1], &mut simulation)?;
         let staircase = (is_drawn || self.curves || preloads.values[0] < 0.0)
             .then(|| Staircase::find(scene, preloads, &mut simulation, &|| false, &mut |_| ()))
             .transpose()
             .map_err(|error| CliError::named(document.name(), error))?;
-        Ok((self.solved(chosen, &Results::OF_PRELOADS)?, staircase))
+        let (lines, jobs) = (self.profiles.lines.map_or(1, u64::from), self.profiles.threads());
+        let (record, folder) = (&Results::OF_PRELOADS, document.resolve(""));
+        let results = Results::of_scene(scene, &folder, record, lines, Some(preloads), jobs);
+        Ok((results.map_err(|error| CliError::named(document.name(), error))?, staircase))
     }
 }
 
@@ -199,18 +227,21 @@ fn run_loadings(
     write: &mut WriteReport<'_>,
 ) -> Result<(), CliError> {
     let [one] = chosen else {
-        let outcome = |one: &Chosen<'_>| compute(one.document, &one.scene);
-        let outcomes = chosen.iter().map(|one| Ok((one.document, outcome(one)?)));
-        let scenes = outcomes.collect::<Result<Vec<_>, CliError>>()?;
+        let mut scenes = Vec::new();
+        for one in chosen {
+            let (outcome, ensemble) = (compute(one.document, &one.scene)?, arguments.ensemble(one, format)?);
+            scenes.push(ComparedScene { document: one.document, outcome, ensemble });
+        }
         return write(&ScenesReport { scenes: &scenes, panels: arguments.panels });
     };
     let Chosen { document, scene, choice } = one;
     let choice = choice.as_ref();
-    if arguments.lines.is_some() {
-        let results = &arguments.solved(one, LinesReport::RECORD)?;
-        return write(&LinesReport { choice, results });
-    }
+    // First the profile of the scene, whose failure is that of the scene.
     let outcome = compute(document, scene)?;
+    let ensemble = arguments.ensemble(one, format)?;
+    if let Some(ensemble) = ensemble.as_ref().filter(|_| format.is_table()) {
+        return write(ensemble);
+    }
     let estimate = match choice {
         Some(choice) => Some(choice.estimate()),
         None if matches!(format, Format::Text | Format::Json) => {
@@ -218,8 +249,9 @@ fn run_loadings(
         }
         None => None,
     };
-    let (title, estimate) = (document.title(), estimate.as_ref());
-    write(&RunReport { title, scene, outcome: &outcome, choice, estimate })
+    let (title, estimate, ensemble) = (document.title(), estimate.as_ref(), ensemble.as_ref());
+    let deviation = ensemble.and_then(|ensemble| arguments.deviation(one, ensemble));
+    write(&RunReport { title, scene, outcome: &outcome, choice, estimate, ensemble, deviation })
 }
 
 fn run_preloads(

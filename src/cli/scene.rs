@@ -4,8 +4,9 @@ use super::error::CliError;
 use crate::explorer::recognition::no_scene;
 use asperity_data::parallel;
 use asperity_data::printable;
-use asperity_scene::{CheckedScene, Document, open_argument};
+use asperity_scene::{CheckedScene, Document, Scene, open_argument};
 use asperity_scene::{Outcome, Simulation};
+use asperity_study::Ensemble;
 use clap::Args;
 use std::io;
 use std::io::Write;
@@ -23,6 +24,30 @@ pub struct SceneArguments {
     pub scene: String,
     #[command(flatten)]
     pub overrides: Overrides,
+}
+
+/// Random profiles of a scene, and threads that share them.
+#[derive(Args, Debug)]
+pub struct ProfileArguments {
+    /// Compute COUNT random profiles; default: 16, or 1 for a fixed profile
+    ///
+    /// Their seeds begin with that of the scene.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=MOST_LINES), verbatim_doc_comment)]
+    pub lines: Option<u32>,
+    /// Threads that share the profiles; default: one for each core
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+}
+
+impl ProfileArguments {
+    /// Number of profiles of a scene.
+    pub(super) fn count(&self, scene: &Scene) -> u64 {
+        self.lines.map_or_else(|| Ensemble::profiles_of(scene), u64::from)
+    }
+
+    pub(super) fn threads(&self) -> usize {
+        threads(self.jobs)
+    }
 }
 
 /// Overrides of a scene's fields.

@@ -2,10 +2,12 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
+use super::progress::ProgressLine;
 use super::removed;
-use super::scene::{SceneArguments, simulation_of};
+use super::scene::{SceneArguments, threads};
 use asperity_report::Format;
 use asperity_report::SensitivityReport;
+use asperity_scene::Simulation;
 use asperity_study::Sensitivity;
 use clap::Args;
 use std::io::Write;
@@ -15,14 +17,17 @@ Examples:
   asperity sensitivity pressure-sensitive
   asperity sensitivity my-scene.ron --set numerics.points=16384 -o sensitivity.csv
 
-Each number of the scene is made 10 % smaller and larger while all others stay; the last row is the
-range over other random profiles.";
+Each number of the scene is made 10 % smaller and larger while all others stay, on the same 16
+random profiles; changes are those of the median, beside them the range over the profiles.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]
 pub struct SensitivityArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
+    /// Threads that share the profiles; default: one for each core
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -36,7 +41,11 @@ pub(super) fn sensitivity(arguments: &SensitivityArguments, stdout: &mut dyn Wri
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
-    let found = Sensitivity::of(scene, &mut simulation_of(&document), &|| false, &mut |_| ());
+    let mut progress = ProgressLine::default();
+    let mut report = |found: &Sensitivity| progress.show(&format!("{} profiles", found.profiles), None);
+    let simulation = (Simulation::new(document.resolve("")), threads(arguments.jobs));
+    let found = Sensitivity::of(scene, simulation, &|| false, &mut report);
+    progress.clear();
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     let report = SensitivityReport { title: document.title(), scene, sensitivity: &found };
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))

@@ -42,7 +42,7 @@ JSON is one object with statistics, fit, spectra and warnings; tables and pictur
 /// Number of random profiles for the adhesion force by default, and the largest number of springs for which it is computed
 /// without a request, since that takes some seconds.
 const LINES: u32 = 16;
-const MOST_SPRINGS: u64 = 1 << 17;
+pub(super) const MOST_SPRINGS: u64 = 1 << 17;
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]

@@ -15,32 +15,29 @@ use super::prompt::{Prompt, Purpose};
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::studies::Findings;
+use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::Move;
 use asperity_contact::{CurvePoint, LegRecord};
-use asperity_data::AxisScale;
+use asperity_data::{AxisScale, format_rounded};
 use asperity_report::LoopQuantities;
 use asperity_report::Section;
 use asperity_scene::Outcome;
-use asperity_scene::{Document, Observer, ron_float};
+use asperity_scene::{Document, ron_float};
 use asperity_scene::{Governing, marks};
-use asperity_study::{Axis, Grid, Place, Quantity};
+use asperity_study::{Axis, Ensemble, Grid, Place, Quantity};
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseUpTarget {
     pub focus: Focus,
-    pub springs: usize,
+    /// Number of springs; `None`: as many as show the whole patch.
+    pub springs: Option<usize>,
 }
 
 impl CloseUpTarget {
-    /// Number of springs in the close-up when a scene opens: a small part of the line, but several asperities; a larger
-    /// part for a scene that observes its contact patches, so that both ends of the patch at first touch are visible.
-    pub fn springs_shown(document: &Document) -> usize {
-        let scene = document.scene();
-        let part = if scene.observe.contains(&Observer::Fragments) { 4 } else { 32 };
-        (scene.numerics.points / part).max(64) as usize
-    }
+    /// The patch at first touch as a whole.
+    pub const WHOLE: CloseUpTarget = CloseUpTarget { focus: Focus::Summit, springs: None };
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -80,7 +77,8 @@ pub enum Message {
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane in place of profile and close-up, which may be that of the force; `None` if these two are shown.
+    /// Pane in place of the force curve, which is then below it in place of profile and close-up; `None` if these three are
+    /// shown.
     pub large: Option<Pane>,
     pub zoomed: bool,
     pub size: (u16, u16),
@@ -130,7 +128,6 @@ pub struct App {
 impl App {
     /// Creates the state of an explorer that has just opened on a scene.
     pub fn new(document: Document, size: (u16, u16), appearance: Appearance, config: Config) -> Self {
-        let springs = CloseUpTarget::springs_shown(&document);
         App {
             edit: Editor::new(document),
             play: Player::START,
@@ -141,7 +138,7 @@ impl App {
                 zoomed: false,
                 size,
                 appearance,
-                close_up: CloseUpTarget { focus: Focus::Summit, springs },
+                close_up: CloseUpTarget::WHOLE,
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),
                 preloads: AxisScale::default(),
@@ -203,6 +200,10 @@ impl App {
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
         let reason = why.strip_prefix(text).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
         self.ask(purpose, text);
+        if let Some(prompt) = &mut self.prompt {
+            // A refused text is corrected, not replaced.
+            prompt.line = TextLine::new(text);
+        }
         self.refuse(Some(reason.to_owned()));
     }
 
@@ -317,7 +318,6 @@ impl App {
     /// The selectable panes, the most important first.
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
-            Some(Pane::Force) => vec![Pane::Force, Pane::Parameters],
             Some(large) => vec![Pane::Force, large, Pane::Parameters],
             None => vec![Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp],
         }
@@ -332,18 +332,12 @@ impl App {
     /// wants its keys.
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
-        if self.is_shown(pane) && is_in_use { self.show_large(None, Pane::Force) } else { self.show(pane) }
+        if self.is_shown(pane) && is_in_use { self.show_force_curve() } else { self.show(pane) }
     }
 
-    /// Shows the force curve in place of profile and close-up.
-    pub fn show_large_force(&mut self) {
-        self.show_large(Some(Pane::Force), Pane::Force);
-    }
-
-    /// Shows the force curve in place of profile and close-up, or these two again.
-    pub fn toggle_large_force(&mut self) {
-        let is_large = self.view.large == Some(Pane::Force);
-        if is_large { self.show_large(None, Pane::Force) } else { self.show_large_force() }
+    /// Shows and selects the force curve at its usual place.
+    pub fn show_force_curve(&mut self) {
+        self.show_large(None, Pane::Force);
     }
 
     /// Shows a pane at its place and selects it.
@@ -352,7 +346,7 @@ impl App {
         self.show_large(large, pane);
     }
 
-    /// Shows this pane, or none, in place of profile and close-up, and selects a pane. Another pane needs other studies.
+    /// Shows this pane, or none, in place of the force curve, and selects a pane. Another pane needs other studies.
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
             self.effects.push(Task::Study);
@@ -404,6 +398,32 @@ impl App {
     pub fn without_rounding(&self, force: f64) -> f64 {
         let largest = marks(self.legs()).iter().map(|(_, point)| point.force.abs()).fold(0.0, f64::max);
         if force.abs() < 1e-12 * largest { 0.0 } else { force }
+    }
+
+    /// Returns true if forces are shown in units of F_a,max, which the shown scene has.
+    pub fn is_normalised(&self) -> bool {
+        self.view.curve.normalised && self.ideal_adhesion_force().is_some()
+    }
+
+    fn ideal_adhesion_force(&self) -> Option<f64> {
+        self.solved.as_ref()?.outcome.ideal_adhesion_force.filter(|force| *force > 0.0)
+    }
+
+    /// A force of the shown scene in words: in N, or in units of F_a,max.
+    pub fn force_in_words(&self, force: f64) -> String {
+        match self.ideal_adhesion_force().filter(|_| self.is_normalised()) {
+            Some(ideal) => format!("{} F_a,max", format_rounded(force / ideal, 3, "1")),
+            None => format_rounded(force, 3, "N"),
+        }
+    }
+
+    /// F_a/F_a,max in words: the median over random profiles, or of a scene without them its own.
+    pub fn adhesion_share_in_words(&self) -> Option<String> {
+        let of_profiles = || self.studies.value::<Ensemble>()?.statistics(Quantity::AdhesionShare);
+        let own =
+            || Some(self.solved.as_ref()?.outcome.figures.adhesion_force? / self.ideal_adhesion_force()?);
+        let share = of_profiles().map(|all| all.quartiles[1]).or_else(own)?;
+        Some(format!("F_a/F_a,max {} %", format_rounded(100.0 * share, 2, "1")))
     }
 
     /// Value of a parameter in the notation of the scene; for a value that follows from others the computed one, if known.

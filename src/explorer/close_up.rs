@@ -14,8 +14,9 @@ pub fn close_up(
 ) -> CloseUp {
     let count = contact.gaps.len();
     let centre = centre(contact, request.focus);
-    let springs = request.close_up_springs.clamp(1, count.max(1));
-    let first = centre.saturating_sub(springs / 2).min(count.saturating_sub(springs));
+    let number = nearest(contact.patches, centre);
+    let (first, springs) =
+        shown(count, centre, number.map(|one| contact.patches[one]), request.close_up_springs);
     let part = Part { first, springs, columns: request.close_up_columns };
     let section = contact.section(part, line);
     let shown = first..first + springs;
@@ -28,21 +29,36 @@ pub fn close_up(
         .filter(|spring| shown.contains(spring))
         .map(|spring| (spring, contact.height(spring)))
         .collect();
-    let patch = nearest(contact.patches, centre).and_then(|number| {
+    let patch = number.and_then(|number| {
         let springs = contact.patches[number];
         Some(PatchFacts { number, patch: springs, state: leg.patch_state(contact.indentation, number)? })
     });
     CloseUp { section, boundaries, patch }
 }
 
+/// Smallest number of springs around a patch, and the part of the profile that is shown without a contact patch.
+const FEWEST: usize = 32;
+const PART: usize = 32;
+
+/// First spring and number of springs of a close-up: this many around its centre, or the whole patch in a part whose size
+/// is a power of two, so that it stays the same while the patch grows a little.
+fn shown(count: usize, centre: usize, patch: Option<Patch>, springs: Option<usize>) -> (usize, usize) {
+    let (middle, springs) = match (springs, patch) {
+        (Some(springs), _) => (centre, springs),
+        (None, Some(patch)) => {
+            let springs = (patch.springs().len() * 5 / 4).max(FEWEST).next_power_of_two();
+            let step = springs / 16;
+            (patch.middle() / step * step, springs)
+        }
+        (None, None) => (centre, count / PART),
+    };
+    let springs = springs.clamp(1, count.max(1));
+    (middle.saturating_sub(springs / 2).min(count.saturating_sub(springs)), springs)
+}
+
 fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
     let (count, patches) = (contact.gaps.len(), contact.patches);
     let summit = || (0..count).find(|&spring| contact.gaps[spring] == 0.0).unwrap_or(count / 2);
-    let best = |worth: &dyn Fn(Patch) -> f64| {
-        // Of equal patches the first.
-        let best = patches.iter().rev().max_by(|a, b| worth(**a).total_cmp(&worth(**b)));
-        best.map_or_else(summit, |patch| patch.middle())
-    };
     match focus {
         Focus::Summit => summit(),
         Focus::Spring(spring) => spring.min(count.saturating_sub(1)),
@@ -54,14 +70,7 @@ fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
                 patches[next % patches.len()].middle()
             })
         }
-        Focus::Largest => best(&|patch| patch.springs().len() as f64),
-        Focus::MostLoaded => best(&|patch| compression(contact, patch).abs()),
     }
-}
-
-/// Sum of the compressions of the springs of a patch, m.
-fn compression(contact: &Contact<'_>, patch: Patch) -> f64 {
-    contact.gaps[patch.springs()].iter().map(|gap| contact.indentation - gap).sum()
 }
 
 fn nearest(patches: &[Patch], spring: usize) -> Option<usize> {

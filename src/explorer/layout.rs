@@ -2,10 +2,8 @@
 
 use super::app::App;
 use super::pane::Pane;
+use asperity_plot::split;
 use ratatui::layout::Rect;
-
-/// Width of the histogram beside the profile, columns, with the line of its frame.
-const HISTOGRAM_COLUMNS: u16 = 14;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
@@ -25,7 +23,7 @@ impl Layout {
     /// The layout in a window of this width and height, in cells.
     pub fn within(app: &App, (width, height): (u16, u16)) -> Self {
         let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
-        // The frame of the panes gives way before the panes.
+        // The lines around the panes give way before the panes.
         let footer = height >= 6;
         let top = if height >= 32 { 2 } else { u16::from(height >= 8) };
         let bottom = 1 + u16::from(footer);
@@ -42,14 +40,14 @@ impl Layout {
         self.panes.iter().map(|(_, area)| *area).reduce(Rect::union).unwrap_or_default()
     }
 
-    /// The area of a pane with its frame; `None` for a pane that is not shown.
+    /// The area of a pane with its title; `None` for a pane that is not shown.
     pub fn pane(&self, wanted: Pane) -> Option<Rect> {
         self.panes.iter().find(|(pane, _)| *pane == wanted).map(|(_, area)| *area)
     }
 
     /// Width of the profile in cells, without its histogram.
     pub fn profile_cells(&self) -> usize {
-        self.pane(Pane::Profile).map_or(0, |area| usize::from(split_profile(inside(area)).0.width))
+        self.pane(Pane::Profile).map_or(0, |area| usize::from(split(inside(area)).0.width))
     }
 
     pub fn close_up_cells(&self) -> usize {
@@ -57,79 +55,69 @@ impl Layout {
     }
 }
 
-/// The area inside the frame of a pane; a pane too small for a frame has none.
+/// The area below the title of a pane, without a blank column on the right; a pane too small for a title has none.
 pub fn inside(area: Rect) -> Rect {
-    if is_framed(area) { area.inner(ratatui::layout::Margin::new(1, 1)) } else { area }
-}
-
-/// Returns true if a pane is large enough for a frame.
-pub fn is_framed(area: Rect) -> bool {
-    area.height >= 6 && area.width >= 16
-}
-
-/// Divides the area of the profile pane into the profile and the histogram beside it.
-pub fn split_profile(area: Rect) -> (Rect, Option<Rect>) {
-    if area.width < 3 * HISTOGRAM_COLUMNS {
-        return (area, None);
+    if !has_title(area) {
+        return area;
     }
-    let width = area.width - HISTOGRAM_COLUMNS;
-    let histogram = Rect { x: area.x + width, width: HISTOGRAM_COLUMNS, ..area };
-    (Rect { width, ..area }, Some(histogram))
+    Rect { y: area.y + 1, height: area.height - 1, width: area.width - 1, ..area }
 }
 
+/// Returns true if a pane is large enough for a title.
+pub fn has_title(area: Rect) -> bool {
+    area.height >= 5 && area.width >= 16
+}
+
+/// Smallest window, columns, with the list of parameters at the side, and the least and the largest width of the list.
+const WITH_LIST: u16 = 60;
+const LIST: (u16, u16) = (32, 48);
+/// Smallest number of rows with panes below the main pane, and of columns with two panes there.
+const WITH_LOWER: u16 = 20;
+const WITH_CLOSE_UP: u16 = 60;
+/// Smallest number of rows of a narrow window with several rows of the list.
+const WITH_ROWS: u16 = 16;
+
+/// The main pane, which is the force curve unless another one takes its place, has the most room; the list of parameters
+/// has the height of the window. Small windows give up the close-up, the profile and the list, but for its selected row.
 fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     if body.is_empty() {
         return Vec::new();
     }
+    let selected = app.view.pane;
     if app.view.zoomed {
-        return vec![(app.view.pane, body)];
+        return vec![(selected, body)];
     }
-    if body.width >= 72 && body.height >= 14 {
-        // Beyond 1129 columns the product exceeds 16 bits.
-        let left = (u32::from(body.width) * 58 / 100) as u16;
-        let upper = body.height / 2;
-        let part = |x: u16, y: u16, width: u16, height: u16| Rect::new(body.x + x, body.y + y, width, height);
-        if app.view.large == Some(Pane::Force) {
-            return vec![
-                (Pane::Force, part(0, 0, left, body.height)),
-                (Pane::Parameters, part(left, 0, body.width - left, body.height)),
-            ];
-        }
-        if let Some(pane) = app.view.large {
-            return vec![
-                (pane, part(0, 0, left, body.height)),
-                (Pane::Force, part(left, 0, body.width - left, upper)),
-                (Pane::Parameters, part(left, upper, body.width - left, body.height - upper)),
-            ];
-        }
-        return vec![
-            (Pane::Profile, part(0, 0, left, upper)),
-            (Pane::Force, part(left, 0, body.width - left, upper)),
-            (Pane::CloseUp, part(0, upper, left, body.height - upper)),
-            (Pane::Parameters, part(left, upper, body.width - left, body.height - upper)),
-        ];
+    let main = app.view.large.unwrap_or(Pane::Force);
+    let is_list = selected == Pane::Parameters;
+    let only = if is_list { main } else { selected };
+    if body.width < WITH_LIST {
+        let rows = match body.height {
+            0..3 => return vec![(selected, body)],
+            _ if is_list => return vec![(selected, body)],
+            WITH_ROWS.. => 2 * body.height / 5,
+            _ => 1,
+        };
+        let height = body.height - rows;
+        let list = Rect { y: body.y + height, height: rows, ..body };
+        return vec![(only, Rect { height, ..body }), (Pane::Parameters, list)];
     }
-    // Too small for four: the most important ones, side by side or one above the other.
-    let second = match app.view.pane {
-        Pane::Force => match app.view.large {
-            Some(Pane::Force) => Pane::Parameters,
-            large => large.unwrap_or(Pane::Profile),
-        },
-        chosen => chosen,
+    let list = (u32::from(body.width) * 35 / 100).clamp(LIST.0.into(), LIST.1.into()) as u16;
+    let left = Rect { width: body.width - list, ..body };
+    let list = (Pane::Parameters, Rect { x: left.right(), width: list, ..body });
+    if body.height < WITH_LOWER {
+        return vec![(only, left), list];
+    }
+    let upper = Rect { height: (u32::from(body.height) * 62 / 100) as u16, ..left };
+    let lower = Rect { y: upper.bottom(), height: left.height - upper.height, ..left };
+    let below = match app.view.large {
+        Some(_) => vec![(Pane::Force, lower)],
+        None if left.width >= WITH_CLOSE_UP => {
+            let profile = Rect { width: lower.width * 3 / 5, ..lower };
+            let close_up = Rect { x: profile.right(), width: lower.width - profile.width, ..lower };
+            vec![(Pane::Profile, profile), (Pane::CloseUp, close_up)]
+        }
+        None if selected == Pane::CloseUp => vec![(Pane::CloseUp, lower)],
+        None => vec![(Pane::Profile, lower)],
     };
-    if body.width >= 36 && body.height >= 6 {
-        let left = body.width / 2;
-        return vec![
-            (Pane::Force, Rect { width: left, ..body }),
-            (second, Rect { x: body.x + left, width: body.width - left, ..body }),
-        ];
-    }
-    if body.height >= 12 {
-        let upper = body.height / 2;
-        return vec![
-            (Pane::Force, Rect { height: upper, ..body }),
-            (second, Rect { y: body.y + upper, height: body.height - upper, ..body }),
-        ];
-    }
-    vec![(app.view.pane, body)]
+    [(main, upper)].into_iter().chain(below).chain([list]).collect()
 }

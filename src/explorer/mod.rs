@@ -27,7 +27,6 @@ pub mod pane;
 pub mod panel;
 pub mod panes;
 pub mod parameters;
-pub mod picture;
 pub mod player;
 pub mod prompt;
 pub mod reading;

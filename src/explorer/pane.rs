@@ -27,6 +27,20 @@ impl Pane {
         !matches!(self, Self::Force | Self::Profile | Self::CloseUp | Self::Parameters)
     }
 
+    /// Name for a file with the content of the pane; that of the parameters is the force curve.
+    pub fn file_name(self) -> &'static str {
+        match self {
+            Self::Force | Self::Parameters => "force",
+            Self::Profile => "profile",
+            Self::CloseUp => "patch",
+            Self::Accuracy => "accuracy",
+            Self::Spectrum => "spectrum",
+            Self::Preloads => "preloads",
+            Self::Sensitivity => "sensitivity",
+            Self::Map => "map",
+        }
+    }
+
     /// Context of the keys while the pane is selected; a crosshair acts only while it is shown.
     pub fn keys(self) -> Context {
         match self {

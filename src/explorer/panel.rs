@@ -1,27 +1,27 @@
 //! Panels: the content of panes as data. One renderer draws all of them, and finds from the same division of an area what
 //! is under a cell.
 
-use super::layout::{inside, is_framed, split_profile};
+use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
 use super::theme::{Appearance, Meaning};
 use asperity_data::{format_range, format_rounded};
-use asperity_plot::{Axis, CellPlot, CellStyle, Chart, Colours, Ink, Shape, key, legend};
-use ratatui::buffer::{Buffer, Cell};
+use asperity_plot::{Axis, CellStyle, Chart, Colours, Ink, PaneChart, Shape, key, legend};
+use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Block, Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget, Widget};
+use ratatui::widgets::{Scrollbar, ScrollbarOrientation, ScrollbarState, StatefulWidget};
 
 pub struct Panel {
     pub title: String,
     pub head: Vec<Line<'static>>,
     pub body: Body,
     pub foot: Vec<Line<'static>>,
-    /// Texts on the lower edge of the frame, the most important first.
+    /// Texts on the right of the title, the most important first.
     pub edge: Vec<Part>,
 }
 
 pub enum Body {
-    Chart(Box<Plot>),
+    Chart(Box<PaneChart>),
     /// A list, scrolled so that the selected row is visible.
     Rows {
         rows: Vec<Line<'static>>,
@@ -31,33 +31,13 @@ pub enum Body {
     Text(String),
 }
 
-/// A chart with texts that a figure has in its legend.
-pub struct Plot {
-    pub chart: Chart,
-    /// Texts beside points of the chart, with their inks.
-    pub names: Vec<((f64, f64), String, Ink)>,
-    /// A second chart on the right, with the same vertical axis.
-    pub beside: Option<Chart>,
-    /// A low chart below, with the same horizontal axis and its own vertical axis; shown where there is room.
-    pub below: Option<Chart>,
-    /// True for each spring in contact along the horizontal axis, shown by a row of signs; empty without such a row.
-    pub contact: Vec<bool>,
-}
-
+/// Width of a pane, columns, below which its title has as many readings as there is room for.
+const NARROW: u16 = 40;
 /// Smallest number of rows of a chart with both scales; only the remaining rows are for lines above and below.
 const FEWEST_ROWS: u16 = 6;
-/// Largest number of rows for which the scales beside a chart are laid out; the plot has the rows of the chart.
-const MOST_BESIDE: u16 = 15;
-/// Smallest number of rows of an area with a chart below its chart, and the numbers of rows of the chart below.
-pub const WITH_BELOW: u16 = 11;
-const BELOW: std::ops::RangeInclusive<u16> = 3..=7;
-/// Smallest number of rows of a chart with a row of contact signs.
-const WITH_CONTACT: u16 = 5;
-
 impl Panel {
     pub fn of_chart(title: String, chart: Chart) -> Panel {
-        let plot = Plot { chart, names: Vec::new(), beside: None, below: None, contact: Vec::new() };
-        Panel { body: Body::Chart(Box::new(plot)), ..Panel::of_text(title, "") }
+        Panel { body: Body::Chart(Box::new(PaneChart::new(chart))), ..Panel::of_text(title, "") }
     }
 
     pub fn of_text(title: String, text: &str) -> Panel {
@@ -69,8 +49,8 @@ impl Panel {
         if let Body::Chart(plot) = &self.body { Some(&plot.chart) } else { None }
     }
 
-    /// Adds a vertical line at a share of the horizontal axis, with the values of all named curves there: on the lower edge
-    /// or, if they need more than this width, below the chart.
+    /// Adds a vertical line at a share of the horizontal axis, with the values of all named curves there: beside the
+    /// title or, if they need more than this width, below the chart.
     pub fn read_at(&mut self, share: f64, look: Appearance, width: u16) {
         let Body::Chart(plot) = &mut self.body else { return };
         let Chart { x: across, y: up, layers, .. } = &mut plot.chart;
@@ -109,20 +89,27 @@ impl Panel {
         layers.insert(0, upright());
         plot.below.iter_mut().for_each(|below| below.layers.insert(0, upright()));
         let style = look.theme.style(Meaning::Cursor);
-        let parts: Vec<Part> = parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect();
-        let lines = filled(parts.clone(), "  ", usize::from(width.saturating_sub(2)));
-        match lines.len() {
-            0..=1 => self.edge = parts,
-            _ => drop(self.foot.splice(..0, lines)),
+        self.show(parts.into_iter().map(|text| vec![Span::styled(text, style)]).collect(), width);
+    }
+
+    /// Shows readings beside the title or, if there is no room for all of them, below the chart.
+    pub fn show(&mut self, readings: Vec<Part>, width: u16) {
+        let taken = self.title.chars().count() + 8;
+        let lines = filled(readings.clone(), "  ", usize::from(width).saturating_sub(taken));
+        let is_whole = lines.len() == 1 && lines[0].spans.len() + 1 >= 2 * readings.len();
+        if is_whole {
+            self.edge = readings;
+        } else {
+            // A low pane has no rows below its chart.
+            self.edge = if width < NARROW { readings.clone() } else { Vec::new() };
+            self.foot.splice(..0, filled(readings, "  ", width.into()));
         }
     }
 }
 
-/// Label of the vertical axis with its unit, and the entries of the legend.
-pub fn names(chart: &Chart, look: Appearance) -> Vec<Part> {
-    let label = Span::styled(chart.y.label_with_unit().to_string(), look.theme.style(Meaning::Quiet));
-    let entries = in_theme(look, |style| legend(std::slice::from_ref(chart), style));
-    std::iter::once(vec![label]).chain(entries).collect()
+/// Entries of the legend of a chart.
+pub fn entries(chart: &Chart, look: Appearance) -> Vec<Part> {
+    in_theme(look, |style| legend(std::slice::from_ref(chart), style))
 }
 
 /// Label of the vertical axis of a map, and its shades with their numbers, each at most `width` columns wide.
@@ -169,16 +156,16 @@ struct Places {
 }
 
 impl Places {
-    /// Divides the area inside the frame into head, body and foot: in small windows first the foot becomes shorter, then
+    /// Divides the area below the title into head, body and foot: in small windows first the foot becomes shorter, then
     /// the head.
-    fn within(panel: &Panel, area: Rect) -> Places {
+    fn within(panel: &Panel, legend: usize, area: Rect) -> Places {
         let least = match &panel.body {
             Body::Chart(_) => FEWEST_ROWS,
             Body::Text(text) if text.is_empty() => 0,
             Body::Rows { .. } | Body::Text(_) => 1,
         };
         let room = area.height.saturating_sub(least);
-        let above = (panel.head.len() as u16).min(room);
+        let above = ((panel.head.len() + legend) as u16).min(room);
         let below = (panel.foot.len() as u16).min(room - above);
         let body = Rect { y: area.y + above, height: area.height - above - below, ..area };
         Places {
@@ -189,25 +176,12 @@ impl Places {
     }
 }
 
-/// Draws a panel into an area, with a frame if there is room; a selected panel is marked.
+/// Draws a panel into an area, with a title if there is room; a selected panel is marked.
 pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buffer: &mut Buffer) {
     let quiet = look.theme.style(Meaning::Quiet);
-    if is_framed(area) {
-        let (mark, style) = if is_selected { ("▸", look.theme.style(Meaning::Title)) } else { ("", quiet) };
-        let room = area.width - 2;
-        let mut title = format!("{mark} {} ", panel.title);
-        if title.chars().count() > usize::from(room) {
-            title.truncate(title.trim_end().len());
-        }
-        let block = Block::bordered().border_style(quiet).title(fitted(Line::styled(title, style), room));
-        let edge = spaced(panel.edge.clone(), usize::from(area.width.saturating_sub(4)));
-        let edge = edge.filter(|edge| !edge.spans.is_empty());
-        let edge =
-            edge.map(|edge| Line::from_iter([" ".into()].into_iter().chain(edge.spans).chain([" ".into()])));
-        edge.into_iter().fold(block, Block::title_bottom).render(area, buffer);
-    }
-    let Places { head, body, foot } = Places::within(panel, inside(area));
-    draw_lines(&panel.head, head, buffer);
+    let (legend, edge) = legend_of(panel, area, look);
+    let Places { head, body, foot } = Places::within(panel, legend.len(), inside(area));
+    draw_lines(&[&panel.head[..], &legend].concat(), head, buffer);
     draw_lines(&panel.foot, foot, buffer);
     match &panel.body {
         Body::Text(text) => {
@@ -217,7 +191,7 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
             let first = first_row(*selected, rows.len(), body.height);
             draw_lines(rows.get(first..).unwrap_or_default(), body, buffer);
             let hidden = rows.len().saturating_sub(body.height.into());
-            if hidden > 0 && is_framed(area) {
+            if hidden > 0 && has_title(area) {
                 let mut state = ScrollbarState::new(hidden + 1).position(first);
                 state = state.viewport_content_length(body.height.into());
                 let bar = Scrollbar::new(ScrollbarOrientation::VerticalRight).style(quiet);
@@ -225,8 +199,48 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
                 bar.render(Rect { x: area.right() - 1, width: 1, ..body }, buffer, &mut state);
             }
         }
-        Body::Chart(plot) => plot.draw(body, look, buffer),
+        Body::Chart(plot) => drop(in_theme(look, |style| plot.draw(body, style, buffer))),
     }
+    if has_title(area) {
+        let line = title_line(&panel.title, edge, area.width - 1, is_selected, look);
+        draw_lines(&[line], area, buffer);
+    }
+}
+
+/// Entries of the legend that have no room beside their curves: as lines above the chart, or if there is room for all of
+/// them on the right of the title, with the texts that are there.
+fn legend_of(panel: &Panel, area: Rect, look: Appearance) -> (Vec<Line<'static>>, Vec<Part>) {
+    let Body::Chart(plot) = &panel.body else { return (Vec::new(), panel.edge.clone()) };
+    let body = Places::within(panel, 0, inside(area)).body;
+    let left_out = in_theme(look, |style| plot.draw(body, style, &mut Buffer::empty(body)));
+    let all: Vec<Part> = left_out.iter().chain(&panel.edge).cloned().collect();
+    let width = |part: &Part| part.iter().map(Span::width).sum::<usize>() + 1;
+    let taken = panel.title.chars().count() + 8 + all.iter().map(width).sum::<usize>();
+    if taken <= usize::from(area.width) || !has_title(area) {
+        return (Vec::new(), all);
+    }
+    (filled(left_out, "  ", inside(area).width.into()), panel.edge.clone())
+}
+
+/// The title of a pane on a line across it, with texts on the right as far as there is room.
+fn title_line(
+    title: &str,
+    edge: Vec<Part>,
+    width: u16,
+    is_selected: bool,
+    look: Appearance,
+) -> Line<'static> {
+    let quiet = look.theme.style(Meaning::Quiet);
+    let (mark, style) = if is_selected { ("▸", look.theme.style(Meaning::Title)) } else { ("─", quiet) };
+    let mut line = fitted(Line::styled(format!("{mark} {title} "), style), width);
+    let room = usize::from(width) - line.width();
+    let edge = spaced(edge, room.saturating_sub(4));
+    let dashes = room - if edge.width() > 0 { edge.width() + 2 } else { 0 };
+    line.push_span(Span::styled("─".repeat(dashes), quiet));
+    if edge.width() > 0 {
+        line.spans.extend([Span::raw(" ")].into_iter().chain(edge.spans).chain([Span::raw(" ")]));
+    }
+    line
 }
 
 /// Draws lines from the top of an area down, as far as there is room; a line that is too wide ends in `…`.
@@ -245,118 +259,19 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     (selected.saturating_sub(margin) / page * page).min(rows.saturating_sub(height))
 }
 
-/// A line of the first parts that fit into a number of columns; two blanks apart if all fit, otherwise one.
-pub fn spaced(parts: Vec<Part>, columns: usize) -> Option<Line<'static>> {
+/// A line of the parts up to the first one that does not fit into a number of columns; two blanks apart if all fit,
+/// otherwise one.
+fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
     let between = if widths + 2 * parts.len().saturating_sub(1) <= columns { "  " } else { " " };
-    filled(parts, between, columns).into_iter().next()
-}
-
-impl Plot {
-    /// Division of an area into the chart and the area of the chart beside it.
-    fn places(&self, area: Rect) -> (CellPlot, Option<Rect>) {
-        let (left, right) = if self.beside.is_some() { split_profile(area) } else { (area, None) };
-        let signs = u16::from(!self.contact.is_empty() && area.height >= WITH_CONTACT);
-        let height = left.height - signs - self.rows_below(area);
-        (CellPlot::within(Rect { height, ..left }, &self.chart), right)
-    }
-
-    /// Number of rows of the chart below.
-    fn rows_below(&self, area: Rect) -> u16 {
-        let has_room = self.below.is_some() && area.height >= WITH_BELOW;
-        if has_room { (area.height / 4).clamp(*BELOW.start(), *BELOW.end()) } else { 0 }
-    }
-
-    /// Draws the chart below under the columns of the plot, with the ends of its vertical axis on the left.
-    fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
-        let height = self.rows_below(area);
-        let Some(below) = self.below.as_ref().filter(|_| height > 0) else { return };
-        let place = Rect { y: area.bottom() - height, height, ..plot };
-        // Numbers without a blank behind them if they need its column.
-        let columns = usize::from(plot.x - area.x).saturating_sub(1);
-        for row in (place.y..place.bottom()).filter(|_| columns > 0) {
-            let end = match (row == place.y, row + 1 == place.bottom()) {
-                (true, _) => Some(below.y.span.high),
-                (_, true) => Some(below.y.span.low),
-                _ => None,
-            };
-            let number = end.map_or_else(String::new, |end| format_rounded(end, 2, &below.y.unit));
-            let number = match columns.checked_sub(number.len()) {
-                None => String::new(),
-                Some(0) => number,
-                Some(_) => format!("{number} "),
-            };
-            let mark = if end.is_some() { '┤' } else { '│' };
-            let text = format!("{number:>columns$}{mark}");
-            buffer.set_string(area.x, row, text, (style.ink)(Ink::Quiet));
-        }
-        let mut cells = CellPlot::within(Rect { height: 1, ..place }, below);
-        cells.plot = place;
-        cells.draw(buffer, below, style);
-    }
-
-    fn draw(&self, area: Rect, look: Appearance, buffer: &mut Buffer) {
-        let (place, right) = self.places(area);
-        let plot = place.plot;
-        in_theme(look, |style| {
-            place.draw(buffer, &self.chart, style);
-            place.draw_names(buffer, &self.chart, style, &self.names);
-            self.draw_below(plot, area, style, buffer);
-            if let Some((chart, right)) = self.beside.as_ref().zip(right) {
-                (plot.y..plot.bottom()).for_each(|y| {
-                    buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));
-                });
-                let right = Rect { x: right.x + 1, width: right.width - 1, ..right };
-                // The label below has no row of its own.
-                let height = right.height.min(MOST_BESIDE);
-                let mut beside = CellPlot::within(Rect { height, ..right }, chart);
-                (beside.plot.y, beside.plot.height) = (plot.y, plot.height);
-                beside.draw(buffer, chart, style);
-            }
-        });
-        if self.chart.map().is_some() {
-            self.point_at_mark(&place, look, buffer);
-        }
-        if !self.contact.is_empty() && area.height >= WITH_CONTACT {
-            let signs = contact_signs(&self.contact, usize::from(plot.width));
-            buffer.set_string(plot.x, area.bottom() - 1, signs, look.theme.style(Meaning::Contact));
-        }
-    }
-
-    /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of the mark, so that it is
-    /// visible without colours.
-    fn point_at_mark(&self, place: &CellPlot, look: Appearance, buffer: &mut Buffer) {
-        let marked = self.chart.layers.iter().rev().find(|layer| layer.ink == Ink::Cursor);
-        let Some(Shape::Curve { points, .. }) = marked.map(|layer| &layer.shape) else { return };
-        let cell = points.first().and_then(|at| place.cell(&self.chart, *at));
-        let Some((x, y)) = cell else { return };
-        let (plot, style) = (place.plot, look.theme.style(Meaning::Cursor));
-        for beside in [x.wrapping_sub(1), x + 1].into_iter().filter(|x| (plot.x..plot.right()).contains(x)) {
-            buffer[(beside, y)].set_symbol(" ");
-        }
-        let is_line = |cell: &Cell| ["─", "┬"].contains(&cell.symbol());
-        if let Some(cell) = buffer.cell_mut((x, plot.bottom())).filter(|cell| is_line(cell)) {
-            cell.set_symbol("▲").set_style(style);
-        }
-        let is_line = |cell: &Cell| ["│", "┤"].contains(&cell.symbol());
-        if let Some(cell) = buffer.cell_mut((plot.x.wrapping_sub(1), y)).filter(|cell| is_line(cell)) {
-            cell.set_symbol("▶").set_style(style);
-        }
-    }
-}
-
-/// A sign for each cell of a row: `■` if all springs are in contact, `▪` if some are, `·` if none is.
-fn contact_signs(contact: &[bool], cells: usize) -> String {
-    let sign = |cell: usize| {
-        let from = cell * contact.len() / cells;
-        let part = &contact[from..((cell + 1) * contact.len() / cells).max(from + 1)];
-        match part.iter().filter(|touches| **touches).count() {
-            0 => '·',
-            touching if touching < part.len() => '▪',
-            _ => '■',
-        }
-    };
-    (0..cells).map(sign).collect()
+    let mut taken = 0;
+    let fits = parts.iter().take_while(|part| {
+        taken += part.iter().map(Span::width).sum::<usize>() + between.len();
+        taken - between.len() <= columns
+    });
+    let count = fits.count();
+    parts.truncate(count);
+    filled(parts, between, columns).into_iter().next().unwrap_or_default()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -368,12 +283,12 @@ pub enum Under {
 }
 
 /// Returns what a panel drawn into an area shows in a cell.
-pub fn under(panel: &Panel, area: Rect, cell: Position) -> Under {
+pub fn under(panel: &Panel, area: Rect, look: Appearance, cell: Position) -> Under {
     let inner = inside(area);
-    let body = Places::within(panel, inner).body;
+    let body = Places::within(panel, legend_of(panel, area, look).0.len(), inner).body;
     match &panel.body {
         Body::Chart(plot) if inner.contains(cell) => {
-            let data = plot.places(body).0.data_at(&plot.chart, (cell.x, cell.y));
+            let data = plot.divided(body).0.data_at(&plot.chart, (cell.x, cell.y));
             data.map_or(Under::Frame, |(x, y)| Under::Data(x, y))
         }
         Body::Rows { rows, selected } if body.contains(cell) => {

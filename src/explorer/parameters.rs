@@ -10,11 +10,10 @@ use asperity_scene::{
     ron_float, stage_in_ron, target_field,
 };
 
-/// Groups in the order of the list. Parameters that are varied most come first: adhesion, load, roughness, and the number
-/// of springs that resolves the roughness. Form and material are usually chosen once for a scene, and a measured curve is
-/// beside the scene.
+/// Groups in the order of the list. Parameters that are varied most come first: adhesion, load and roughness; form and
+/// material are usually chosen once for a scene, and a measured curve is beside the scene.
 const GROUPS: [&str; 8] =
-    ["adhesion", "loading", "roughness", "numerics", "form", "material", "title", reading::GROUP];
+    ["adhesion", "loading", "roughness", "form", "material", "numerics", "title", reading::GROUP];
 
 /// Fields of the scene file without a row in the list; the choice of a tolerance sets the edges.
 const HIDDEN: [&str; 5] = ["version", "observe", "numerics.samples", "numerics.edges", "numerics.solver"];

@@ -1,6 +1,7 @@
 //! State of the animation, and the indentation that it shows.
 
 use asperity_contact::LegRecord;
+use asperity_scene::pull_off_point;
 
 /// Height, as a share of the range of indentations, at which the body begins above first touch.
 const LIFT: f64 = 0.12;
@@ -10,6 +11,8 @@ const LIFT: f64 = 0.12;
 pub enum At {
     Start,
     Indentation(f64),
+    /// The pull-off of the loading, at which the animation rests; without one the end of the stage.
+    PullOff,
     /// After the stage; after a stage to separation nothing is in contact.
     End,
 }
@@ -24,10 +27,18 @@ pub struct Player {
 impl Player {
     pub const START: Player = Player { leg: 0, at: At::Start, playing: true };
 
+    /// The state in which the animation of these loading stages rests: at the pull-off, or without one at the end.
+    pub fn at_rest(legs: &[LegRecord]) -> Player {
+        let last = legs.len().saturating_sub(1);
+        let (leg, at) = pull_off(legs).map_or((last, At::End), |(leg, _)| (leg, At::PullOff));
+        Player { leg, at, playing: false }
+    }
+
     /// This state for loading stages that may have changed: at the end of the last stage if its own does not exist any
-    /// more, and otherwise between the ends of its stage.
+    /// more, and otherwise between the ends of its stage. A state of rest stays one.
     pub fn within(self, legs: &[LegRecord]) -> Player {
         match legs.len().checked_sub(1) {
+            Some(_) if self.at == At::PullOff => Player::at_rest(legs),
             Some(last) if self.leg > last => Player { leg: last, at: At::End, playing: false },
             Some(_) => Player { at: self.advanced(legs, 0.0), ..self },
             None => self,
@@ -39,6 +50,7 @@ impl Player {
         match self.at {
             At::Start => start_of(legs, self.leg),
             At::Indentation(indentation) => indentation,
+            At::PullOff => pull_off(legs).map_or(0.0, |(_, indentation)| indentation),
             At::End => legs.get(self.leg).map_or(0.0, LegRecord::end),
         }
     }
@@ -50,8 +62,8 @@ impl Player {
         match self.at {
             At::Start => 0.0,
             At::End => 1.0,
-            At::Indentation(_) if start == end => 0.0,
-            At::Indentation(indentation) => ((indentation - start) / (end - start)).clamp(0.0, 1.0),
+            _ if start == end => 0.0,
+            _ => ((self.indentation(legs) - start) / (end - start)).clamp(0.0, 1.0),
         }
     }
 
@@ -67,6 +79,12 @@ impl Player {
             _ => At::Indentation(start + (end - start) * to),
         }
     }
+}
+
+/// Loading stage and indentation (m) of the pull-off; `None` without a tensile force in the last unloading.
+fn pull_off(legs: &[LegRecord]) -> Option<(usize, f64)> {
+    let (leg, point) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0)?;
+    Some((leg, point.indentation))
 }
 
 /// Lowest and highest indentation of the curves of loading stages, m; `None` without points.

@@ -4,9 +4,9 @@ use super::action::OutputFile;
 use super::keys::bindings::{Binding, Context, Row};
 use super::pane::Pane;
 use super::parameters::Parameter;
-use super::search::find;
+use super::search::{corrected, find};
 use super::text_line::TextLine;
-use asperity_scene::{Entry, Source};
+use asperity_scene::{Document, Entry, Preset, Source};
 use std::path::is_separator;
 
 /// A prompt: it receives the keys until it is closed.
@@ -18,6 +18,8 @@ pub struct Prompt {
     pub found: Vec<usize>,
     /// Index of the selected row in `found`.
     pub selected: usize,
+    /// Words of the list in place of typed words that the list does not have.
+    pub corrected: Option<String>,
     /// Paths that begin as the typed one, if there are several.
     pub paths: Vec<String>,
     pub refused: Option<String>,
@@ -27,6 +29,8 @@ pub struct Prompt {
 pub enum Purpose {
     Value,
     Force,
+    /// A quantity with its value, for the inverse question on the selected row.
+    Target,
     /// A relative error, for the choice of the number of springs.
     Tolerance,
     /// Names of parameters, for a fit to the measured curve.
@@ -50,26 +54,60 @@ pub enum Purpose {
     Leave,
 }
 
-/// An entry of the help or of the list of commands.
+/// An entry of the help or of the list of commands, parameters and scenes.
 #[derive(Clone, Debug)]
 pub struct Topic {
     pub section: &'static str,
-    /// Names of keys, or the name of a pane.
+    /// Names of keys, or the name of a pane, a parameter or a scene.
     pub name: String,
     pub text: String,
-    pub row: Option<&'static Row>,
+    /// Everyday words that find the entry as well.
+    pub words: String,
+    pub aim: Aim,
+}
+
+/// What is done with an entry that is accepted.
+#[derive(Clone, Debug)]
+pub enum Aim {
+    Nothing,
+    Command(&'static Row),
+    /// Selects the parameter in this row of the list.
+    Parameter(usize),
+    Open(String),
 }
 
 impl Topic {
     pub fn of(binding: &Binding) -> Self {
         let Binding { row, .. } = binding;
-        Topic { section: row.section, name: binding.names(), text: row.help.to_owned(), row: Some(row) }
+        let (text, words) = (row.help.to_owned(), row.words.to_owned());
+        Topic { section: row.section, name: binding.names(), text, words, aim: Aim::Command(row) }
     }
 
-    /// Texts that a search compares: each key, description, section.
+    pub fn of_parameter((row, parameter): (usize, &Parameter)) -> Self {
+        Topic {
+            section: "Parameters of this scene",
+            name: parameter.name(),
+            text: parameter.field.meaning.to_owned(),
+            words: parameter.texts()[..3].join(" "),
+            aim: Aim::Parameter(row),
+        }
+    }
+
+    pub fn of_preset(preset: &Preset) -> Self {
+        let title = Document::parse(preset.text, preset.name).map(|document| document.title().to_owned());
+        Topic {
+            section: "Built-in scenes",
+            name: preset.name.to_owned(),
+            text: title.unwrap_or_default(),
+            words: String::new(),
+            aim: Aim::Open(preset.name.to_owned()),
+        }
+    }
+
+    /// Texts that a search compares: each key, name, other words, description, section.
     fn texts(&self) -> Vec<String> {
-        let words = [self.name.clone(), self.text.clone(), self.section.to_owned()];
-        self.name.split(' ').map(str::to_owned).chain(words).collect()
+        let words = [&self.name, &self.words, &self.text].map(String::clone);
+        self.name.split(' ').map(str::to_owned).chain(words).chain([self.section.to_owned()]).collect()
     }
 }
 
@@ -80,7 +118,7 @@ impl Prompt {
         let is_replaced = matches!(purpose, Purpose::Value | Purpose::Save { .. } | Purpose::Export);
         let line = if is_replaced { TextLine::selected(text) } else { TextLine::new(text) };
         let (found, paths) = (Vec::new(), Vec::new());
-        let mut prompt = Prompt { purpose, line, found, selected: 0, paths, refused: None };
+        let mut prompt = Prompt { purpose, line, found, selected: 0, corrected: None, paths, refused: None };
         prompt.search(parameters);
         prompt
     }
@@ -105,7 +143,12 @@ impl Prompt {
             Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
             Purpose::Scene(entries) => find(entries.iter().enumerate().map(scene_texts), query),
             Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
-            Purpose::Topics { topics, .. } => find(topics.iter().map(Topic::texts), query),
+            Purpose::Topics { topics, .. } => {
+                let texts = || topics.iter().map(Topic::texts);
+                let found = find(texts(), query);
+                self.corrected = if found.is_empty() { corrected(texts(), query) } else { None };
+                self.corrected.as_ref().map_or(found, |other| find(texts(), other))
+            }
             _ => Vec::new(),
         };
     }

@@ -51,10 +51,9 @@ pub struct SnapshotRequest {
     pub profile: LineView,
     /// Width of the close-up pane, columns of dots.
     pub close_up_columns: usize,
-    /// Width of the close-up pane, cells.
-    pub strip_cells: usize,
     pub focus: Focus,
-    pub close_up_springs: usize,
+    /// Number of springs in the close-up; `None`: as many as show the whole patch.
+    pub close_up_springs: Option<usize>,
     /// Position of the crosshair as a share of the profile, 0 to 1.
     pub crosshair: Option<f64>,
 }
@@ -79,9 +78,6 @@ pub enum Focus {
     After(Option<usize>),
     /// The patch that precedes the patch nearest to this spring.
     Before(Option<usize>),
-    Largest,
-    /// The patch with the largest force, compressive or tensile.
-    MostLoaded,
 }
 
 impl Focus {

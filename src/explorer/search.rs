@@ -1,5 +1,7 @@
 //! Search of lists by words, for parameters, commands and scenes.
 
+use asperity_scene::nearest;
+
 /// Limit of the length of a query, bytes: longer than all names. Each word is searched in all of them.
 const LONGEST_QUERY: usize = 256;
 /// Number of ranks that a word can have in one text.
@@ -23,6 +25,19 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
     let mut found: Vec<(usize, usize)> = candidates.into_iter().enumerate().filter_map(cost).collect();
     found.sort_unstable();
     found.into_iter().map(|(_, index)| index).collect()
+}
+
+/// A query with the nearest word of the candidates in place of each word that none of them has; `None` for a query without
+/// such a word, or if no word is near.
+pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Option<String> {
+    let texts: Vec<String> = candidates.into_iter().flatten().collect();
+    let is_known = |word: &str| texts.iter().any(|text| rank(text, word).is_some());
+    let known = || texts.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric()));
+    let words = query.split_whitespace();
+    let words = words.map(|word| if is_known(word) { Some(word) } else { nearest(word, known()) });
+    let corrected = words.collect::<Option<Vec<&str>>>()?.join(" ");
+    (!corrected.is_empty() && corrected != query.split_whitespace().collect::<Vec<_>>().join(" "))
+        .then_some(corrected)
 }
 
 /// Rank of a word in a text: it is the whole text, its start, the start of a word, or inside. Upper and lower case differ
@@ -66,6 +81,9 @@ mod tests {
         assert!(find(candidates(), "rghsph").is_empty(), "letters are not scattered");
         assert_eq!(find(candidates(), " "), [0, 1, 2, 3, 4, 5]);
         assert!(find(candidates(), &"a".repeat(300)).is_empty());
+        let near = |query: &str| corrected(candidates(), query);
+        assert_eq!(near("shpere rough"), Some("SPHERE rough".to_owned()));
+        assert_eq!((near("sphere"), near("qqqqqq"), near("")), (None, None, None));
         let symbols = || ["h", "H"].map(|symbol| texts(&[symbol]));
         assert_eq!((find(symbols(), "h"), find(symbols(), "H")), (vec![0, 1], vec![1, 0]));
     }

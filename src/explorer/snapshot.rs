@@ -33,8 +33,6 @@ pub struct ContactSnapshot {
     pub profile: Section,
     pub springs: SpringsInContact,
     pub close_up: CloseUp,
-    /// Contact of the whole profile as a row of cells: `■` if all springs are in contact, `▪` if some are, `·` if none is.
-    pub strip: String,
     /// Readings at the crosshair on the profile.
     pub probe: Option<Probe>,
     /// Path of manual loading to this state.
@@ -90,20 +88,6 @@ impl ContactSnapshot {
         let contact = Contact { gaps: springs.gaps(), summit: self.line.summit, indentation, patches };
         Some(contact.section(part, &mut LineColumns::default()))
     }
-}
-
-/// Contact of the whole profile as a row of cells.
-pub fn strip(contact: &Contact<'_>, cells: usize) -> String {
-    let whole = Part { first: 0, springs: contact.gaps.len(), columns: cells };
-    let glyph = |cell| {
-        let springs = whole.springs_of(cell);
-        match contact.within(springs.clone()).map(|part| part.len()).sum::<usize>() {
-            0 => '·',
-            touching if touching == springs.len() => '■',
-            _ => '▪',
-        }
-    };
-    (0..cells).map(glyph).collect()
 }
 
 /// The springs that the profile pane shows, within the line.

@@ -5,7 +5,7 @@ use super::close_up::close_up;
 use super::manual_body::ManualBody;
 use super::player::{At, Player, indentations};
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, Probe, Reply, SolvedScene, SpringsInContact, profile_part, strip};
+use super::snapshot::{ContactSnapshot, Probe, Reply, SolvedScene, SpringsInContact, profile_part};
 use asperity_contact::Move;
 use asperity_contact::{ContactError, CurvePoint, Direction, Leg, LegRecord};
 use asperity_report::{Contact, LineColumns};
@@ -187,7 +187,6 @@ impl Solver {
             contact_radius: leg.contact().foundation().contact_radius(&patches, point),
             profile: contact.section(part, profile),
             close_up,
-            strip: strip(&contact, request.strip_cells),
             probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
             manual: body.as_mut().map(ManualBody::travel),
             springs: SpringsInContact { springs: Arc::downgrade(leg.contact().springs()), patches },
@@ -239,7 +238,7 @@ fn stages_until(solved: &SolvedScene, number: usize, at: At) -> (Vec<Move>, Opti
         // The animation begins above the foundation.
         At::Indentation(indentation) if number == 0 && indentation <= leg.start() => return (stages, before),
         At::Indentation(indentation) => stages.push(Move::ToIndentation(indentation)),
-        At::End => stages.push(leg.target),
+        At::PullOff | At::End => stages.push(leg.target),
     }
     (stages, Some(leg.direction))
 }

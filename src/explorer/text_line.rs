@@ -73,11 +73,22 @@ impl TextLine {
         (self.selected, self.left_out) = (false, None);
     }
 
+    /// The text, in a smaller number of columns without digits in its middle: its end has the exponent and the unit.
+    fn shortened(&self, columns: usize) -> String {
+        let characters: Vec<char> = self.text().chars().collect();
+        let kept = columns.saturating_sub(1);
+        if Span::raw(self.text()).width() <= columns || characters.len() <= kept {
+            return self.text().to_owned();
+        }
+        let (start, end) = (&characters[..kept - kept / 2], &characters[characters.len() - kept / 2..]);
+        start.iter().chain(['…'].iter()).chain(end).collect()
+    }
+
     /// The part of the line around the cursor that fits into a number of columns.
     pub fn spans(&self, columns: usize, theme: Theme) -> Vec<Span<'static>> {
         let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
         if self.selected && !self.text().is_empty() {
-            return vec![Span::styled(self.text().to_owned(), reversed)];
+            return vec![Span::styled(self.shortened(columns), reversed)];
         }
         let (before, under, after) = self.parts();
         let under = if under.is_empty() { " ".to_owned() } else { under };

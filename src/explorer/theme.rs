@@ -82,32 +82,29 @@ impl Theme {
             Text, Title,
         };
         match (self, meaning) {
-            (Theme::Plain, _) | (_, Line | Text | Selected | Title) => Color::Reset,
-            (Theme::Neutral, Quiet | Ghost) => Color::DarkGray,
-            (Theme::Neutral, Surface) => Color::Blue,
-            (Theme::Neutral, Contact | Error | Cursor) => Color::Red,
-            (Theme::Neutral, Approach) => Color::Green,
-            (Theme::Neutral, Retraction | Key) => Color::Magenta,
-            (Theme::Neutral, Manual) => Color::Cyan,
+            // Red is contact alone: marks and errors are bold.
+            (Theme::Plain, _) | (_, Line | Text | Selected | Title | Key | Cursor | Error) => Color::Reset,
+            (Theme::Neutral | Theme::Light, Quiet | Ghost) => Color::DarkGray,
             (Theme::Dark, Quiet | Ghost) => Color::Gray,
+            (Theme::Neutral | Theme::Light, Surface) => Color::Blue,
+            (Theme::Neutral | Theme::Light, Contact) => Color::Red,
+            (Theme::Neutral | Theme::Light, Approach) => Color::Green,
+            (Theme::Neutral | Theme::Light, Retraction) => Color::Magenta,
+            (Theme::Neutral | Theme::Light, Manual) => Color::Cyan,
             (Theme::Dark, Surface) => Color::LightBlue,
-            (Theme::Dark, Contact | Error | Cursor) => Color::LightRed,
+            (Theme::Dark, Contact) => Color::LightRed,
             (Theme::Dark, Approach) => Color::LightGreen,
-            (Theme::Dark, Retraction | Key) => Color::LightMagenta,
+            (Theme::Dark, Retraction) => Color::LightMagenta,
             (Theme::Dark, Manual) => Color::LightYellow,
-            (Theme::Light, Quiet | Ghost) => Color::DarkGray,
-            (Theme::Light, Surface | Key) => Color::Blue,
-            (Theme::Light, Contact | Error | Cursor) => Color::Red,
-            (Theme::Light, Approach) => Color::Green,
-            (Theme::Light, Retraction) => Color::Magenta,
-            (Theme::Light, Manual) => Color::Cyan,
         }
     }
 
     pub fn style(self, meaning: Meaning) -> Style {
         let style = Style::new().fg(self.colour(meaning));
         match meaning {
-            Meaning::Title | Meaning::Key | Meaning::Error => style.add_modifier(Modifier::BOLD),
+            Meaning::Title | Meaning::Key | Meaning::Error | Meaning::Cursor => {
+                style.add_modifier(Modifier::BOLD)
+            }
             Meaning::Selected => style.add_modifier(Modifier::REVERSED),
             // Without colours the surface differs from the profile, and the contact from both.
             Meaning::Quiet | Meaning::Ghost | Meaning::Surface if self == Theme::Plain => {

@@ -129,7 +129,6 @@ pub fn snapshot_request(app: &App) -> SnapshotRequest {
         profile_columns: DOTS * layout.profile_cells(),
         profile: app.view.profile,
         close_up_columns: DOTS * layout.close_up_cells(),
-        strip_cells: layout.close_up_cells(),
         focus: app.view.close_up.focus,
         close_up_springs: app.view.close_up.springs,
         crosshair: app.view.crosshair.filter(|_| app.section().is_some()),

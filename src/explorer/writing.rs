@@ -6,18 +6,17 @@ use super::commands::stages::with_path;
 use super::pane::Pane;
 use super::panes;
 use super::panes::row::OPEN_COMMAND;
-use super::picture::svg::svg;
-use super::picture::text;
 use super::theme::Theme;
 use super::view;
 use asperity_data::{WriteError, object, write_new_file};
-use asperity_plot::{Figure, Palette};
+use asperity_plot::{Figure, Palette, screen_svg, screen_text};
 use asperity_report::scene_provenance;
 use asperity_report::{Format, Json, Report};
-use asperity_scene::{Scene, command_line};
+use asperity_scene::{Scene, command_line, own_folder};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
+use std::fs::create_dir_all;
 use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
@@ -31,9 +30,12 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
         if file.content == Content::Scene && file.path.extension().is_none() && is_file {
             file.path.set_extension("ron");
         }
-        write_new_file(&folder.join(&file.path), file.overwrite, |out| {
-            write_content(out, app, &file.path, file.content)
-        })
+        let path = folder.join(&file.path);
+        // The folder of the user's own scenes comes with the first of them.
+        if let Some(own) = own_folder().filter(|own| path.parent() == Some(own)) {
+            create_dir_all(&own).map_err(|reason| WriteError::Failed { path: own.clone().into(), reason })?;
+        }
+        write_new_file(&path, file.overwrite, |out| write_content(out, app, &file.path, file.content))
     };
     let result = written().map_err(|error| match error {
         WriteError::Exists { .. } => WriteFailure::Exists,
@@ -46,7 +48,7 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
     let missing = || io::Error::other("the selected pane has nothing yet to export");
     match content {
         Content::Scene => out.write_all(app.edit.document.text().as_bytes()),
-        Content::Pane(Format::Text) => out.write_all(text(&picture_of(app)).as_bytes()),
+        Content::Pane(Format::Text) => out.write_all(screen_text(&picture_of(app)).as_bytes()),
         Content::Pane(format) => {
             let drawn = |figure: Figure| (OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>);
             let has_table = |figure: &Figure| app.is_current() && figure.table().is_some();
@@ -93,7 +95,7 @@ fn figure(app: &App) -> Option<Figure> {
 pub fn screenshot(app: &App) -> String {
     let palette = if app.view.appearance.theme == Theme::Light { Palette::LIGHT } else { Palette::DARK };
     let name = Path::new(app.edit.document.name()).file_stem().unwrap_or_default();
-    svg(&picture_of(app), &palette, &format!("Asperity: {}", name.to_string_lossy()))
+    screen_svg(&picture_of(app), &palette, &format!("Asperity: {}", name.to_string_lossy()))
 }
 
 /// The screen without prompts, questions and messages other than errors.

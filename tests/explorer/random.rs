@@ -193,10 +193,13 @@ impl Explorer {
     /// Presses a key that is valid in the present mode, by its number among them.
     fn press(&mut self, number: usize, times: usize) {
         let bindings = self.driver.app.config.bindings.clone();
-        let rows: Vec<_> = bindings.valid_in(self.driver.app.keys()).map(|binding| binding.row).collect();
-        let character = char::from_digit(number as u32 % 10, 10);
+        let keys: Vec<_> = bindings
+            .valid_in(self.driver.app.keys())
+            .flat_map(|binding| binding.keys.iter().map(|key| (binding.row, key.event())))
+            .collect();
+        let (row, key) = keys[number % keys.len()];
         for _ in 0..times {
-            self.act(Action::Command(Command { row: rows[number % rows.len()], character }));
+            self.act(Action::Command(Command { row, key: Some(key) }));
         }
     }
 

@@ -84,9 +84,8 @@ const SNAPSHOT: SnapshotRequest = SnapshotRequest {
     profile_columns: 100,
     profile: LineView::WHOLE,
     close_up_columns: 100,
-    strip_cells: 50,
     focus: Focus::Summit,
-    close_up_springs: 64,
+    close_up_springs: Some(64),
     crosshair: None,
 };
 
@@ -283,7 +282,7 @@ fn picture_counts_and_boundaries_say_the_same() {
                     let request = SnapshotRequest {
                         profile_columns: under,
                         close_up_columns: under,
-                        close_up_springs: springs,
+                        close_up_springs: Some(springs),
                         ..SNAPSHOT
                     };
                     let shown = served.shown(leg, sample.indentation, request);

@@ -43,7 +43,7 @@ fn summary(folder: &Path, plan: &str) -> Table {
 /// Boundaries of a study in κ or in e_el/γ, for half and a tenth of F_a,max.
 fn boundaries(folder: &Path, study: &str, over: &str) -> String {
     let levels = ["--level", "0.5", "--level", "0.1"];
-    let command = [&["sweep", "boundary", study, "--over", over, "--format", "csv"], &levels[..]].concat();
+    let command = [&["sweep", "boundary", study, "--x", over, "--format", "csv"], &levels[..]].concat();
     asperity_in(folder, &command).succeeded()
 }
 
@@ -140,7 +140,9 @@ fn skewness(exponent: u32) -> f64 {
         "--set",
         &sets[1],
     ];
-    json(&run)["rms_skewness"].as_f64().unwrap()
+    let lines = json(&run)["ensemble"]["lines"].clone();
+    let squares = lines.as_array().unwrap().iter().map(|line| line["skewness"].as_f64().unwrap().powi(2));
+    (squares.sum::<f64>() / 32.0).sqrt()
 }
 
 /// Largest over smallest ratio of the mean adhesion force to the preload, from 0.5 to 40 µN.

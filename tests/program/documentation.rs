@@ -166,7 +166,7 @@ fn pictures_are_those_of_their_commands() {
         ("docs/learn.md", staircase),
         ("docs/learn.md", "asperity run pressure-sensitive -o docs/learn/rough.svg"),
         ("docs/learn.md", protocols),
-        ("README.md", "asperity demo pressure-sensitive --at 9 --size 120x36 --picture docs/explorer.svg"),
+        ("README.md", "asperity demo pressure-sensitive --at 9 --size 120x36 -o docs/explorer.svg"),
         ("docs/reversals.md", "asperity reversals pressure-sensitive --count 64 -o docs/reversals.svg"),
     ] {
         assert!(read(page).contains(command), "{page} lacks: {command}");

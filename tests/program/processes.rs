@@ -37,7 +37,7 @@ fn a_reader_may_leave_at_any_time() {
         &["line", "pressure-sensitive"][..],
         &["run", "jkr-sphere", "--format", "json", "--set", "numerics.samples=20000"],
         &["run", "jkr-sphere"],
-        &["demo", "--fps", "2"],
+        &["demo"],
         &["--help"],
     ] {
         let mut child =
@@ -87,8 +87,8 @@ fn a_demo_is_text_in_a_pipe() {
         assert_eq!((heads.len(), heads[0], heads[12]), (13, "== 0.00 s ==", "== 12.00 s =="));
         assert!(!frames.contains(['\u{1b}', '\r']) && frames.contains("Force F(d)") && frames.contains('⠒'));
         assert!(frames.lines().count() == 13 * 31 && frames.lines().all(|line| line.chars().count() <= 100));
-        assert_eq!(frames, demo(&["--size", "100x30", "--frames"]), "the same every time");
-        let ascii = demo(&["--size", "100x30", "--ascii", "--fps", "0.5"]);
+        assert_eq!(frames, demo(&["--size", "100x30"]), "the same every time");
+        let ascii = demo(&["--size", "100x30", "--marker", "ascii"]);
         assert!(ascii.bytes().all(|byte| byte == b'\n' || (b' '..=b'~').contains(&byte)));
         assert!(
             demo(&["--set", "adhesion.work=0.06", "--at", "1"]).contains("60 mJ/m²"),

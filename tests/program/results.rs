@@ -178,7 +178,8 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
     let object: Value =
         serde_json::from_str(&many(&["--lines", "6", "--set", "roughness.seed=5", "--format", "json"]))
             .unwrap();
-    let lines = array(&object["lines"]);
+    let ensemble = &object["ensemble"];
+    let lines = array(&ensemble["lines"]);
     let seven = alone("roughness.seed=7");
     for key in ["adhesion_force", "preload_indentation", "dissipated_energy", "regime"] {
         assert_eq!(lines[2][key], seven[key], "{key}");
@@ -186,7 +187,7 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
     let forces = lines.iter().map(|line| number(&line["adhesion_force"]));
     let mean = forces.clone().sum::<f64>() / 6.0;
     let deviation = (forces.map(|force| (force - mean).powi(2)).sum::<f64>() / 5.0).sqrt();
-    let statistics = &object["adhesion_force"];
+    let statistics = &ensemble["adhesion_force"];
     for (found, expected) in [(&statistics["mean"], mean), (&statistics["standard_deviation"], deviation)] {
         assert!((number(found) / expected - 1.0).abs() < 1e-8, "{found} for {expected}");
     }

@@ -37,7 +37,7 @@ fn write_script(path: &Path, script: &str) {
 fn submit(folder: &Path, options: &[&str]) -> Finished {
     let mut command = program();
     command.current_dir(folder).env("PATH", folder.join("bin")).env("SBATCH_ACCOUNT", "site");
-    finished(command.args(["sweep", "submit", "plan.ron", "-o", "study", "--shards", "12"]).args(options))
+    finished(command.args(["sweep", "submit", "plan.ron", "-o", "study", "--jobs", "12"]).args(options))
 }
 
 /// Both tables of a study on a cluster are those of the same study on this machine, byte for byte.
@@ -55,7 +55,7 @@ fn a_cluster_gives_the_bytes_of_one_machine() {
         drop(listeners);
         // A folder name with special characters of the shell and of Slurm.
         let study = r#"study="it's %j & \$HOME"
-            "$ASPERITY" sweep submit plan.ron -o "$study" --shards 4 &&
+            "$ASPERITY" sweep submit plan.ron -o "$study" --jobs 4 &&
             while [ -n "$(squeue --noheader)" ]; do sleep 0.1; done &&
             "$ASPERITY" sweep plan.ron -o serial --jobs 1 &&
             cmp serial/results.csv "$study/results.csv" && cmp serial/summary.csv "$study/summary.csv""#;
@@ -96,7 +96,7 @@ fn all_options_and_variables_reach_sbatch() {
 #[test]
 fn a_task_starts_killed_programs_again() {
     let folder = folder(&[("sbatch", "touch submitted; echo 1")]);
-    let script = submit(folder.path(), &["--dry-run"]).succeeded();
+    let script = submit(folder.path(), &["--check"]).succeeded();
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the plan and the stand-ins");
     let script = script.replace(ASPERITY, "./program");
     for (program, code, runs) in [

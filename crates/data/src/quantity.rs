@@ -15,7 +15,7 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("N/m", "unit of stiffness", "N/m, mN/m, kN/m"),
     ("rad", "unit of angle", "rad, mrad, °"),
     ("s", "unit of time", "s, ms, µs"),
-    ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi"),
+    ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi, %"),
 ];
 
 /// Reason why a typed text is not a quantity.
@@ -49,7 +49,7 @@ impl QuantityError {
 ///
 /// Unit and blanks are optional. A lone `m` is the prefix milli, except for fields in metres, where it is the unit:
 /// there `50m` is fifty metres and `50mm` fifty millimetres. Angles may also be in degrees, `30°` or `30 deg`, and
-/// counts take `Ki`, `Mi` and `Gi` for powers of 1024. The number is the one nearest to the typed text; no digit is
+/// numbers without a unit take `%`, and `Ki`, `Mi` and `Gi` for powers of 1024. The number is the one nearest to the typed text; no digit is
 /// lost to the prefix.
 ///
 /// # Errors
@@ -120,6 +120,7 @@ fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
     }
     match (unit.as_str(), suffix.as_str()) {
         ("rad", "°" | "deg") => return Some((0, std::f64::consts::PI / 180.0)),
+        ("1" | "", "%") => return Some((-2, 1.0)),
         ("1" | "", "Ki") => return Some((0, f64::from(1 << 10))),
         ("1" | "", "Mi") => return Some((0, f64::from(1 << 20))),
         ("1" | "", "Gi") => return Some((0, f64::from(1 << 30))),
@@ -183,8 +184,11 @@ pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> Strin
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }
 
-/// Joins the ends of a range, each a value with its unit; a unit that both share is written once.
+/// Joins the ends of a range, each a value with its unit; a unit that both share is written once, as are equal ends.
 pub fn one_unit([low, high]: [String; 2]) -> String {
+    if low == high {
+        return low;
+    }
     match (low.split_once(' '), high.split_once(' ')) {
         (Some((number, of_low)), Some((_, of_high))) if of_low == of_high => format!("{number} to {high}"),
         _ => format!("{low} to {high}"),
@@ -273,7 +277,10 @@ mod tests {
             ("m", "0e99999999999 km = 0; 1e-99999999999 nm = 0"),
             ("J/m²", "50m = 0.05; 50 mJ/m2 = 0.05; 50 mJ/m^2 = 0.05; 50 mN/m = 0.05; 1e-3 = 1e-3"),
             ("N", "-20 uN = -20e-6"),
-            ("1", "+3 = 3; .5 = 0.5; 5. = 5; 16k = 16000; 64Ki = 65536; 3Mi = 3145728; 3Gi = 3221225472"),
+            (
+                "1",
+                "+3 = 3; .5 = 0.5; 5. = 5; 80 % = 0.8; 0.1% = 0.001; 16k = 16000; 64Ki = 65536; 3Mi = 3145728; 3Gi = 3221225472",
+            ),
             ("rad", " 45 °  = 0.7853981633974483; 100 mrad = 0.1"),
             ("m^(1−n)", "3e5 = 3e5; 3 m^(1−n) = 3"),
         ] {
@@ -311,7 +318,7 @@ mod tests {
         for (text, unit, message) in [
             ("2 kg", "m", "kg is not a unit of length: use m, mm, µm, nm"),
             ("1 N/m2", "J/m²", "N/m2 is not a unit of energy per area: use J/m², mJ/m², N/m, mN/m"),
-            ("5 %", "1", "% is not a prefix of a number: use k, M, G, Ki, Mi, Gi"),
+            ("5 ‰", "1", "‰ is not a prefix of a number: use k, M, G, Ki, Mi, Gi, %"),
             ("1k", "m^(1−n)", "k is not the unit m^(1−n)"),
             ("ten", "N", "\"ten\" is not a number, such as 1.0e-3, 2.5 mN or 2.5kN"),
             ("1e400", "1", "1e400 is too large"),

@@ -2,7 +2,7 @@
 
 use super::label::{Label, prefixed};
 use super::scale::Span;
-use super::ticks::{Tick, ticks};
+use super::ticks::{Tick, are_plain, ticks};
 use asperity_data::AxisScale;
 
 /// Range of the largest number on a linear axis within which the numbers at the ticks have few digits.
@@ -23,13 +23,15 @@ pub struct Axis {
     pub unit: String,
     /// Names at the coordinates 0, 1, … in place of numbers; empty for an axis with numbers.
     pub names: Vec<Label>,
+    /// True for numbers of things, which have no ticks between whole numbers.
+    pub counts: bool,
 }
 
 impl Axis {
     /// Creates an axis of a quantity with this name, symbol and SI unit.
     pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> Axis {
         let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
-        Axis { scale, span, name, symbol, unit, names: Vec::new() }
+        Axis { scale, span, name, symbol, unit, names: Vec::new(), counts: false }
     }
 
     /// Creates an axis with names in place of numbers: the first at the coordinate 0, each in the middle of a range of
@@ -45,14 +47,21 @@ impl Axis {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Where the
-    /// numbers of a linear axis would still have too many digits, the divisor is a power of ten instead.
+    /// Divisor of the numbers on the axis, and the unit with the corresponding SI prefix. Where the numbers of a linear axis
+    /// would still have too many digits, the divisor is a power of ten instead. A logarithmic axis whose numbers are powers of
+    /// ten with any prefix has none.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
+        if self.scale == AxisScale::Logarithmic {
+            let largest = (0..6).map(|thousands| largest / 1000_f64.powi(thousands));
+            let prefixes = largest.map(|largest| prefixed(&self.unit, largest));
+            let is_plain = |(divisor, _): &(f64, String)| are_plain(self.span, *divisor);
+            return prefixes.into_iter().find(is_plain).unwrap_or_else(|| (1.0, prefixed(&self.unit, 1.0).1));
+        }
         let (divisor, unit) = prefixed(&self.unit, largest);
         let is_short = (SHORT.0..SHORT.1).contains(&(largest / divisor));
-        if self.scale == AxisScale::Logarithmic || is_short || !largest.is_normal() {
+        if is_short || !largest.is_normal() {
             return (divisor, unit);
         }
         let power = 3 * (largest.log10() / 3.0).floor() as i32;
@@ -94,7 +103,8 @@ impl Axis {
             let tick = |(at, name): (usize, &Label)| Tick { at: at as f64, label: Some(name.clone()) };
             return self.names.iter().enumerate().map(tick).collect();
         }
-        let of = |most| ticks(self.scale, self.span, self.prefix().0, most);
+        let least = if self.counts { 1.0 } else { 0.0 };
+        let of = |most| ticks(self.scale, self.span, self.prefix().0, most, least);
         let two = |ticks: &Vec<Tick>| ticks.iter().filter(|tick| tick.label.is_some()).nth(1).is_some();
         (most..=most + 2).map(of).find(two).unwrap_or_else(|| of(most))
     }

@@ -24,6 +24,11 @@ pub struct Figure {
     pub parameters: Vec<Label>,
     /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
     pub width: Option<f64>,
+    /// Height of a picture, px of 1/96 inch, into which its frames are fitted; `None`: the height that its frames need, but in
+    /// a figure with a given width at most that of a page.
+    pub height: Option<f64>,
+    /// True for a picture without the title, which a caption has instead.
+    pub untitled: bool,
 }
 
 impl Figure {
@@ -51,6 +56,20 @@ impl Figure {
             })
         });
         Figure { charts: panels.collect(), size, ..Figure::default() }
+    }
+
+    /// The figure with the chosen panels alone, which get the letters from `a` on.
+    ///
+    /// # Errors
+    /// The letters of the panels, if one of the chosen letters is not among them.
+    pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
+        let panel =
+            |letter: char| (letter as usize).checked_sub('a' as usize).and_then(|at| self.charts.get(at));
+        let chosen: Option<Vec<Chart>> = letters.chars().map(|letter| panel(letter).cloned()).collect();
+        match chosen {
+            Some(charts) if !charts.is_empty() => Ok(Figure { charts, ..self }),
+            _ => Err(self.charts.iter().zip('a'..='z').map(|(_, letter)| letter).collect()),
+        }
     }
 
     /// Heading of a chart, with its letter; `None` in a figure of one chart.
@@ -201,6 +220,8 @@ pub enum Stroke {
     Dashed,
     /// Short dashes.
     Dotted,
+    /// Dashes and dots in turn.
+    DashDotted,
     /// Dots far apart.
     Sparse,
 }

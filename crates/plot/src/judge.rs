@@ -30,6 +30,8 @@ pub fn check_picture(svg: &str) {
     for (element, rest) in svg.split("<text").skip(1).map(|rest| rest.split_once('>').unwrap()) {
         let words = rest.split("</text>").next().unwrap_or_default();
         let plain: String = words.split('<').map(|part| part.rsplit('>').next().unwrap_or("")).collect();
+        let plain =
+            plain.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&");
         let [x, y, height] = ["x", "y", "font-size"].map(|name| attribute(element, name));
         let width = 0.9 * Label::plain(plain.trim()).width() * height;
         let left = match () {

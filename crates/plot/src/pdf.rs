@@ -1,6 +1,8 @@
-//! SVG documents as a PDF of one page in its real size: the outlines of [`super::png::tree`], letters included.
+//! SVG documents as a PDF of one page in its real size: the outlines of [`super::png::tree`], and its text as text in embedded
+//! fonts, which readers search and editors change.
 
 use super::chart::Figure;
+use super::pdf_font::PdfFont;
 use super::png::tree;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -8,7 +10,11 @@ use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::writers::ExtGraphicsState;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
 use resvg::tiny_skia::{Path as Outline, PathSegment, Point};
-use resvg::usvg::{Color, Group, LineCap, LineJoin, Node, Paint, Path, ShapeRendering, Transform, Tree};
+use resvg::usvg::fontdb::{Database, ID};
+use resvg::usvg::layout::{PositionedGlyph, Span};
+use resvg::usvg::{
+    Color, Group, LineCap, LineJoin, Node, Paint, Path, ShapeRendering, Text, Transform, Tree,
+};
 use std::collections::BTreeSet;
 use std::io;
 use std::io::Write;
@@ -17,6 +23,8 @@ use std::io::Write;
 const POINTS: f32 = 0.75;
 /// Width by which adjacent cells overlap, px: viewers show the paper between edges that only touch.
 const OVERLAP: f32 = 0.2;
+/// Distance from a line of text, in units of the font size, up to which a glyph belongs to it.
+const SAME: f32 = 1e-3;
 
 impl Figure {
     /// Draws the figure and returns the content of a PDF file.
@@ -27,7 +35,12 @@ impl Figure {
 
 fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     let [width, height] = [tree.size().width(), tree.size().height()].map(|side| POINTS * side);
-    let mut page = Page { content: Content::new(), opacities: BTreeSet::new() };
+    let mut page = Page {
+        content: Content::new(),
+        opacities: BTreeSet::new(),
+        letters: tree.fontdb(),
+        fonts: Vec::new(),
+    };
     page.content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, height]);
     page.group(tree.root(), Transform::identity());
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
@@ -46,30 +59,101 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
         opacity.non_stroking_alpha(f32::from(percent) / 100.0);
     }
     states.finish();
+    let first = info.get() + 1;
+    let mut fonts = resources.fonts();
+    for (index, font) in page.fonts.iter().enumerate() {
+        fonts.pair(Name(font.name(index).as_bytes()), font.reference(first, index));
+    }
+    fonts.finish();
     resources.finish();
     one.finish();
     pdf.stream(stream, &packed.finish()?).filter(Filter::FlateDecode);
     pdf.document_info(info).title(TextStr(title));
+    for (index, font) in page.fonts.iter().enumerate() {
+        font.write(&mut pdf, first, index)?;
+    }
     Ok(pdf.finish())
 }
 
-/// Drawing operators of a page, and the opacities in per cent that they refer to.
-struct Page {
+/// Drawing operators of a page, and the opacities in per cent and the fonts that they refer to.
+struct Page<'a> {
     content: Content,
     opacities: BTreeSet<u8>,
+    letters: &'a Database,
+    fonts: Vec<PdfFont>,
 }
 
-impl Page {
+impl Page<'_> {
     fn group(&mut self, group: &Group, to_page: Transform) {
         for node in group.children() {
             match node {
                 Node::Group(inner) => self.group(inner, to_page.pre_concat(inner.transform())),
-                Node::Text(text) => self.group(text.flattened(), to_page),
+                Node::Text(text) => self.text(text, to_page),
                 Node::Path(path) => self.path(path, to_page),
                 // Figures have no images.
                 Node::Image(_) => {}
             }
         }
+    }
+
+    fn text(&mut self, text: &Text, to_page: Transform) {
+        for span in text.layouted() {
+            // Figures have text of plain colours alone.
+            if let Some(Paint::Color(colour)) = span.fill.as_ref().map(|fill| fill.paint()) {
+                let [red, green, blue] = rgb(*colour);
+                self.content.save_state().set_fill_rgb(red, green, blue).begin_text();
+                self.letters(span, to_page);
+                self.content.end_text().restore_state();
+            }
+        }
+    }
+
+    /// Shows the glyphs of a span, in runs on one line of one font.
+    fn letters(&mut self, span: &Span, to_page: Transform) {
+        let mut rest = span.positioned_glyphs.as_slice();
+        while let Some(first) = rest.first() {
+            let Some(index) = self.font(first.font) else { return };
+            let em = self.fonts[index].units_per_em();
+            let place = |glyph: &PositionedGlyph| {
+                to_page.pre_concat(glyph.outline_transform()).pre_concat(Transform::from_scale(em, em))
+            };
+            let begin = place(first);
+            let size = begin.sx.hypot(begin.ky);
+            // Distance along the line from the first glyph, in units of the font size; `None` for a glyph beside the line.
+            let along = |glyph: &PositionedGlyph| {
+                let at = place(glyph);
+                let (dx, dy) = ((at.tx - begin.tx) / size, (at.ty - begin.ty) / size);
+                let (across, along) = (dx * begin.ky - dy * begin.sx, dx * begin.sx + dy * begin.ky);
+                let is_alike = (at.sx - begin.sx).hypot(at.ky - begin.ky) < SAME * size;
+                (glyph.font == first.font && is_alike && across.abs() < SAME * size).then(|| along / size)
+            };
+            let distances: Vec<f32> = rest.iter().map_while(along).collect();
+            let (run, next) = rest.split_at(distances.len().max(1));
+            let font = &mut self.fonts[index];
+            self.content.set_font(Name(font.name(index).as_bytes()), 1.0).set_text_matrix(matrix(begin));
+            let mut shown = self.content.show_positioned();
+            let mut items = shown.items();
+            let mut reached = 0.0;
+            for (glyph, at) in run.iter().zip(distances) {
+                // In thousandths, to the left.
+                let adjusted = 1000.0 * (reached - at);
+                if adjusted.abs() > 0.5 {
+                    items.adjust(adjusted);
+                    reached = at;
+                }
+                reached += font.show(&mut items, glyph.id.0, &glyph.text) / 1000.0;
+            }
+            rest = next;
+        }
+    }
+
+    /// Index of a font on this page.
+    fn font(&mut self, id: ID) -> Option<usize> {
+        let known = self.fonts.iter().position(|font| font.is(id));
+        known.or_else(|| {
+            self.fonts.push(PdfFont::new(self.letters, id)?);
+            Some(self.fonts.len() - 1)
+        })
     }
 
     fn path(&mut self, path: &Path, to_page: Transform) {
@@ -154,18 +238,29 @@ mod tests {
     use flate2::read::ZlibDecoder;
     use std::io::Read;
 
-    /// The size of a page, pt, and its drawing operators.
-    fn drawn(elements: &str) -> (String, String) {
-        let svg = format!(
+    fn document(elements: &str) -> String {
+        format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"80mm\" height=\"40mm\" viewBox=\"0 0 40 20\">{elements}</svg>"
-        );
-        let file = pdf(&tree(&svg).unwrap(), "Rough µ").unwrap();
-        let find = |words: &[u8]| file.windows(words.len()).position(|window| window == words).unwrap();
-        let size = String::from_utf8_lossy(&file[find(b"/MediaBox")..]).split(']').next().unwrap().to_owned();
-        let (from, to) = (find(b"\nstream\n") + 8, find(b"\nendstream"));
+        )
+    }
+
+    fn find(file: &[u8], words: &[u8]) -> usize {
+        file.windows(words.len()).position(|window| window == words).unwrap()
+    }
+
+    /// The drawing operators of a file, which are its first stream.
+    fn inflated(file: &[u8]) -> String {
+        let (from, to) = (find(file, b"\nstream\n") + 8, find(file, b"\nendstream"));
         let mut content = String::new();
         ZlibDecoder::new(&file[from..to]).read_to_string(&mut content).unwrap();
-        (size, content)
+        content
+    }
+
+    /// The size of a page, pt, and its drawing operators.
+    fn drawn(elements: &str) -> (String, String) {
+        let file = pdf(&tree(&document(elements)).unwrap(), "Rough µ").unwrap();
+        let size = String::from_utf8_lossy(&file[find(&file, b"/MediaBox")..]);
+        (size.split(']').next().unwrap().to_owned(), inflated(&file))
     }
 
     #[test]
@@ -184,9 +279,69 @@ mod tests {
         assert!(line.contains("0 0 1 RG") && line.contains("[6 3] 0 d") && line.contains(" c\nS"), "{line}");
     }
 
+    /// The text of a file by its own table of the letters of its glyphs, a line for each run.
+    fn read(file: &[u8]) -> String {
+        let text = String::from_utf8_lossy(file);
+        let number = |hex: &str| u32::from_str_radix(hex, 16).unwrap();
+        let mut letters = std::collections::BTreeMap::new();
+        for block in text.split(" beginbfchar\n").skip(1) {
+            for line in block.split("endbfchar").next().unwrap().lines() {
+                let pair: Vec<&str> = line.split(['<', '>']).collect();
+                letters.insert(number(pair[1]), char::from_u32(number(pair[3])).unwrap());
+            }
+        }
+        let content = inflated(file);
+        let runs = content.split('[').skip(1).filter_map(|run| Some(run.rsplit_once("] TJ")?.0));
+        let line = |run| glyphs(run).into_iter().map(|glyph| letters[&glyph]).collect::<String>();
+        runs.map(line).collect::<Vec<_>>().join("\n")
+    }
+
+    /// Glyphs of the strings of a run, of two bytes each; bytes are letters, escaped letters or pairs of hexadecimal digits.
+    fn glyphs(run: &str) -> Vec<u32> {
+        let (mut bytes, mut rest) = (Vec::new(), run.chars().peekable());
+        while let Some(opening) = rest.next() {
+            match opening {
+                '<' => {
+                    let digits: Vec<u32> = rest.by_ref().map_while(|digit| digit.to_digit(16)).collect();
+                    bytes.extend(digits.chunks(2).map(|pair| 16 * pair[0] + pair[1]));
+                }
+                '(' => loop {
+                    bytes.push(match rest.next().unwrap() {
+                        ')' => break,
+                        '\\' => match rest.next().unwrap() {
+                            'n' => 10,
+                            'r' => 13,
+                            't' => 9,
+                            'b' => 8,
+                            'f' => 12,
+                            first @ '0'..='7' => {
+                                let digits = [first, rest.next().unwrap(), rest.next().unwrap()];
+                                digits.iter().fold(0, |octal, digit| 8 * octal + digit.to_digit(8).unwrap())
+                            }
+                            other => u32::from(other),
+                        },
+                        letter => u32::from(letter),
+                    });
+                },
+                _ => {}
+            }
+        }
+        bytes.chunks(2).map(|pair| 256 * pair[0] + pair[1]).collect()
+    }
+
     #[test]
-    fn letters_are_outlines() {
-        let (_, letters) = drawn("<text x=\"1\" y=\"9\" font-family=\"DejaVu Sans\">µF</text>");
-        assert!(letters.matches(" c\n").count() > 5 && letters.contains("f\n"), "{letters}");
+    fn text_is_text_in_an_embedded_font() {
+        let style = "font-family=\"DejaVu Sans\" font-size=\"2\"";
+        let elements = format!(
+            "<text x=\"1\" y=\"9\" {style}>κ = √µN</text><text x=\"5\" y=\"9\" {style} transform=\"rotate(-90 5 9)\">force \
+             <tspan font-style=\"italic\">F</tspan> (µN)</text>"
+        );
+        let file = pdf(&tree(&document(&elements)).unwrap(), "").unwrap();
+        assert_eq!(read(&file), "κ = √µN\nforce \nF\n (µN)");
+        let content = inflated(&file);
+        // Letters are no outlines; a label written upwards turns by 90 degrees.
+        assert!(!content.contains(" c\n") && content.contains(" -15.118111 -15.118111 "), "{content}");
+        let text = String::from_utf8_lossy(&file);
+        assert_eq!(text.matches("/FontFile2").count(), 2, "two faces");
     }
 }

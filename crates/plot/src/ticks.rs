@@ -4,6 +4,9 @@ use super::label::{Label, number};
 use super::scale::Span;
 use asperity_data::AxisScale;
 
+/// Ends of the ranges of coordinates whose numbers are plain: from about 0.001 to 10 000.
+const PLAIN: (f64, f64) = (-3.5, 4.5);
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
     /// Coordinate on the axis.
@@ -13,13 +16,19 @@ pub struct Tick {
 }
 
 /// Ticks over a range of coordinates, about `most` of them labelled. The numbers are divided by `divisor`, the factor of
-/// the prefix of the unit.
-pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, most: usize) -> Vec<Tick> {
+/// the prefix of the unit. Ticks of a linear axis are at least `least` apart.
+pub(super) fn ticks(
+    scale: AxisScale,
+    Span { low, high }: Span,
+    divisor: f64,
+    most: usize,
+    least: f64,
+) -> Vec<Tick> {
     if high <= low || !(high - low).is_finite() {
         return Vec::new();
     }
     let (factor, shift, mut ticks) = match scale {
-        AxisScale::Linear => (divisor, 0.0, linear(low / divisor, high / divisor, most)),
+        AxisScale::Linear => (divisor, 0.0, linear(low / divisor, high / divisor, most, least / divisor)),
         AxisScale::Logarithmic => {
             let shift = divisor.log10();
             (1.0, shift, logarithmic(low - shift, high - shift, most))
@@ -27,6 +36,13 @@ pub(super) fn ticks(scale: AxisScale, Span { low, high }: Span, divisor: f64, mo
     };
     ticks.iter_mut().for_each(|tick| tick.at = tick.at * factor + shift);
     ticks
+}
+
+/// Returns true if a logarithmic axis has plain numbers over a range of coordinates, divided by `divisor`; otherwise it has
+/// powers of ten.
+pub(super) fn are_plain(Span { low, high }: Span, divisor: f64) -> bool {
+    let shift = divisor.log10();
+    low - shift >= PLAIN.0 && high - shift <= PLAIN.1
 }
 
 /// Step of 1, 2 or 5 times a power of ten that gives about `most` ticks over a width, and the number of minor steps in it.
@@ -40,8 +56,12 @@ fn step_for(width: f64, most: usize) -> (f64, usize) {
     (factor * power, between)
 }
 
-fn linear(low: f64, high: f64, most: usize) -> Vec<Tick> {
-    let (step, between) = step_for(high - low, most);
+fn linear(low: f64, high: f64, most: usize, least: f64) -> Vec<Tick> {
+    let (step, between) = match step_for(high - low, most) {
+        (step, _) if step <= least => (least, 1),
+        (step, between) if step < least * between as f64 => (step, (step / least) as usize),
+        wide => wide,
+    };
     let small = step / between as f64;
     let hair = 1e-6 * step;
     let (first, last) = (((low - hair) / small).ceil() as i64, ((high + hair) / small).floor() as i64);
@@ -66,8 +86,7 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
         _ => &[1],
     };
     let every = whole.div_ceil(most.max(1)).max(1) as i32;
-    // As powers where plain numbers would be long.
-    let powers = low < -3.0 - hair || high > 4.0 + hair;
+    let powers = !are_plain(Span { low, high }, 1.0);
     let mut ticks = Vec::new();
     for decade in decades {
         for digit in 1..10_i32 {
@@ -88,7 +107,7 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
     }
     // A range of less than a factor of two may contain no round number.
     if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
-        let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most);
+        let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most, 0.0);
         return numbers.into_iter().map(|tick| Tick { at: tick.at.log10(), ..tick }).collect();
     }
     ticks
@@ -99,7 +118,7 @@ mod tests {
     use super::*;
 
     fn labels(scale: AxisScale, (low, high): (f64, f64), divisor: f64) -> Vec<String> {
-        let ticks = ticks(scale, Span { low, high }, divisor, 6).into_iter();
+        let ticks = ticks(scale, Span { low, high }, divisor, 6, 0.0).into_iter();
         ticks.filter_map(|tick| Some(tick.label?.to_string())).collect()
     }
 
@@ -120,7 +139,7 @@ mod tests {
     fn ticks_lie_within() {
         for (low, high) in [(-1.3, 4.2), (0.0, 1e-12), (5.0, 5.001), (-8.1, 9.3)] {
             for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
-                let ticks = ticks(scale, Span { low, high }, 1.0, 6);
+                let ticks = ticks(scale, Span { low, high }, 1.0, 6, 0.0);
                 let room = 1e-5 * (high - low) + 1e-8;
                 assert!(ticks.iter().all(|tick| (low - room..=high + room).contains(&tick.at)), "{ticks:?}");
                 assert!(ticks.iter().filter(|tick| tick.label.is_some()).count() <= 10, "{ticks:?}");

@@ -1,151 +1,129 @@
-//! Results of many random profiles as text, JSON and CSV.
+//! Results on random profiles: the headline of a scene as text and JSON, its caption in figures, and a table of the profiles.
 
-use crate::preloads::MEAN_INTERVAL;
-use crate::report::{Json, Report};
+use crate::report::Report;
 use crate::sheet::Sheet;
-use crate::summary::tabor_number;
-use asperity_data::grouped;
-use asperity_data::root_mean_square;
 use asperity_data::{Kind, Table, object};
-use asperity_data::{format_range, format_rounded};
-use asperity_scene::Choice;
+use asperity_data::{format_range, format_rounded, grouped, one_unit};
+use asperity_plot::Label;
 use asperity_scene::Regime;
-use asperity_study::{Quantity, Results, Statistics};
+use asperity_study::{Ensemble, Quantity, RegimeCounts, Statistics};
+use serde::Serialize;
+use std::collections::BTreeMap;
 
-/// Results of a scene on random profiles, a study of one cell.
-#[derive(Clone, Copy, Debug)]
-pub struct LinesReport<'a> {
-    /// Choice of springs for a tolerance, if one was requested.
-    pub choice: Option<&'a Choice>,
-    /// Records with the quantities [`LinesReport::RECORD`].
-    pub results: &'a Results,
-}
+/// Names of the numbers of [`Ensemble::NUMBERS`] in the headline.
+pub(crate) const NAMES: [&str; 5] = [
+    "adhesion force F_a",
+    "share F_a/F_a,max",
+    "at first touch F_a(0)",
+    "at zero force F_a(F=0)",
+    "dissipated energy",
+];
 
-impl LinesReport<'_> {
-    /// Quantities that the report needs.
-    pub const RECORD: &'static [Quantity] = &[
-        Quantity::AdhesionForce,
-        Quantity::PreloadIndentation,
-        Quantity::DissipatedEnergy,
-        Quantity::ContactFraction,
-        Quantity::Regime,
-        Quantity::RegimeAfterZeroForce,
-        Quantity::Skewness,
-        Quantity::ExcessKurtosis,
-        Quantity::TaborNumber,
-    ];
-
-    fn lines(&self) -> std::ops::Range<u64> {
-        0..self.results.plan().lines
-    }
-
-    /// Statistics of a quantity over the profiles; `None` if fewer than two have a value.
-    fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
-        self.results.statistics(0, quantity).filter(|all| all.spread.is_some())
-    }
-
-    fn regimes(&self, line: u64) -> [Option<Regime>; 2] {
-        Quantity::REGIMES.map(|regime| self.results.regime(0, line, regime))
-    }
-
-    /// Root mean square of a quantity over the profiles, in its SI unit.
-    fn rms(&self, quantity: Quantity) -> Option<f64> {
-        root_mean_square(self.results.values(0, quantity))
-    }
-}
-
-impl Report for LinesReport<'_> {
-    fn text(&self) -> Option<String> {
-        let plan = self.results.plan();
-        let mut sheet = Sheet::default();
-        sheet.paragraph(&plan.scene.title);
-        let (count, springs) = (grouped(plan.lines), grouped(plan.scene.numerics.points));
-        let last = plan.seed_of(plan.lines - 1);
-        sheet
-            .heading(&format!("{count} random profiles of {springs} springs, seeds {} to {last}", plan.seed));
-        let header = ["", "median", "quartiles", "range", "mean", MEAN_INTERVAL, "profiles"];
-        let (mut rows, mut warnings) = (vec![header.map(String::from)], Vec::new());
-        for (name, quantity) in [
-            ("adhesion force F_a", Quantity::AdhesionForce),
-            ("preload indentation", Quantity::PreloadIndentation),
-            ("dissipated energy", Quantity::DissipatedEnergy),
-            ("contact fraction", Quantity::ContactFraction),
-        ] {
-            let Some(all) = self.statistics(quantity) else { continue };
-            let number = |value| format_rounded(value, 3, quantity.unit());
-            let range = |ends| format_range(ends, 2, quantity.unit());
-            let [lower, median, upper] = all.quartiles;
-            let [quartiles, ends, confidence] = [(lower, upper), all.range, all.ends()].map(range);
-            let count = grouped(all.count as u64);
-            rows.push([name.into(), number(median), quartiles, ends, number(all.mean), confidence, count]);
-            warnings.extend(all.warning(name));
+/// Random profiles in words, given the seed of the first one: `16 random profiles, seeds 5 to 20`.
+pub(crate) fn profiles_named(count: u64, first: u64) -> String {
+    match count {
+        1 => format!("One random profile, seed {first}"),
+        _ => {
+            format!("{} random profiles, seeds {first} to {}", grouped(count), first.wrapping_add(count - 1))
         }
+    }
+}
+
+/// A value of a quantity to this number of digits, a share in per cent.
+pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
+    match quantity.bounds() {
+        (0.0, 1.0) => format!("{} %", format_rounded(100.0 * value, digits, "1")),
+        _ => format_rounded(value, digits, quantity.unit()),
+    }
+}
+
+/// Adds the headline of a scene: median, quartiles and range over its random profiles, and their regimes.
+pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
+    sheet.heading(&profiles_named(ensemble.profiles(), ensemble.results().plan().seed));
+    let mut rows = vec![["", "median", "quartiles", "range", "profiles"].map(String::from)];
+    for (name, quantity) in NAMES.iter().zip(Ensemble::NUMBERS) {
+        let Some(all) = ensemble.statistics(quantity) else { continue };
+        let Statistics { quartiles: [lower, median, upper], range, count, .. } = all;
+        let shown = |value, digits| rounded(quantity, value, digits);
+        let ends = |(low, high)| one_unit([low, high].map(|end| shown(end, 2)));
+        let median = shown(median, 3);
+        rows.push([(*name).to_owned(), median, ends((lower, upper)), ends(range), grouped(count as u64)]);
+    }
+    if rows.len() > 1 {
         sheet.table(&rows);
-        warnings.iter().for_each(|warning| sheet.paragraph(warning));
-        // Profiles of one spectrum have one Tabor number, which limits the dissipated energy.
-        let value = |line, quantity| self.results.value(0, line, quantity);
-        let dissipating = self.lines().filter(|line| value(*line, Quantity::DissipatedEnergy).is_some());
-        let number = dissipating.into_iter().find_map(|line| value(line, Quantity::TaborNumber));
-        number
-            .iter()
-            .for_each(|number| sheet.heading(&format!("Tabor number μ = {}", tabor_number(*number))));
-        let headings = ["Regimes from first touch", "Regimes after zero net force"];
-        for (heading, regimes) in headings.into_iter().zip(self.results.regimes(0)) {
-            sheet.heading(heading);
-            for (name, count) in regimes.present() {
-                sheet.row(name, grouped(count as u64));
-            }
-        }
-        sheet.heading("Heights of single profiles; both would be 0 if they averaged themselves");
-        sheet.quantity("rms skewness", self.rms(Quantity::Skewness), "1");
-        sheet.quantity("rms excess kurtosis", self.rms(Quantity::ExcessKurtosis), "1");
-        if let Some(choice) = self.choice {
-            sheet.heading(&choice.sentence());
-        }
-        Some(sheet.into_text())
     }
+    let headings = ["regimes, first touch", "regimes, zero force"];
+    for (heading, counts) in headings.into_iter().zip(ensemble.regimes()) {
+        sheet.row(heading, regimes_in_words(counts));
+    }
+    let failed = ensemble.failed().count();
+    if let Some((seed, reason)) = ensemble.failed().next() {
+        sheet.paragraph(&format!("{failed} of them cannot follow the loading: seed {seed}: {reason}."));
+    }
+}
 
-    fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let lines = self.lines().map(|line| {
-            let value = |quantity| self.results.value(0, line, quantity);
-            let heights = value(Quantity::Skewness).zip(value(Quantity::ExcessKurtosis));
+/// Numbers of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
+fn regimes_in_words(counts: RegimeCounts) -> String {
+    counts.present().map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Median and quartiles of the adhesion force over random profiles, as a caption; `None` without an adhesion force.
+pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
+    let force = Quantity::AdhesionForce;
+    let all = ensemble.statistics(force)?;
+    let [lower, median, upper] = all.quartiles;
+    let median = format_rounded(median, 3, force.unit());
+    let quartiles = format_range((lower, upper), 2, force.unit());
+    let profiles = grouped(ensemble.profiles());
+    let text = format!(
+        ": median {median} of {profiles} random profiles, quartiles {quartiles}; curve: this profile"
+    );
+    Some(Label::symbol(force.symbol()).then(&text))
+}
+
+/// An ensemble as a JSON value.
+pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
+    let of = |quantity| {
+        ensemble.statistics(quantity).map(|all: Statistics| {
+            let [lower, median, upper] = all.quartiles;
             object! {
-                "seed": self.results.plan().seed_of(line),
-                "adhesion_force": value(Quantity::AdhesionForce),
-                "preload_indentation": value(Quantity::PreloadIndentation),
-                "dissipated_energy": value(Quantity::DissipatedEnergy),
-                "tabor_number": value(Quantity::TaborNumber),
-                "contact_fraction": value(Quantity::ContactFraction),
-                "regime": self.regimes(line)[0],
-                "regime_after_zero_force": self.regimes(line)[1],
-                "heights": heights.map(|(skewness, kurtosis)| object! {
-                    "skewness": skewness, "excess_kurtosis": kurtosis,
-                }),
+                "count": all.count,
+                "median": median,
+                "quartiles": [lower, upper],
+                "range": all.range,
+                "mean": all.mean,
+                "standard_deviation": all.spread.map(|spread| spread.standard_deviation),
+                "confidence_interval": all.confidence_interval(),
             }
-        });
-        Some(Box::new(object! {
-            "scene": &self.results.plan().scene,
-            "choice"?: self.choice,
-            "adhesion_force": self.statistics(Quantity::AdhesionForce),
-            "preload_indentation": self.statistics(Quantity::PreloadIndentation),
-            "dissipated_energy": self.statistics(Quantity::DissipatedEnergy),
-            "contact_fraction": self.statistics(Quantity::ContactFraction),
-            "regimes": self.results.regimes(0)[0],
-            "regimes_after_zero_force": self.results.regimes(0)[1],
-            "rms_skewness": self.rms(Quantity::Skewness),
-            "rms_excess_kurtosis": self.rms(Quantity::ExcessKurtosis),
-            "lines": lines.collect::<Vec<_>>(),
-        }))
+        })
+    };
+    let regimes = |counts: RegimeCounts| counts.present().collect::<BTreeMap<_, _>>();
+    let [from_touch, after_zero_force] = ensemble.regimes().map(regimes);
+    let [force, share, touch, zero_force, energy] = Ensemble::NUMBERS.map(of);
+    object! {
+        "profiles": ensemble.profiles(),
+        "adhesion_force": force,
+        "adhesion_share": share,
+        "zero_load_adhesion_force": touch,
+        "zero_force_adhesion_force": zero_force,
+        "dissipated_energy": energy,
+        "regimes": from_touch,
+        "regimes_after_zero_force": after_zero_force,
+        "lines": ensemble.table(),
     }
+}
 
+/// The table has a row for each profile, with its seed and all recorded quantities.
+impl Report for Ensemble {
     fn table(&self) -> Option<Table<'_>> {
-        let mut table = Table::of(|| self.lines()).whole("seed", |line| self.results.plan().seed_of(*line));
-        for quantity in Self::RECORD {
+        let (results, plan) = (self.results(), self.results().plan());
+        let mut table = Table::of(|| 0..plan.lines).whole("seed", |line| plan.seed_of(*line));
+        for quantity in plan.record.iter() {
             let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
-            let regime = |line| self.results.regime(0, line, *quantity);
+            let regime = |line| results.regime(0, line, *quantity);
             table = match quantity.is_regime() {
                 true => table.with(name, text, move |line| regime(*line).map_or("", Regime::name)),
-                false => table.real(name, |line| self.results.value(0, *line, *quantity)),
+                false => table.real(name, |line| results.value(0, *line, *quantity)),
             };
         }
         Some(table.done())

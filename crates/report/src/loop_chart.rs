@@ -1,7 +1,7 @@
 //! The chart of force loops, the same in figures of scenes and in the explorer.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord};
-use asperity_data::AxisScale;
+use asperity_data::{AxisScale, format_rounded};
 use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
 use asperity_scene::Outcome;
 use asperity_scene::{DisplacementCurve, DisplacementPoint, Mark, marks};
@@ -88,6 +88,11 @@ impl LoopUnits {
         (x, y)
     }
 
+    /// A force in words, in the unit of the chart.
+    pub fn force_in_words(&self, force: f64) -> String {
+        self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
+    }
+
     /// Returns true if a mark lies on the drawn curve: over the displacement, a compliant instrument jumps over the states
     /// of a jump into or out of contact.
     pub fn shows(&self, mark: Mark) -> bool {
@@ -140,7 +145,8 @@ impl LoopUnits {
         let low = if up.symbol == "F" { y.low } else { 0.0 };
         [(x, across), (Span { low, ..y }, up)].map(|(span, one)| {
             let (symbol, unit) = one.symbol_and_unit();
-            Axis::new(AxisScale::Linear, span, one.name, &symbol, unit)
+            let axis = Axis::new(AxisScale::Linear, span, one.name, &symbol, unit);
+            Axis { counts: one.symbol == "n", ..axis }
         })
     }
 }
@@ -250,7 +256,7 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 }
 
 /// Figure of the force curves of computed scenes with titles. Loading and unloading of a single scene have two colours; of
-/// several scenes each has one.
+/// several scenes each has a colour and a stroke, and the legend explains loading and marks once for all.
 pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     let units = LoopUnits::default();
     if let [(title, outcome)] = scenes {
@@ -259,11 +265,18 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     let loops = scenes.iter().enumerate().map(|(number, (title, outcome))| ForceLoop {
         name: Some(Label::plain(title)),
         ink: Some(Ink::Series(number)),
-        unloading: Some([Stroke::Solid, Stroke::Dashed, Stroke::Sparse][number % 3]),
+        unloading: Some([Stroke::Solid, Stroke::Dashed, Stroke::DashDotted][number % 3]),
         ..ForceLoop::new(&outcome.history.legs)
     });
-    let chart = loop_chart(&loops.collect::<Vec<_>>(), units);
-    Figure { notes: vec![Label::plain("dotted: loading")], ..Figure::of_chart("", chart) }
+    let loops: Vec<ForceLoop<'_>> = loops.collect();
+    let mut chart = loop_chart(&loops, units);
+    let is_marked = |mark: &Mark| loops.iter().flat_map(|one| &one.marks).any(|(other, _)| other == mark);
+    let signs = [Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut].into_iter().filter(is_marked);
+    let explained = signs.map(|mark| (mark.name(), Shape::signs(Vec::new(), sign(mark))));
+    let loading = ("loading", Shape::line(Vec::new(), Stroke::Dotted));
+    let explained = [loading].into_iter().chain(explained);
+    chart.layers.extend(explained.map(|(name, shape)| Layer::new(name.into(), Ink::Text, shape)));
+    Figure::of_chart("", chart)
 }
 
 /// Figure with a chart for each of several computed scenes with titles; its heading has the adhesion force.

@@ -36,7 +36,7 @@ impl PreloadReport<'_> {
         let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
         let chart = preload_chart(staircase, &spread, has_values);
         let largest = spread.last().map(|(preload, _)| *preload);
-        let beside = largest.and_then(|preload| distribution(self.results, preload, &chart.y));
+        let beside = largest.and_then(|preload| distribution(self.results, preload, None));
         Some(preload_figure(self.title, chart, beside))
     }
 
@@ -221,14 +221,15 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
         let range = format!("range of {count} profiles");
         for (name, ink, shape) in [
             (range.as_str(), Ink::Quiet, band(|all| all.range)),
-            ("mean", Ink::Surface, curve(|all| all.mean, Stroke::Dotted)),
             ("quartiles", Ink::Surface, band(|all| (all.quartiles[0], all.quartiles[2]))),
-            ("median", Ink::Surface, curve(|all| all.quartiles[1], Stroke::Dashed)),
+            ("mean", Ink::Text, curve(|all| all.mean, Stroke::Dotted)),
+            ("median", Ink::Surface, curve(|all| all.quartiles[1], Stroke::Solid)),
         ] {
             layers.push(Layer::new(Label::plain(name), ink, shape));
         }
     }
-    let line = Shape::line(staircase.line(), Stroke::Solid);
+    let stroke = if spread.is_empty() { Stroke::Solid } else { Stroke::Dashed };
+    let line = Shape::line(staircase.line(), stroke);
     layers.push(Layer::new("this profile".into(), Ink::Unloading, line));
 
     let scale = staircase.scale;
@@ -269,8 +270,9 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
 }
 
 /// Empirical distribution of the adhesion force over the profiles at the nearest computed preload (N), on the vertical axis
-/// of a chart: each profile adds a step to the share of profiles. `None` for fewer than two profiles.
-pub fn distribution(results: &Results, preload: f64, forces: &Axis) -> Option<Chart> {
+/// of a chart beside it or on one of its own: each profile adds a step to the share of profiles. `None` for fewer than two
+/// profiles.
+pub fn distribution(results: &Results, preload: f64, forces: Option<&Axis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;
     each.sort_by(f64::total_cmp);
@@ -284,5 +286,10 @@ pub fn distribution(results: &Results, preload: f64, forces: &Axis) -> Option<Ch
     ];
     let heading = format!("profiles at {}", format_rounded(preload, 3, "N"));
     let x = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 100.0 }, "share of profiles in", "%", "1");
-    Some(Chart { heading: Label::plain(&heading), ..Chart::new(x, forces.clone(), layers) })
+    let own = || {
+        let y = Span::around(each.iter().copied(), 0.05);
+        Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N")
+    };
+    let y = forces.cloned().unwrap_or_else(own);
+    Some(Chart { heading: Label::plain(&heading), ..Chart::new(x, y, layers) })
 }

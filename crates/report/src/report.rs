@@ -209,7 +209,7 @@ mod tests {
         use crate::run::RunReport;
         use crate::scene_figure::ContactSets;
         use crate::scene_spectra::SceneSpectra;
-        use crate::scenes::ScenesReport;
+        use crate::scenes::{ComparedScene, ScenesReport};
         use asperity_plot::judge::check_picture;
         use asperity_scene::Simulation;
         use asperity_scene::open;
@@ -237,9 +237,20 @@ mod tests {
             let outcome = simulation.run(scene, &|| false, &mut observe).unwrap();
             let spectra = SceneSpectra::new(scene, &outcome, &mut simulation).unwrap();
             let line = simulation.make_line(scene).unwrap().0.clone();
-            let scenes = [(&document, outcome.clone()), (&document, outcome.clone())];
+            let compared = |outcome| ComparedScene { document: &document, outcome, ensemble: None };
+            let scenes = [outcome.clone(), outcome.clone()].map(compared);
             let mut figures = vec![
-                RunReport { title, scene, outcome: &outcome, choice: None, estimate: None }.figure().unwrap(),
+                RunReport {
+                    title,
+                    scene,
+                    outcome: &outcome,
+                    choice: None,
+                    estimate: None,
+                    ensemble: None,
+                    deviation: None,
+                }
+                .figure()
+                .unwrap(),
                 ScenesReport { scenes: &scenes, panels: false }.figure().unwrap(),
                 ScenesReport { scenes: &scenes, panels: true }.figure().unwrap(),
                 sets.profile_figure(title, &outcome, &line),

@@ -1,5 +1,6 @@
 //! A computed scene as JSON, and its force curve as a table and a figure; and the table of a profile.
 
+use crate::ensemble::{caption, ensemble_value};
 use crate::loop_chart::force_figure;
 use crate::report::{Json, Report};
 use crate::summary::{summary, warning};
@@ -11,6 +12,7 @@ use asperity_scene::Outcome;
 use asperity_scene::displacements;
 use asperity_scene::{Choice, Estimate};
 use asperity_scene::{Observer, Scene};
+use asperity_study::{Budget, Ensemble, criteria};
 use asperity_surface::Line;
 
 #[derive(Clone, Copy, Debug)]
@@ -22,20 +24,25 @@ pub struct RunReport<'a> {
     pub choice: Option<&'a Choice>,
     /// Estimated error of the adhesion force, if it is known.
     pub estimate: Option<&'a Estimate>,
+    /// Results on random profiles, if they are computed.
+    pub ensemble: Option<&'a Ensemble>,
+    /// Standard deviation of the adhesion force by the spectrum of a measured surface, N, if it is computed.
+    pub deviation: Option<f64>,
 }
 
 impl Report for RunReport<'_> {
     fn text(&self) -> Option<String> {
-        Some(summary(self.scene, self.outcome, self.estimate, self.choice))
+        Some(summary(self.scene, self.outcome, self.estimate, self.choice, self.ensemble, self.deviation))
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let RunReport { scene, outcome, choice, estimate, .. } = *self;
+        let RunReport { scene, outcome, choice, estimate, ensemble, .. } = *self;
         let Outcome { line, governing, figures, history, .. } = outcome;
         let fragments = scene.observe.contains(&Observer::Fragments).then_some(outcome.fragments.as_slice());
         Some(Box::new(object! {
             "scene": scene,
             "choice"?: choice,
+            "ensemble": ensemble.map(ensemble_value),
             "line": object! {
                 "points": line.points,
                 "length": line.length,
@@ -69,6 +76,8 @@ impl Report for RunReport<'_> {
             "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
             "tabor_number": outcome.tabor_number,
             "steep_waves"?: outcome.steep_waves,
+            "criteria": criteria(scene, outcome, ensemble),
+            "budget": Budget::of(outcome, estimate, ensemble, self.deviation),
             "warnings"?: warning(scene, outcome).map(|warning| [warning]),
             "curve": self.table(),
             "contacts": &history.contacts,
@@ -99,7 +108,8 @@ impl Report for RunReport<'_> {
     }
 
     fn figure(&self) -> Option<Figure> {
-        Some(force_figure(&[(self.title, self.outcome)]))
+        let figure = force_figure(&[(self.title, self.outcome)]);
+        Some(Figure { notes: self.ensemble.and_then(caption).into_iter().collect(), ..figure })
     }
 }
 

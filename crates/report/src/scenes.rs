@@ -1,18 +1,29 @@
 //! Several computed scenes: differences and results in one table, force curves in one figure.
 
+use crate::ensemble::NAMES;
 use crate::loop_chart::{force_figure, force_panels};
 use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
-use asperity_data::format_quantity;
+use asperity_data::{format_quantity, format_range};
 use asperity_plot::{Colours, Figure, figure_text};
 use asperity_scene::Document;
 use asperity_scene::Outcome;
 use asperity_scene::Regime;
+use asperity_study::{Ensemble, Quantity};
 
-/// At least two computed scenes, with their documents.
+/// One of several computed scenes, with its document.
+#[derive(Clone, Debug)]
+pub struct ComparedScene<'a> {
+    pub document: &'a Document,
+    pub outcome: Outcome,
+    /// Results on random profiles, if they are computed.
+    pub ensemble: Option<Ensemble>,
+}
+
+/// At least two computed scenes.
 #[derive(Clone, Copy, Debug)]
 pub struct ScenesReport<'a> {
-    pub scenes: &'a [(&'a Document, Outcome)],
+    pub scenes: &'a [ComparedScene<'a>],
     /// True for a separate chart of each scene.
     pub panels: bool,
 }
@@ -38,56 +49,92 @@ fn letter(number: usize) -> String {
         .map_or(format!("S{number}"), String::from)
 }
 
+/// A row of a table: a name, and values with their ratios to the first one; `None` without values.
+fn row(name: &str, unit: &str, values: &[Option<f64>]) -> Option<Vec<String>> {
+    // A position may lie on either side of first touch, where a ratio means nothing.
+    let first = values.first()?.filter(|first| *first > 0.0);
+    let cell = |(number, value): (usize, &Option<f64>)| {
+        let Some(value) = value else { return "-".to_owned() };
+        let ratio =
+            first.filter(|_| number > 0 && *value > 0.0).map(|first| format_quantity(value / first, "1"));
+        format_quantity(*value, unit) + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
+    };
+    let cells = || values.iter().enumerate().map(cell);
+    values.iter().any(Option::is_some).then(|| std::iter::once(name.to_owned()).chain(cells()).collect())
+}
+
 impl ScenesReport<'_> {
     /// The figure of the force curves; with `has_letters` the legend names scenes as the table does.
     fn drawn(&self, has_letters: bool) -> Figure {
-        let title = |(number, (document, _)): (usize, &(&Document, Outcome))| match has_letters {
-            true => format!("{}: {}", letter(number), document.title()),
-            false => document.title().to_owned(),
+        let title = |(number, scene): (usize, &ComparedScene<'_>)| match has_letters {
+            true => format!("{}: {}", letter(number), scene.document.title()),
+            false => scene.document.title().to_owned(),
         };
         let titles: Vec<String> = self.scenes.iter().enumerate().map(title).collect();
         let scenes: Vec<_> =
-            titles.iter().zip(self.scenes).map(|(title, (_, outcome))| (title.as_str(), outcome)).collect();
+            titles.iter().zip(self.scenes).map(|(title, scene)| (title.as_str(), &scene.outcome)).collect();
         if self.panels { force_panels(&scenes) } else { force_figure(&scenes) }
+    }
+
+    /// Rows of the medians over random profiles, with the quartiles of the adhesion force; none if no scene has several.
+    fn medians(&self) -> Vec<Vec<String>> {
+        let ensembles = || self.scenes.iter().map(|scene| scene.ensemble.as_ref());
+        if ensembles().flatten().next().is_none() {
+            return Vec::new();
+        }
+        let median = |quantity| move |ensemble: &Ensemble| Some(ensemble.statistics(quantity)?.quartiles[1]);
+        let medians = |quantity| ensembles().map(|one| one.and_then(median(quantity))).collect::<Vec<_>>();
+        let numbers = NAMES.iter().zip(Ensemble::NUMBERS);
+        let mut rows: Vec<_> = numbers.filter_map(|(name, of)| row(name, of.unit(), &medians(of))).collect();
+        let quartiles = |ensemble: Option<&Ensemble>| {
+            let all = ensemble.and_then(|ensemble| ensemble.statistics(Quantity::AdhesionForce));
+            all.map_or_else(
+                || "-".to_owned(),
+                |all| format_range((all.quartiles[0], all.quartiles[2]), 2, "N"),
+            )
+        };
+        rows.insert(
+            1.min(rows.len()),
+            std::iter::once("quartiles of F_a".to_owned()).chain(ensembles().map(quartiles)).collect(),
+        );
+        rows
     }
 }
 
 impl Report for ScenesReport<'_> {
-    /// Titles, the changes of each scene from the first one, and the results with their ratios to the results of the first scene.
+    /// Titles, the changes of each scene from the first one, and the results with their ratios to the results of the first
+    /// scene: first over random profiles, then of the own profile of each scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
-        let (first, _) = self.scenes.first()?;
-        for (number, (document, _)) in self.scenes.iter().enumerate() {
-            sheet.paragraph(&format!("{} {}", letter(number), document.title()));
+        let first = self.scenes.first()?.document;
+        for (number, scene) in self.scenes.iter().enumerate() {
+            sheet.paragraph(&format!("{} {}", letter(number), scene.document.title()));
         }
-        for (number, (document, _)) in self.scenes.iter().enumerate().skip(1) {
-            let changes: Vec<String> = first.changes_to(document).iter().map(ToString::to_string).collect();
+        for (number, scene) in self.scenes.iter().enumerate().skip(1) {
+            let changes: Vec<String> =
+                first.changes_to(scene.document).iter().map(ToString::to_string).collect();
             let changes = if changes.is_empty() { "nothing".to_owned() } else { changes.join(", ") };
             sheet.heading(&format!("Different from A to {}: {changes}", letter(number)));
         }
         let letters = (0..self.scenes.len()).map(letter);
-        let mut table: Vec<Vec<String>> = vec![std::iter::once(String::new()).chain(letters).collect()];
-        for (name, unit, of) in ROWS {
-            let values: Vec<Option<f64>> = self.scenes.iter().map(|(_, outcome)| of(outcome)).collect();
-            // A position may lie on either side of first touch, where a ratio means nothing.
-            let first = values[0].filter(|first| *first > 0.0);
-            let cell = |(number, value): (usize, &Option<f64>)| {
-                let Some(value) = value else { return "-".to_owned() };
-                let ratio = first
-                    .filter(|_| number > 0 && *value > 0.0)
-                    .map(|first| format_quantity(value / first, "1"));
-                format_quantity(*value, unit)
-                    + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
-            };
-            if values.iter().any(Option::is_some) {
-                let cells = values.iter().enumerate().map(cell);
-                table.push(std::iter::once(name.to_owned()).chain(cells).collect());
-            }
+        let head: Vec<String> = std::iter::once(String::new()).chain(letters).collect();
+        let medians = self.medians();
+        let several = self.scenes.iter().flat_map(|scene| &scene.ensemble).map(Ensemble::profiles).max();
+        let mut heading = "Results".to_owned();
+        if !medians.is_empty() {
+            let profiles = several.unwrap_or(1);
+            sheet.heading(&format!("Medians over {profiles} random profiles; a fixed profile has none"));
+            sheet.table(&std::iter::once(head.clone()).chain(medians).collect::<Vec<_>>());
+            heading = "Results on the own profile of each scene".to_owned();
         }
-        let regime =
-            |(_, outcome): &(&Document, Outcome)| outcome.regime.map_or("-", Regime::name).to_owned();
+        let of_scenes = |of: fn(&Outcome) -> Option<f64>| {
+            self.scenes.iter().map(|scene| of(&scene.outcome)).collect::<Vec<_>>()
+        };
+        let mut table = vec![head];
+        table.extend(ROWS.iter().filter_map(|(name, unit, of)| row(name, unit, &of_scenes(*of))));
+        let regime = |scene: &ComparedScene<'_>| scene.outcome.regime.map_or("-", Regime::name).to_owned();
         table.push(std::iter::once("regime".to_owned()).chain(self.scenes.iter().map(regime)).collect());
-        sheet.heading("Results");
+        sheet.heading(&heading);
         sheet.table(&table);
         Some(format!("{}\n{}", sheet.into_text(), figure_text(&self.drawn(true), WIDTH, Colours::None)))
     }
@@ -106,8 +153,11 @@ mod tests {
     fn scenes_are_compared_with_the_first() {
         let first = open("jkr-sphere").unwrap();
         let second = first.set("adhesion.work", "0.1").unwrap();
-        let outcome = |document| asperity_scene::run(document).unwrap();
-        let scenes = [(&first, outcome(&first)), (&second, outcome(&second)), (&first, outcome(&first))];
+        let compared = |document| {
+            let outcome = asperity_scene::run(document).unwrap();
+            ComparedScene { document, outcome, ensemble: None }
+        };
+        let scenes = [&first, &second, &first].map(compared);
         let report = ScenesReport { scenes: &scenes, panels: false };
         let text = report.text().unwrap();
         assert!(text.starts_with(&format!("A {}\nB ", first.title())), "{text}");
@@ -117,6 +167,7 @@ mod tests {
         assert!(text.contains("adhesion force F_a     23.56 µN              47.12 µN (×2)\n"), "{text}");
         let named: Vec<String> =
             report.drawn(true).legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(named, ["A: ", "B: ", "C: "].map(|letter| format!("{letter}{}", first.title())));
+        assert_eq!(named[..3], ["A: ", "B: ", "C: "].map(|letter| format!("{letter}{}", first.title())));
+        assert_eq!(named[3..], ["loading", "jump-in", "preload", "pull-off", "jump-out"]);
     }
 }

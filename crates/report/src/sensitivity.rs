@@ -4,11 +4,11 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::AxisScale;
 use asperity_data::grouped;
-use asperity_data::{Table, object};
-use asperity_data::{format_quantity, format_rounded};
+use asperity_data::{Kind, Table, object};
+use asperity_data::{format_quantity, format_rounded, one_unit};
 use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::Scene;
-use asperity_study::{Influence, OTHER_SEEDS, STEP, Sensitivity, Values};
+use asperity_study::{Changed, Ensemble, Influence, STEP, Sensitivity, Values};
 
 /// Relative change from which on a change is stated as a factor.
 const LARGE: f64 = 2.0;
@@ -35,23 +35,27 @@ fn change_text(change: f64) -> String {
     }
 }
 
-/// Text in place of changes for a number that the scene does not allow.
-pub const NOT_ALLOWED: &str = "not allowed";
-const OTHERS: &str = "other seeds";
+/// Text in place of the range of changes for a number that the scene does not allow.
+const NOT_ALLOWED: &str = "not allowed";
+const PROFILES: &str = "profiles";
 
-/// Changes of the results for one changed number, or at one end of the range over the seeds.
+/// Changes of the results for one changed number, or at one end of the range over the profiles.
 struct Side<'a> {
-    /// Influence of the changed number; `None` for the seeds.
+    /// Influence of the changed number; `None` for the profiles.
     influence: Option<&'a Influence>,
     /// 0 for the smaller number or the smallest result, otherwise 1.
     side: usize,
-    /// Relative changes of the results; `None` for a number that is not allowed.
+    /// Relative changes of the medians; `None` for a number that is not allowed.
     changes: Option<[Option<f64>; 3]>,
+    /// Smallest and largest relative change of F_a of single profiles.
+    range: Option<(f64, f64)>,
 }
 
 impl Side<'_> {
     fn name(&self) -> Label {
-        self.influence.map_or(OTHERS.into(), |one| Label::symbol_or_name(one.axis.symbol, &one.axis.name))
+        let Some(Influence { axis, .. }) = self.influence else { return PROFILES.into() };
+        let short = axis.name.replace("force of ", "").replace("indentation of ", "");
+        Label::symbol_or_name(axis.symbol, &short)
     }
 
     /// The change of the number in words: in per cent, or for a whole number the difference.
@@ -64,35 +68,41 @@ impl Side<'_> {
     }
 
     fn text(&self, result: usize) -> String {
-        let Some(changes) = self.changes else { return NOT_ALLOWED.to_owned() };
-        changes[result].map_or_else(|| "-".to_owned(), change_text)
+        let change = self.changes.and_then(|changes| changes[result]);
+        change.map_or_else(|| "-".to_owned(), change_text)
     }
 }
 
-/// Both changes of at most `most` numbers, the one with the largest influence on a result first; then the seeds.
+/// Both changes of at most `most` numbers, the one with the largest influence on a result first; then the range over the
+/// profiles.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
-    let changes = |values: &Values| sensitivity.changes(values);
     let numbers = sensitivity.ordered(result).into_iter().take(most).flat_map(|influence| {
-        let changes = influence.sides.each_ref().map(|(_, values)| values.as_ref().map(changes));
-        [0, 1].map(|side| Side { influence: Some(influence), side, changes: changes[side] })
+        [0, 1].map(|side| {
+            let changed = &influence.sides[side].1;
+            let changes = changed.as_ref().map(|changed| sensitivity.changes(&changed.medians));
+            let range = changed.as_ref().and_then(|changed| changed.range[0]);
+            Side { influence: Some(influence), side, changes, range }
+        })
     });
-    let seeds = sensitivity.seeds.iter().flat_map(|ends| {
-        [0, 1].map(|side| Side { influence: None, side, changes: Some(changes(&ends[side])) })
+    let profiles = sensitivity.range.iter().flat_map(|ends| {
+        let changes = |side: usize| Some(sensitivity.changes(&ends[side]));
+        [0, 1].map(|side| Side { influence: None, side, changes: changes(side), range: None })
     });
-    numbers.chain(seeds).collect()
+    numbers.chain(profiles).collect()
 }
 
-/// The changes of the results in words: a heading, the results of the scene, then a row for each change of at most `most`
-/// numbers, the one with the largest influence on the adhesion force first. The columns are name, value, change, and each
-/// result.
-pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 6]> {
-    let row = |texts: [&str; 3], result: &dyn Fn(usize) -> String| {
+/// The changes of the medians in words: a heading, the medians of the scene, then a row for each change of at most `most`
+/// numbers, the one with the largest influence on the adhesion force first. The columns are name, value, change, F_a, range of
+/// the changes of F_a of single profiles, F_a(0) and dissipated energy.
+pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
+    let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
-        [name, value, change, result(0), result(1), result(2)]
+        [name, value, change, result(0), range.to_owned(), result(1), result(2)]
     };
     let results = Sensitivity::RESULTS;
-    let head = row(["number", "value", "change"], &|result| results[result].symbol().to_owned());
-    let scene = row(["this scene", "", ""], &|result| {
+    let several = if sensitivity.range.is_some() { "single profiles" } else { "" };
+    let head = row(["number", "value", "change"], several, &|result| results[result].symbol().to_owned());
+    let scene = row([if several.is_empty() { "this scene" } else { "median" }, "", ""], "", &|result| {
         let value = sensitivity.present[result];
         value.map_or_else(|| "-".to_owned(), |value| format_quantity(value, results[result].unit()))
     });
@@ -100,11 +110,9 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
         let value = side.influence.map(|one| format_quantity(one.value, one.axis.unit)).unwrap_or_default();
         let (name, step) = (side.name().to_string(), side.step());
         let named = if side.side == 0 { [name.as_str(), &value] } else { [""; 2] };
-        // A number that is not allowed says so once.
-        row([named[0], named[1], &step], &|result| match side.changes {
-            None if result > 0 => String::new(),
-            _ => side.text(result),
-        })
+        let range = side.range.map(|(least, most)| one_unit([least, most].map(change_text)));
+        let not_allowed = side.changes.is_none().then(|| NOT_ALLOWED.to_owned());
+        row([named[0], named[1], &step], &range.or(not_allowed).unwrap_or_default(), &|of| side.text(of))
     });
     [head, scene].into_iter().chain(changes).collect()
 }
@@ -139,21 +147,27 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
 }
 
 impl SensitivityReport<'_> {
-    /// Sentence on what stays constant while a number changes, and on the number of seeds.
+    /// Sentences on what stays constant while a number changes, and on the profiles.
     fn note(&self) -> String {
         if let Some(missing) = self.sensitivity.missing() {
             return missing.to_owned();
         }
-        let follows = match self.scene.adhesion {
-            Some(adhesion) if adhesion.parameter().is_some() => {
-                ", and the work of adhesion follows from them"
-            }
-            _ => "",
+        let profiles = match self.sensitivity.range {
+            Some(_) => format!(
+                "All are medians over the same {} random profiles; beside them the range of F_a of single profiles.",
+                self.sensitivity.profiles
+            ),
+            None => Ensemble::FIXED.to_owned(),
         };
-        let seeds =
-            self.sensitivity.seeds.map(|_| format!(" Other seeds: range over {} profiles.", 1 + OTHER_SEEDS));
-        format!("All other numbers of the scene stay{follows}.{}", seeds.unwrap_or_default())
+        format!("{} {profiles}", others_stay(self.scene))
     }
+}
+
+/// Sentence on the numbers of a scene that stay while one of them changes.
+pub(crate) fn others_stay(scene: &Scene) -> String {
+    let by_parameter = scene.adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
+    let follows = if by_parameter { ", and the work of adhesion follows from them" } else { "" };
+    format!("All other numbers of the scene stay{follows}.")
 }
 
 impl Report for SensitivityReport<'_> {
@@ -162,7 +176,8 @@ impl Report for SensitivityReport<'_> {
         sheet.paragraph(self.title);
         if self.sensitivity.missing().is_none() {
             let springs = grouped(self.scene.numerics.points);
-            sheet.heading(&format!("Changes of the results where one number changes, {springs} springs"));
+            let of = if self.sensitivity.range.is_some() { "medians" } else { "results" };
+            sheet.heading(&format!("Changes of the {of} where one number changes, {springs} springs"));
             sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
@@ -173,8 +188,13 @@ impl Report for SensitivityReport<'_> {
         let values = |values: Values| {
             object! { "adhesion_force": values[0], "zero_load_adhesion_force": values[1], "dissipated_energy": values[2] }
         };
-        let side = move |(value, results): &(f64, Option<Values>)| {
-            results.map(|results| object! { "value": *value, "results": values(results) })
+        let ends = |range: [Option<(f64, f64)>; 3]| {
+            object! { "adhesion_force": range[0], "zero_load_adhesion_force": range[1], "dissipated_energy": range[2] }
+        };
+        let side = move |(value, changed): &(f64, Option<Changed>)| {
+            changed.map(|changed| {
+                object! { "value": *value, "results": values(changed.medians), "profile_changes": ends(changed.range) }
+            })
         };
         let influence = |influence: &Influence| {
             let [smaller, larger] = influence.sides.each_ref().map(side);
@@ -183,34 +203,39 @@ impl Report for SensitivityReport<'_> {
                 "smaller": smaller, "larger": larger,
             }
         };
-        let seeds = self.sensitivity.seeds.map(|[least, most]| {
-            object! { "profiles": 1 + OTHER_SEEDS, "least": values(least), "most": values(most) }
-        });
+        let range = self.sensitivity.range;
         Some(Box::new(object! {
             "scene": self.scene,
             "step": STEP,
+            "profiles": self.sensitivity.profiles,
             "results": values(self.sensitivity.present),
+            "range": range.map(|[least, most]| object! { "least": values(least), "most": values(most) }),
             "numbers": self.sensitivity.influences.iter().map(influence).collect::<Vec<_>>(),
-            "seeds": seeds,
         }))
     }
 
-    /// A row for the scene, then a row for each change of each number.
+    /// A row of medians for the scene, then a row for each change of each number, with the smallest and the largest relative
+    /// change of single profiles.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();
             let sides = all.flat_map(|one| {
                 let row =
-                    |side: &(f64, Option<Values>)| Some((one.axis.path.as_str(), Some(side.0), side.1?));
+                    |side: &(f64, Option<Changed>)| Some((one.axis.path.as_str(), Some(side.0), side.1?));
                 one.sides.iter().filter_map(row).collect::<Vec<_>>()
             });
-            std::iter::once(("", None, self.sensitivity.present)).chain(sides)
+            let present = Changed { medians: self.sensitivity.present, ..Changed::default() };
+            std::iter::once(("", None, present)).chain(sides)
         };
         let longest = self.sensitivity.influences.iter().map(|one| one.axis.path.len()).max().unwrap_or(0);
-        let mut table = Table::of(rows).with("path", asperity_data::Kind::Text(longest), |row| row.0);
+        let mut table = Table::of(rows).with("path", Kind::Text(longest), |row| row.0);
         table = table.real("value", |row| row.1);
         for (index, quantity) in Sensitivity::RESULTS.iter().enumerate() {
-            table = table.real(quantity.name(), move |row| row.2[index]);
+            let name = quantity.name();
+            table = table.real(name, move |row| row.2.medians[index]);
+            let change = |end| format!("{name}_{end}_change");
+            table = table.with(change("least"), Kind::Real, move |row| row.2.range[index].map(|ends| ends.0));
+            table = table.with(change("most"), Kind::Real, move |row| row.2.range[index].map(|ends| ends.1));
         }
         Some(table.done())
     }
@@ -239,32 +264,36 @@ mod tests {
                 asperity_study::Axis::new(path, asperity_study::Spacing::List, Vec::new(), &scene).unwrap();
             Influence { axis, value, sides }
         };
-        let force = |force: f64| Some([Some(force), None, Some(1.0)]);
+        let force = |force: f64| {
+            let range = [Some((-0.1, 3.0)), None, None];
+            Some(Changed { medians: [Some(force), None, Some(1.0)], range })
+        };
         let sensitivity = Sensitivity {
             present: [Some(2e-6), None, Some(1.0)],
             influences: vec![
                 influence("material.poisson_ratio", 0.5, [(0.45, force(1.8e-6)), (0.55, None)]),
                 influence("roughness.modes.0", 4.0, [(3.0, force(3e-6)), (5.0, force(2.5e-6))]),
             ],
-            seeds: Some([[Some(1e-6), None, Some(1.0)], [Some(8e-6), None, Some(1.0)]]),
+            profiles: 16,
+            range: Some([[Some(1e-6), None, Some(1.0)], [Some(8e-6), None, Some(1.0)]]),
         };
         let rows = sensitivity_table(&sensitivity, 9).into_iter().map(|row| row.join("|"));
         let expected = [
-            "number|value|change|F_a|F_a(0)|ΔW",
-            "this scene|||2 µN|-|1 J",
-            "k_min|4|-1|+50 %|-|0 %",
-            "||+1|+25 %|-|0 %",
-            "ν|0.5|-10 %|-10 %|-|0 %",
-            "||+10 %|not allowed||",
-            "other seeds||least|-50 %|-|0 %",
-            "||most|×4|-|0 %",
+            "number|value|change|F_a|single profiles|F_a(0)|ΔW",
+            "median|||2 µN||-|1 J",
+            "k_min|4|-1|+50 %|-10 % to ×4|-|0 %",
+            "||+1|+25 %|-10 % to ×4|-|0 %",
+            "ν|0.5|-10 %|-10 %|-10 % to ×4|-|0 %",
+            "||+10 %|-|not allowed|-|-",
+            "profiles||least|-50 %||-|0 %",
+            "||most|×4||-|0 %",
         ];
         assert_eq!(rows.collect::<Vec<_>>(), expected);
         let chart = sensitivity_chart(&sensitivity, 0, 1);
         let names: Vec<String> = chart.y.names.iter().map(Label::to_string).collect();
         assert_eq!(
             names,
-            ["other seeds, most: ×4", "other seeds, least: -50 %", "k_min, +1: +25 %", "k_min, -1: +50 %"]
+            ["profiles, most: ×4", "profiles, least: -50 %", "k_min, +1: +25 %", "k_min, -1: +50 %"]
         );
         let arrows = |sign| {
             let is_arrow =

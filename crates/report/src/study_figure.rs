@@ -93,12 +93,13 @@ pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let estimates = grid.statistics(quantity, false);
     let places = coordinates(across);
     let layers = layers(grid, quantity, &estimates);
+    let is_small = scale == AxisScale::Linear && spans_decades(&estimates);
     let chart = |scale: AxisScale| {
         let x = axis_over(across, Span::around(places.iter().copied(), 0.03));
         let y = axis_of(quantity, scale, range(grid, quantity, &estimates, scale));
-        Chart { heading: heading(quantity), ..Chart::new(x, y, layers.clone()) }
+        let scale = if is_small && scale == AxisScale::Logarithmic { ", logarithmic scale" } else { "" };
+        Chart { heading: heading(quantity).then(scale), ..Chart::new(x, y, layers.clone()) }
     };
-    let is_small = scale == AxisScale::Linear && spans_decades(&estimates);
     std::iter::once(chart(scale)).chain(is_small.then(|| chart(AxisScale::Logarithmic))).collect()
 }
 

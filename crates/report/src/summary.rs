@@ -1,7 +1,9 @@
 //! Summary of a computed scene for a reader.
 
+use crate::ensemble::headline;
 use crate::measured_face::steep;
 use crate::sheet::Sheet;
+use crate::trust::{trust, without_jkr};
 use asperity_contact::Move;
 use asperity_contact::Work;
 use asperity_data::format_quantity;
@@ -12,25 +14,36 @@ use asperity_scene::{
 };
 use asperity_scene::{Outcome, Timings};
 use asperity_scene::{Scene, loading_text};
+use asperity_study::Ensemble;
 use asperity_surface::Form;
 
 /// Number of loading stages, or of repeated groups of them, that are listed; further ones are counted.
 const MOST_STAGES: usize = 8;
 
-/// Results of a scene as plain text of at most 80 columns, with the estimated error of the adhesion force and the choice of
-/// springs for a tolerance, if these are given.
+/// Results of a scene as plain text of at most 80 columns: first over random profiles, if these are computed, then of its own
+/// profile with the estimated error of the adhesion force and the choice of springs for a tolerance, if these are given. `deviation` is that of the adhesion force by the spectrum of a measured
+/// surface, N.
 pub(crate) fn summary(
     scene: &Scene,
     outcome: &Outcome,
     estimate: Option<&Estimate>,
     choice: Option<&Choice>,
+    ensemble: Option<&Ensemble>,
+    deviation: Option<f64>,
 ) -> String {
     let mut sheet = Sheet::default();
+    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.paragraph(&scene.notice);
+    match ensemble {
+        Some(ensemble) => headline(&mut sheet, ensemble),
+        None if scene.seed().is_none() => sheet.heading(Ensemble::FIXED),
+        None => {}
+    }
     line(&mut sheet, scene, outcome);
     bodies(&mut sheet, outcome);
     adhesion(&mut sheet, scene, outcome, estimate);
+    trust(&mut sheet, (scene, outcome), estimate, ensemble, deviation);
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     if let Some(choice) = choice {
@@ -43,6 +56,7 @@ pub(crate) fn summary(
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
+    without_jkr(outcome).iter().for_each(|sentence| sheet.paragraph(sentence));
     sheet.paragraph(&scene.title);
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
@@ -65,7 +79,8 @@ pub(crate) fn warning(scene: &Scene, outcome: &Outcome) -> Option<String> {
 
 fn line(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
     let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
-    sheet.heading("Profile");
+    // The numbers from here on are those of one profile.
+    sheet.heading(&facts.seed.map_or("Profile".to_owned(), |seed| format!("Profile of seed {seed}")));
     sheet.row("springs N", grouped(facts.points as u64));
     let under_body = outcome.history.work.springs;
     if under_body != facts.points as u64 {
@@ -74,7 +89,6 @@ fn line(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome) {
     sheet.quantity("length L", facts.length, "m");
     sheet.quantity("spacing Δx", facts.spacing, "m");
     sheet.row_of("modes", facts.modes.map(|(first, last)| format!("{} to {}", first, grouped(last))));
-    sheet.row_of("seed", facts.seed.map(|seed| seed.to_string()));
     match amplitude {
         None => sheet.row("roughness", "none"),
         Some(amplitude) => {
@@ -331,7 +345,7 @@ mod tests {
     }
 
     fn text(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
-        summary(scene, outcome, estimate, None)
+        summary(scene, outcome, estimate, None, None, None)
     }
 
     #[test]

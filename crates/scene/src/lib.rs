@@ -22,7 +22,7 @@ pub use analysis::figures::{
     Figures, INSENSITIVE_SHARE, Mark, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE, marks,
 };
 pub use analysis::governing::{
-    Governing, LEAST_TABOR_NUMBER, SteepWaves, ideal_adhesion_force, scene_tabor_number,
+    DEFAULT_RANGE, Governing, LEAST_TABOR_NUMBER, SteepWaves, ideal_adhesion_force, scene_tabor_number,
 };
 pub use analysis::instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
 pub use analysis::reversal_map::ReversalMap;

@@ -137,6 +137,11 @@ impl Axis {
         self.target.is_whole()
     }
 
+    /// Returns true for an axis of preloads, each of which replaces the loading.
+    pub fn is_of_preloads(&self) -> bool {
+        matches!(self.target, Target::Preload { .. })
+    }
+
     /// Number of values.
     pub fn count(&self) -> u64 {
         self.values.len() as u64
@@ -198,7 +203,7 @@ impl Axis {
 }
 
 /// Quantities that are not fields of a scene.
-pub const DERIVED: &[&str] = &["preload", "springs_per_wave"];
+pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
 /// Paths of numbers that cannot be varied: the version is no parameter, and seeds follow from the seed of the plan.
 const FIXED: &[&str] = &["version", "roughness.seed"];
@@ -213,8 +218,8 @@ pub(super) enum Target {
     Number(&'static Field),
     /// The force, N, or indentation, m, of a loading stage.
     Stage(usize),
-    /// Preload F_n in units of E* h L.
-    Preload,
+    /// Preload F_n in N, or in units of E* h L.
+    Preload { in_newtons: bool },
     /// Springs per period of the shortest wave; the last mode is the number of springs over this number.
     SpringsPerWave,
 }
@@ -250,7 +255,8 @@ impl Target {
     /// No number has this path; the nearest path is named.
     pub fn of(path: &str) -> Result<Target, String> {
         match path {
-            "preload" => return Ok(Target::Preload),
+            "preload" => return Ok(Target::Preload { in_newtons: false }),
+            "preload_in_N" => return Ok(Target::Preload { in_newtons: true }),
             "springs_per_wave" => return Ok(Target::SpringsPerWave),
             _ => {}
         }
@@ -284,7 +290,7 @@ impl Target {
     pub fn shapes(self) -> Shapes {
         let field = match self {
             Target::SpringsPerWave => return Shapes::Roughness,
-            Target::Stage(_) | Target::Preload => return Shapes::Passes,
+            Target::Stage(_) | Target::Preload { .. } => return Shapes::Passes,
             Target::Number(field) => field,
         };
         match (field.parent(), field.path) {
@@ -300,7 +306,8 @@ impl Target {
     /// Name, symbol (may be empty) and SI unit of the quantity at this path of a scene.
     pub fn label(self, path: &str, scene: &Scene) -> (String, &'static str, &'static str) {
         match self {
-            Target::Preload => ("preload".into(), "F_n/(E* h L)", "1"),
+            Target::Preload { in_newtons: true } => ("preload".into(), "F_n", "N"),
+            Target::Preload { in_newtons: false } => ("preload".into(), "F_n/(E* h L)", "1"),
             Target::SpringsPerWave => ("springs per wave".into(), "", "1"),
             Target::Stage(stage) => match scene.loading.get(stage) {
                 Some(Move::ToIndentation(_)) => (format!("indentation of stage {}", stage + 1), "", "m"),

@@ -46,6 +46,14 @@ pub enum StudyError {
         /// The requests that are allowed, in words.
         allowed: &'static str,
     },
+    /// A question cannot be answered.
+    #[error("{place}: {why}")]
+    Question {
+        /// Path of the number that is sought.
+        place: String,
+        /// Reason, and what is allowed, in words.
+        why: String,
+    },
     /// Records are missing, and a partial table was not requested.
     #[error(
         "{missing} of {total} records are missing, in {cells} cells: {first}; run the study to its end, or merge with --partial"

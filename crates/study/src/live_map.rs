@@ -231,7 +231,7 @@ mod tests {
         };
         let text = format!(
             "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
-             adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force], axes: [List(path: \"adhesion.kappa\", values: [{}]), \
+             adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force, adhesion_share], axes: [List(path: \"adhesion.kappa\", values: [{}]), \
              List(path: \"roughness.hurst\", values: [{}])])",
             to_ron(&live.plan().scene),
             live.plan().lines,

@@ -12,12 +12,13 @@ use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Sol
 /// Number of random profiles of each cell.
 pub const MAP_LINES: u64 = 4;
 /// Quantities recorded in each cell.
-pub const MAP_RECORD: [Quantity; 5] = [
+pub const MAP_RECORD: [Quantity; 6] = [
     Quantity::ZeroLoadAdhesionShare,
     Quantity::AdhesionCoefficient,
     Quantity::Regime,
     Quantity::ZeroForceAdhesionShare,
     Quantity::RegimeAfterZeroForce,
+    Quantity::AdhesionShare,
 ];
 /// Smallest and largest usual number of springs of a map. A scene with fewer keeps its own number; short waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);

@@ -18,8 +18,9 @@ impl Axis {
         }
         let number = |path: &str| Tree::of(scene).get(path);
         match (self.target, scene.loading.first()) {
-            (Target::Preload, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
-            (Target::Preload, _) => None,
+            (Target::Preload { in_newtons: true }, Some(Move::ToForce(force))) => Some(*force),
+            (Target::Preload { .. }, Some(Move::ToForce(force))) => Some(force / force_unit(scene)?),
+            (Target::Preload { .. }, _) => None,
             (Target::SpringsPerWave, _) => Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64),
             _ => number(&self.path),
         }
@@ -46,7 +47,7 @@ pub(super) fn scene_with<'a>(
             continue;
         }
         let (path, value) = match axis.target {
-            Target::Preload => continue,
+            Target::Preload { .. } => continue,
             Target::SpringsPerWave => shortest_wave(&tree, value),
             Target::Number(_) | Target::Stage(_) => (axis.path.as_str(), value),
         };
@@ -112,9 +113,9 @@ fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
 }
 
-/// Replaces the loading of a scene by a preload, in units of E* h L, and separation, if the scene determines that unit.
-pub(super) fn press(scene: &mut Scene, preload: f64) {
-    if let Some(unit) = force_unit(scene) {
+/// Replaces the loading of a scene by a preload of this axis and separation, if the scene determines the unit of the axis.
+pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
+    if let Some(unit) = if axis.unit == "N" { Some(1.0) } else { force_unit(scene) } {
         scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
     }
 }
@@ -132,8 +133,8 @@ pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, S
         let work = governing(&scene).and_then(|known| known.work_of_adhesion);
         scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);
     }
-    if let Some((_, preload)) = values.iter().find(|(axis, _)| axis.target == Target::Preload) {
-        press(&mut scene, *preload);
+    if let Some((axis, preload)) = values.iter().find(|(axis, _)| axis.is_of_preloads()) {
+        press(&mut scene, axis, *preload);
     }
     document.with_scene(&scene)
 }

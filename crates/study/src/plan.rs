@@ -24,7 +24,8 @@ const MOST_NAMED: usize = 8;
 const MOST_FORCES: u64 = 1000;
 
 /// Groups of axes that set the same quantity; a plan may have one axis of each group.
-const SAME: [&[&str]; 2] = [
+const SAME: [&[&str]; 3] = [
+    &[PRELOAD, "preload_in_N"],
     &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
@@ -96,7 +97,7 @@ impl Plan {
 
     /// The axis of preloads, if the plan has one.
     pub fn preloads(&self) -> Option<&Axis> {
-        self.axes.last().filter(|axis| axis.path == PRELOAD)
+        self.axes.last().filter(|axis| axis.is_of_preloads())
     }
 
     /// The axes of numbers of the scene: all axes except the axis of preloads.
@@ -206,9 +207,9 @@ impl Plan {
                 wrong.push(format!("record: {} is given twice", quantity.name()));
             }
         }
-        let preloads = self.axes.iter().find(|axis| axis.path == PRELOAD);
+        let preloads = self.axes.iter().find(|axis| axis.is_of_preloads());
         if let Some(value) = preloads.and_then(|axis| axis.values.iter().find(|value| **value <= 0.0)) {
-            wrong.push(format!("preload {value:?}: allowed: above 0, in units of E* h L"));
+            wrong.push(format!("preload {value:?}: allowed: above 0"));
         }
         let StiffnessRange { from, to, count } = self.stiffness;
         if !(from > 0.0 && from < to && to.is_finite() && (2..=MOST_FORCES).contains(&count)) {
@@ -217,10 +218,11 @@ impl Plan {
                  to {MOST_FORCES}"
             ));
         }
-        if self.scene.roughness.is_none() && (preloads.is_some() || self.records(Needs::Stiffness)) {
+        let by_roughness = preloads.is_some_and(|axis| axis.unit != "N") || self.records(Needs::Stiffness);
+        if self.scene.roughness.is_none() && by_roughness {
             wrong.push(
                 "preloads and exponents count forces in units of E* h L, and this scene is smooth; \
-                 allowed: an axis loading.0.0, in N"
+                 allowed: an axis preload_in_N"
                     .into(),
             );
         }

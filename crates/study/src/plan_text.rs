@@ -147,7 +147,7 @@ impl Plan {
             }
         }
         // The preload is the fastest axis, wherever the plan has it.
-        read_axes.sort_by_key(|axis| axis.path == PRELOAD);
+        read_axes.sort_by_key(Axis::is_of_preloads);
         let plan = Plan {
             title,
             notice,

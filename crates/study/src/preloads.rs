@@ -8,13 +8,45 @@ use super::results::Results;
 use super::statistics::Statistics;
 use asperity_contact::Move;
 use asperity_contact::Reversal;
-use asperity_data::AxisScale;
+use asperity_data::{AxisScale, parse_quantity};
 use asperity_scene::{CheckedScene, LEG_FORCE};
 use asperity_scene::{RunError, Simulation};
 use std::ops::RangeInclusive;
 
 /// Allowed number of preloads.
 pub const PRELOADS: RangeInclusive<usize> = 2..=512;
+
+/// Number of preloads without a number of one's own, and what a text of preloads may be.
+const USUAL: usize = 64;
+const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
+
+/// Reads a range of two forces and, after colons, the number of preloads and `log` for equal ratios: `1nN..20uN:64:log`.
+///
+/// # Errors
+/// What is wrong with the text, and what is allowed.
+pub fn parse_preloads(text: &str) -> Result<Axis, String> {
+    let mut parts = text.split(':').map(str::trim);
+    let ends = parse_range(parts.next().unwrap_or_default())?;
+    let (mut count, mut scale) = (USUAL, AxisScale::Linear);
+    for part in parts {
+        match part.parse() {
+            Ok(number) => count = number,
+            Err(_) if part == "log" => scale = AxisScale::Logarithmic,
+            Err(_) => return Err(ALLOWED.into()),
+        }
+    }
+    Axis::of_preloads(ends, count, scale)
+}
+
+/// Reads a range of two forces, N: `1uN..20uN`.
+///
+/// # Errors
+/// As for [`parse_preloads`].
+pub fn parse_range(text: &str) -> Result<(f64, f64), String> {
+    let (from, to) = text.split_once("..").ok_or(ALLOWED)?;
+    let force = |text: &str| parse_quantity(text, "N").map_err(|error| format!("{error}; {ALLOWED}"));
+    Ok((force(from)?, force(to)?))
+}
 
 /// Share of the axis of preloads within which each step of a staircase is located: less than the width of a line in a figure.
 const FINEST: f64 = 1.0 / 2048.0;
@@ -40,14 +72,23 @@ impl Axis {
         let inner = |index: usize| low + (high - low) * (index as f64 / (count - 1) as f64);
         let inner = (1..count - 1).map(|index| scale.number(inner(index)).clamp(from, to));
         Ok(Axis {
+            spacing: if is_logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
+            values: std::iter::once(from).chain(inner).chain([to]).collect(),
+            ..Axis::of_preload()
+        })
+    }
+
+    /// The axis of preloads in N, without values.
+    pub(super) fn of_preload() -> Axis {
+        Axis {
             path: PRELOAD.into(),
             name: "preload".into(),
             symbol: "F_n",
             unit: "N",
-            spacing: if is_logarithmic { Spacing::Logarithmic } else { Spacing::Linear },
-            values: std::iter::once(from).chain(inner).chain([to]).collect(),
-            target: Target::Preload,
-        })
+            spacing: Spacing::List,
+            values: Vec::new(),
+            target: Target::Preload { in_newtons: true },
+        }
     }
 }
 
@@ -254,5 +295,35 @@ mod tests {
         assert_eq!(find((2.0 * touch, 1e-5), 9, AxisScale::Linear), Err(below));
         let (ratios, _) = find((1e-9, 1e-3), 64, AxisScale::Logarithmic).unwrap();
         assert_eq!((ratios.forces[0].0, ratios.forces[ratios.forces.len() - 1].0), (1e-9, 1e-3));
+    }
+
+    #[test]
+    fn preloads_are_two_forces_a_number_and_a_scale() {
+        let values = |text| parse_preloads(text).unwrap().values;
+        assert_eq!(values("0..20uN").len(), 64);
+        assert_eq!(values("-1e-6 .. 2e-6:4"), [-1e-6, 0.0, 1e-6, 2e-6]);
+        for text in ["1nN..1uN:4:log", "1nN..1uN:log:4"] {
+            let values = values(text);
+            assert!(values.len() == 4 && (values[1] / 1e-8 - 1.0).abs() < 1e-12, "{values:?}");
+        }
+        for (wrong, allowed) in [
+            ("", "two forces"),
+            ("1", "two forces"),
+            ("1..", "two forces"),
+            ("0..1:x", "two forces"),
+            ("0..1:-5", "two forces"),
+            ("0..1m/s", "two forces"),
+            ("0..inf", "two forces"),
+            ("2..1", "`from` must be less than `to`"),
+            ("1..1", "`from` must be less than `to`"),
+            ("0..1:1", "allowed: from 2 to 512"),
+            ("0..1:513", "allowed: from 2 to 512"),
+            ("0..1:log", "begins above 0"),
+            ("-1..1:log", "begins above 0"),
+            ("0..1e31", "allowed: from -1e30 to 1e30 N"),
+        ] {
+            let error = parse_preloads(wrong).unwrap_err();
+            assert!(error.contains(allowed), "{wrong}: {error}");
+        }
     }
 }

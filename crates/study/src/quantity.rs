@@ -1,7 +1,7 @@
 //! Quantities that a study records for each cell and profile: one row of a table for each.
 
 use super::case_outcome::CaseOutcome;
-use asperity_scene::Regime;
+use asperity_scene::{Regime, did_you_mean};
 use serde::{Deserialize, Serialize};
 
 struct Row {
@@ -223,6 +223,32 @@ impl Quantity {
     /// SI unit; `1` for a number without one, empty for a regime, which is not a number.
     pub const fn unit(self) -> &'static str {
         self.row().unit
+    }
+
+    /// Symbol, or the name where the quantity has no symbol.
+    pub const fn symbol_or_name(self) -> &'static str {
+        if self.symbol().is_empty() { self.name() } else { self.symbol() }
+    }
+
+    /// The quantity with this symbol or this name; words of a name may be separated by blanks.
+    ///
+    /// # Errors
+    /// No quantity or several quantities have this name; the possible ones are named.
+    pub fn named(text: &str) -> Result<Quantity, String> {
+        let text = text.trim();
+        let name = text.to_lowercase().replace([' ', '-'], "_");
+        let is_named = |one: &Quantity| one.symbol() == text || one.name() == name;
+        let found: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_named).collect();
+        let names = |all: &[Quantity]| all.iter().map(|one| one.name()).collect::<Vec<_>>().join(", ");
+        match found[..] {
+            [one] => Ok(one),
+            [] => {
+                let words = Quantity::ALL.into_iter().flat_map(|one| [one.name(), one.symbol()]);
+                let near = did_you_mean(&name, words.filter(|word| !word.is_empty()));
+                Err(format!("{text:?} is no quantity{near} (quantities: {})", names(&Quantity::ALL)))
+            }
+            ref several => Err(format!("{text:?} has several meanings; allowed: {}", names(several))),
+        }
     }
 
     /// Meaning in one line.

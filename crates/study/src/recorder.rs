@@ -12,6 +12,7 @@ use asperity_scene::Governing;
 use asperity_scene::{CheckedScene, Roughness, Solver};
 use asperity_scene::{FEW_SAMPLES, Outcome, RunError, Simulation};
 use asperity_surface::SurfaceError;
+use std::mem::take;
 
 /// Values of the recorded quantities for each preload, in the order of the plan; NaN for a quantity that the case does not
 /// have.
@@ -194,6 +195,19 @@ impl<'p> Recorder<'p> {
         let forces: Vec<_> = points.iter().map(|at| (at.indentation.ln(), at.force.ln())).collect();
         Ok(slope(&lengths).zip(slope(&forces)))
     }
+}
+
+/// Records cases of a plan with a recorder that has this simulation, and gives the simulation back.
+pub(super) fn with_recorder<R>(
+    plan: &Plan,
+    simulation: &mut Simulation,
+    stop: &dyn Fn() -> bool,
+    record: impl FnOnce(&mut Recorder<'_>) -> Result<R, RunError>,
+) -> Result<R, RunError> {
+    let mut recorder = Recorder::new(plan, take(simulation), stop);
+    let recorded = record(&mut recorder);
+    *simulation = recorder.simulation;
+    recorded
 }
 
 /// Returns true for an error due to the machine or the user rather than to a cell.

@@ -6,12 +6,12 @@ use super::error::StudyError;
 use super::error::{FIXED_PROFILE, NO_PROFILES};
 use super::grid::{Cell, Grid, Layer};
 use super::plan::Plan;
+use super::profiles::{Stop, on_profiles};
 use super::quantity::{Quantity, regime_of};
-use super::recorder::{Recorded, Recorder, Records};
+use super::recorder::{Recorded, Recorder, with_recorder};
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
 use asperity_data::AxisScale;
-use asperity_data::on_threads;
 use asperity_scene::Regime;
 use asperity_scene::{RunError, Simulation};
 use asperity_scene::{Scene, Solver};
@@ -134,48 +134,56 @@ impl Results {
         jobs: usize,
     ) -> Result<Results, StudyError> {
         let mut results = Results::begin(scene, record, lines, preloads)?;
-        let plan = &results.plan;
-        let solved = on_threads(lines, jobs, || {
-            let simulation = Simulation::new(folder.to_path_buf());
-            let simulation = if lines == 1 { simulation.for_one_scene() } else { simulation };
-            let mut recorder = Recorder::new(plan, simulation, &|| false);
-            move |line| {
-                let solved = recorder.record(&Streak { cells: 0..plan.cells(), line });
-                solved.map_err(|error| StudyError::of_profile(plan, line, error))
-            }
-        })?;
-        (0..).zip(&solved).for_each(|(line, records)| results.set_profile(line, records));
+        let simulation = Simulation::new(folder.to_path_buf());
+        let simulation = if lines == 1 { simulation.for_one_scene() } else { simulation };
+        results.extend((simulation, jobs), &|| false, &mut |_| ())?;
         Ok(results)
     }
 
-    /// Computes the missing profiles of a study that [`Results::begin`] began, one after the other. `report` receives the
-    /// results after each.
+    /// Computes the missing profiles of a study that [`Results::begin`] began, on `jobs` threads, the first of which uses this
+    /// simulation. `report` receives the results after each profile, on this thread.
     ///
     /// # Errors
     /// A profile or its contact fails, or `stop` returned true.
     pub fn extend(
         &mut self,
-        simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
+        workers: (Simulation, usize),
+        stop: &Stop<'_>,
         report: &mut dyn FnMut(&Results),
-    ) -> Result<(), RunError> {
-        let plan = self.plan.clone();
-        let mut recorder = Recorder::new(&plan, std::mem::take(simulation), stop);
-        let mut missing = (0..plan.lines).filter(|line| !self.has(0, *line)).collect::<Vec<_>>().into_iter();
-        let done = missing.try_for_each(|line| {
-            let records = recorder.record(&Streak { cells: 0..plan.cells(), line })?;
-            self.set_profile(line, &records);
-            report(self);
-            Ok(())
-        });
-        *simulation = recorder.simulation;
-        done
+    ) -> Result<(), StudyError> {
+        let all = |recorder: &mut Recorder<'_>, streak: &Streak| {
+            Ok(recorder.record(streak)?.into_iter().map(Ok).collect())
+        };
+        self.compute(workers, stop, all, report)
     }
 
-    fn set_profile(&mut self, line: u64, records: &Records) {
-        for (cell, values) in (0..).zip(records) {
-            self.set(cell * self.plan.lines + line, values);
-        }
+    /// Does the same, but keeps the reason of a profile that fails in place of its values.
+    pub(super) fn extend_each(
+        &mut self,
+        workers: (Simulation, usize),
+        stop: &Stop<'_>,
+        report: &mut dyn FnMut(&Results),
+    ) -> Result<(), StudyError> {
+        self.compute(workers, stop, |recorder, streak| recorder.record_each(streak), report)
+    }
+
+    fn compute(
+        &mut self,
+        workers: (Simulation, usize),
+        stop: &Stop<'_>,
+        record: impl Fn(&mut Recorder<'_>, &Streak) -> Result<Vec<Recorded>, RunError> + Sync,
+        report: &mut dyn FnMut(&Results),
+    ) -> Result<(), StudyError> {
+        let plan = self.plan.clone();
+        let missing: Vec<u64> = (0..plan.lines).filter(|line| !self.has(0, *line)).collect();
+        let solve = |simulation: &mut Simulation, line| {
+            let streak = Streak { cells: 0..plan.cells(), line };
+            with_recorder(&plan, simulation, stop, |recorder| record(recorder, &streak))
+        };
+        on_profiles(&plan, &missing, workers, solve, &mut |line, records| {
+            (0..).zip(records).for_each(|(cell, one)| self.set_record(cell * plan.lines + line, one));
+            report(self);
+        })
     }
 
     /// Reads all shard files of a study.

@@ -6,8 +6,7 @@ use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
 use asperity_data::AxisScale;
-use asperity_data::parse_quantity;
-use asperity_data::round_to;
+use asperity_data::{format_quantity, parse_quantity};
 
 /// Largest number of values of a second axis that is shown as curves of a section rather than as rows of a map.
 const MOST_CURVES: usize = 5;
@@ -55,6 +54,8 @@ pub struct Selected {
     pub quantities: Vec<Quantity>,
     /// True if each row of the grid is drawn as a curve over the axis across; false for a map.
     pub curves: bool,
+    /// Sentence on a preload that was not named, of which the first is shown.
+    pub note: Option<String>,
 }
 
 /// Indices of the axes named for across and up, and for each axis of the study the index of the value at which it is fixed.
@@ -68,7 +69,8 @@ impl Selection {
     pub fn of(&self, study: &Results) -> Result<Selected, String> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
-        let (named, at) = self.axes(&plan.axes)?;
+        let (named, mut at) = self.axes(&plan.axes)?;
+        let note = first_preload(&plan.axes, named, &mut at);
         let (across, second) = self.free(&plan.axes, named, &at)?;
         let curves = self.up.is_none() && second.is_some_and(|second| is_few(&plan.axes, second, across));
         let places = at.iter().map(|place| place.unwrap_or(0)).collect();
@@ -84,14 +86,14 @@ impl Selection {
         let both = quantities.iter().all(is_share) && quantities.iter().any(is_logarithmic);
         let scale = self.scale.or(both.then_some(AxisScale::Logarithmic));
         grid.layers = grid.layers.iter().map(|one| layer(one.quantity, scale)).collect();
-        Ok(Selected { grid, quantities, curves })
+        Ok(Selected { grid, quantities, curves, note })
     }
 
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, String> {
         let drawn = plan.record.iter().copied().filter(|one| !one.is_regime());
         let drawn: Vec<Quantity> = drawn.collect();
         let named = |name: &str| {
-            drawn.iter().copied().find(|one| one.name() == name).ok_or_else(|| {
+            drawn.iter().copied().find(|one| [one.name(), one.symbol()].contains(&name)).ok_or_else(|| {
                 let allowed = drawn.iter().map(|one| one.name()).collect::<Vec<_>>().join(", ");
                 let allowed = if drawn.is_empty() { "none, only regimes were recorded" } else { &allowed };
                 format!("--quantity {name}: this study has no such quantity; allowed: {allowed}")
@@ -174,11 +176,24 @@ impl Selection {
                      --at {}={}",
                     all.join(", "),
                     example.path,
-                    example.values[0]
+                    format_quantity(example.values[0], example.unit).replace(' ', "")
                 ))
             }
         }
     }
+}
+
+/// Fixes an axis of preloads at its first value where too many axes are free, and says so.
+fn first_preload(axes: &[Axis], named: [Option<usize>; 2], fixed: &mut [Option<usize>]) -> Option<String> {
+    let last = axes.len().checked_sub(1)?;
+    let axis = axes.get(last).filter(|axis| axis.is_of_preloads())?;
+    let free = fixed.iter().filter(|place| place.is_none()).count();
+    if free <= 2 || fixed[last].is_some() || named.contains(&Some(last)) {
+        return None;
+    }
+    fixed[last] = Some(0);
+    let (count, path) = (axis.values.len(), &axis.path);
+    Some(format!("{} is the first of {count} preloads; --at {path}=VALUE selects another one", axis.at(0)))
 }
 
 /// Returns true if axis `one` has few values and axis `other` many, so that the few are curves over the other axis.
@@ -208,7 +223,7 @@ fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, String
 }
 
 fn values_of(axis: &Axis) -> String {
-    let value = |value: &f64| round_to(*value, 4).to_string();
+    let value = |value: &f64| format_quantity(*value, axis.unit);
     let shown = |values: &[f64]| values.iter().map(value).collect::<Vec<_>>().join(", ");
     match &axis.values[..] {
         [first @ .., last] if first.len() >= MOST_NAMED => {

@@ -1,21 +1,33 @@
-//! Sensitivity of the results of a scene: how they change with each number of the scene, by a tenth, and with the random
-//! phases.
+//! Sensitivity of the results of a scene: how their medians over random profiles change with each number of the scene, by a
+//! tenth. Each number is changed on the same profiles, so that the chance of another profile does not count as an influence.
 
-use super::axis::Axis;
+use super::axis::{Axis, Shapes};
+use super::cells::Streak;
+use super::ensemble::Ensemble;
 use super::error::StudyError;
 use super::place::{numbers, scene_with};
+use super::plan::Plan;
+use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
-use super::results::Results;
-use asperity_scene::Scene;
-use asperity_scene::Simulation;
+use super::recorder::with_recorder;
+use asperity_data::median;
+use asperity_scene::{CheckedScene, Scene, Simulation};
+use std::cmp::Reverse;
 
 /// Share by which a number is made smaller and larger.
 pub const STEP: f64 = 0.1;
-/// Number of random profiles besides the profile of the scene.
-pub const OTHER_SEEDS: u64 = 7;
 
 /// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`].
 pub type Values = [Option<f64>; 3];
+
+/// Results of a scene with one changed number.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Changed {
+    /// Medians over the profiles.
+    pub medians: Values,
+    /// Smallest and largest relative change of the results of single profiles; `None` for a fixed profile.
+    pub range: [Option<(f64, f64)>; 3],
+}
 
 /// Results for a smaller and a larger value of one number of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,65 +37,109 @@ pub struct Influence {
     /// The number in the scene.
     pub value: f64,
     /// The smaller and the larger number, each with the results; `None` for a number that the scene does not allow.
-    pub sides: [(f64, Option<Values>); 2],
+    pub sides: [(f64, Option<Changed>); 2],
 }
 
 /// Results of a scene, and of scenes with one number changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Results of the scene itself.
+    /// Number of profiles computed so far: those of the seed of the scene and of the seeds that follow.
+    pub profiles: u64,
+    /// Medians of the results of the scene.
     pub present: Values,
-    /// Influence of each number of the scene that is not a count, as far as computed.
+    /// Smallest and largest results over the profiles; `None` for a fixed profile.
+    pub range: Option<[Values; 2]>,
+    /// Influence of each number of the scene that is not a count.
     pub influences: Vec<Influence>,
-    /// Smallest and largest results over the profile of the scene and the profiles of the [`OTHER_SEEDS`] following seeds;
-    /// `None` for a scene without random phases.
-    pub seeds: Option<[Values; 2]>,
 }
+
+/// Results of one profile for the scene and for each changed scene; NaN for a result that is missing.
+type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
     /// The results that are compared.
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::ZeroLoadAdhesionForce, Quantity::DissipatedEnergy];
 
-    /// Computes a checked scene, and scenes with one number changed. All other numbers stay: if κ is given, the work of
-    /// adhesion follows from κ. `report` receives the influences so far after each.
+    /// Computes a checked scene, and scenes with one number changed, on the profiles of an ensemble. All other numbers stay: if
+    /// κ is given, the work of adhesion follows from κ. `jobs` threads share the profiles, the first with this simulation; no
+    /// bit depends on their number. `report` receives the sensitivity over the profiles so far after each.
     ///
     /// # Errors
     /// A profile or its contact fails, or `stop` returned true.
     pub fn of(
         scene: &Scene,
-        simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
+        (simulation, jobs): (Simulation, usize),
+        stop: &Stop<'_>,
         report: &mut dyn FnMut(&Sensitivity),
     ) -> Result<Sensitivity, StudyError> {
-        let mut solve = |scene: &Scene, lines| -> Result<Vec<Values>, StudyError> {
-            let mut results = Results::begin(scene, &Self::RESULTS, lines, None)?;
-            let failed = |error| StudyError::Run { place: String::new(), error };
-            results.extend(simulation, stop, &mut |_| ()).map_err(failed)?;
-            Ok((0..lines).map(|line| Self::RESULTS.map(|of| results.value(0, line, of))).collect())
-        };
-        let lines = solve(scene, if scene.seed().is_some() { 1 + OTHER_SEEDS } else { 1 })?;
-        let seeds = (lines.len() > 1).then(|| {
-            [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| {
-                [0, 1, 2].map(|of| lines.iter().filter_map(|line| line[of]).reduce(end))
-            })
-        });
-        let mut all = Sensitivity { present: lines[0], influences: Vec::new(), seeds };
+        let lines = Ensemble::profiles_of(scene);
+        // The scene itself, then each changed scene that is allowed.
+        let mut plans = vec![(Shapes::Passes, Plan::of_scene(scene, lines, &Self::RESULTS))];
+        let mut influences = Vec::new();
         for (axis, value) in numbers(scene) {
-            let mut sides = [-1.0, 1.0].map(|sign| (changed(&axis, value, sign), None));
-            for (changed, results) in &mut sides {
-                let neighbour = scene_with(scene, std::iter::once((&axis, *changed)));
-                if let Some(neighbour) = neighbour.ok().and_then(|scene| scene.checked().ok()) {
-                    *results = Some(solve(&neighbour, 1)?[0]);
-                }
-            }
-            all.influences.push(Influence { axis, value, sides });
-            report(&all);
+            let sides = [-1.0, 1.0].map(|sign| {
+                let number = changed(&axis, value, sign);
+                let neighbour = scene_with(scene, std::iter::once((&axis, number)));
+                let allowed = neighbour.ok().and_then(|scene| scene.checked().ok());
+                let plan = |scene: &CheckedScene| Plan::of_scene(scene, lines, &Self::RESULTS);
+                plans.extend(allowed.iter().map(|scene| (axis.target.shapes(), plan(scene))));
+                (number, allowed.map(|_| Changed::default()))
+            });
+            influences.push(Influence { axis, value, sides });
         }
+        // First the scenes that leave the profile as it is.
+        let mut order: Vec<usize> = (0..plans.len()).collect();
+        order.sort_by_key(|number| Reverse(plans[*number].0));
+        let solve = |simulation: &mut Simulation, line| {
+            let mut solved = vec![[f64::NAN; 3]; plans.len()];
+            for &number in &order {
+                let streak = Streak { cells: 0..1, line };
+                let records = with_recorder(&plans[number].1, simulation, stop, |recorder| match number {
+                    0 => recorder.record(&streak),
+                    // A changed scene may lie out of reach on this profile.
+                    _ => Ok(recorder.record_each(&streak)?.into_iter().flatten().collect()),
+                })?;
+                solved[number] = records.concat().try_into().unwrap_or(solved[number]);
+            }
+            Ok(solved)
+        };
+        let mut solved = vec![None; lines as usize];
+        let mut all = Sensitivity { profiles: 0, present: [None; 3], range: None, influences };
+        let every: Vec<u64> = (0..lines).collect();
+        on_profiles(&plans[0].1, &every, (simulation, jobs), solve, &mut |line, one| {
+            solved[line as usize] = Some(one);
+            all.summarise(&solved.iter().flatten().collect::<Vec<_>>());
+            report(&all);
+        })?;
         Ok(all)
     }
 
-    /// Relative changes from the results of the scene to these values; `None` if either is missing or the result of the
+    /// Sets the statistics over these profiles.
+    fn summarise(&mut self, profiles: &[&Solved]) {
+        let values = |number: usize, result: usize| {
+            profiles.iter().map(move |solved| solved[number][result]).filter(|value| !value.is_nan())
+        };
+        let medians =
+            |number| [0, 1, 2].map(|result| median(&mut values(number, result).collect::<Vec<_>>()));
+        let several = profiles.len() > 1;
+        self.profiles = profiles.len() as u64;
+        self.present = medians(0);
+        self.range = several.then(|| {
+            [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| [0, 1, 2].map(|of| values(0, of).reduce(end)))
+        });
+        let sides = self.influences.iter_mut().flat_map(|influence| &mut influence.sides);
+        for (number, side) in (1..).zip(sides.filter_map(|(_, side)| side.as_mut())) {
+            let range = |result: usize| {
+                let change = |solved: &&Solved| solved[number][result] / solved[0][result] - 1.0;
+                let changes = || profiles.iter().map(change).filter(|change| change.is_finite());
+                changes().reduce(f64::min).zip(changes().reduce(f64::max)).filter(|_| several)
+            };
+            *side = Changed { medians: medians(number), range: [0, 1, 2].map(range) };
+        }
+    }
+
+    /// Relative changes from the medians of the scene to these values; `None` if either is missing or the result of the
     /// scene is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2].map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
@@ -101,7 +157,7 @@ impl Sensitivity {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {
             let sides =
-                influence.sides.iter().filter_map(|(_, values)| self.changes(values.as_ref()?)[result]);
+                influence.sides.iter().filter_map(|(_, side)| self.changes(&side.as_ref()?.medians)[result]);
             sides.fold(0.0, |most: f64, one| most.max(one.abs()))
         };
         ordered.sort_by(|one, other| size(other).total_cmp(&size(one)));
@@ -120,27 +176,27 @@ mod tests {
     use super::*;
     use asperity_scene::open;
 
-    fn sensitivity(name: &str) -> Sensitivity {
-        let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 1 << 14).unwrap();
+    fn sensitivity(name: &str, jobs: usize) -> Sensitivity {
+        let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 1 << 12).unwrap();
         let mut reported = 0;
-        let found = Sensitivity::of(&scene, &mut Simulation::default(), &|| false, &mut |part| {
+        let found = Sensitivity::of(&scene, (Simulation::default(), jobs), &|| false, &mut |part| {
             reported += 1;
-            assert_eq!(part.influences.len(), reported);
+            assert_eq!(part.profiles, reported);
         });
         let found = found.unwrap();
-        assert_eq!(found.influences.len(), reported);
+        assert_eq!((found.profiles, reported), (Ensemble::profiles_of(&scene), found.profiles));
         found
     }
 
     /// F_a = (3/2)πγR of a sphere changes in proportion to γ and R, and with nothing else.
     #[test]
     fn a_sphere_follows_its_radius_and_the_work_of_adhesion() {
-        let found = sensitivity("jkr-sphere");
-        assert_eq!(found.seeds, None);
+        let found = sensitivity("jkr-sphere", 1);
+        assert_eq!((found.range, found.profiles), (None, 1));
         for influence in &found.influences {
             let expected = if matches!(influence.axis.symbol, "R" | "γ") { STEP } else { 0.0 };
-            for ((_, values), sign) in influence.sides.iter().zip([-1.0, 1.0]) {
-                let Some(change) = values.and_then(|values| found.changes(&values)[0]) else {
+            for ((_, side), sign) in influence.sides.iter().zip([-1.0, 1.0]) {
+                let Some(change) = side.and_then(|side| found.changes(&side.medians)[0]) else {
                     assert_eq!((influence.axis.symbol, sign), ("ν", 1.0), "only ν cannot grow");
                     continue;
                 };
@@ -151,9 +207,11 @@ mod tests {
         assert!(matches!(first.axis.symbol, "R" | "γ"), "{first:?}");
     }
 
+    /// Medians and ranges are those of separate runs of the same seeds.
     #[test]
-    fn a_rough_scene_has_its_numbers_and_its_seeds() {
-        let found = sensitivity("pressure-sensitive");
+    fn a_rough_scene_changes_on_the_same_profiles() {
+        let found = sensitivity("pressure-sensitive", 2);
+        assert_eq!(sensitivity("pressure-sensitive", 1), found);
         let paths: Vec<&str> =
             found.influences.iter().map(|influence| influence.axis.path.as_str()).collect();
         for path in ["roughness.hurst", "roughness.rms_height", "roughness.modes.1", "loading.0.0", "length"]
@@ -164,7 +222,27 @@ mod tests {
             paths.iter().all(|path| !path.starts_with("numerics") && !path.contains("seed")),
             "{paths:?}"
         );
-        let [low, high] = found.seeds.unwrap();
-        assert!(low[0] <= found.present[0] && found.present[0] <= high[0] && low[0] < high[0]);
+        let forces = |document: asperity_scene::Document| {
+            let scene = document.scene().with(|scene| scene.numerics.points = 1 << 12).unwrap();
+            let force = |seed| {
+                let run = Simulation::default().run(&scene.with_seed(seed), &|| false, &mut |_, _, _| Ok(()));
+                run.unwrap().figures.adhesion_force.unwrap()
+            };
+            (5..21).map(force).collect::<Vec<f64>>()
+        };
+        let document = open("pressure-sensitive").unwrap();
+        let before = forces(document.clone());
+        let at = paths.iter().position(|path| *path == "roughness.hurst").unwrap();
+        let (number, side) = found.influences[at].sides[1];
+        let after = forces(document.set("roughness.hurst", &number.to_string()).unwrap());
+        let changes: Vec<f64> =
+            before.iter().zip(&after).map(|(before, after)| after / before - 1.0).collect();
+        let ends =
+            [f64::min, f64::max].map(|end: fn(f64, f64) -> f64| changes.iter().copied().reduce(end).unwrap());
+        let side = side.unwrap();
+        assert_eq!((side.range[0], side.medians[0]), (Some((ends[0], ends[1])), median(&mut after.clone())));
+        assert_eq!(found.present[0], median(&mut before.clone()));
+        let least = before.iter().copied().reduce(f64::min);
+        assert_eq!(found.range.map(|[least, _]| least[0]), Some(least));
     }
 }

@@ -6,7 +6,7 @@ use super::error::StudyError;
 use super::grid::{Grid, Layer, across_and_up};
 use super::live_plan::live_plan;
 use super::place::{governing, moved, press, scene_with};
-use super::plan::{PRELOAD, Plan};
+use super::plan::Plan;
 use super::results::Results;
 use asperity_scene::FEW_SAMPLES;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
@@ -110,9 +110,10 @@ impl StudyMap {
         let at = self.at(slice).map(|(axis, place)| (axis, axis.values[place]));
         let values: Vec<(&Axis, f64)> = at.chain(over.iter().copied()).collect();
         scene = scene_with(&scene, values.iter().copied())?;
-        let preload = values.iter().find(|(axis, _)| axis.path == PRELOAD).map(|(_, value)| *value);
-        if let Some(preload) = preload.or_else(|| Some(plan.preloads()?.values[0])) {
-            press(&mut scene, preload);
+        let preload = values.iter().find(|(axis, _)| axis.is_of_preloads()).copied();
+        if let Some((axis, preload)) = preload.or_else(|| plan.preloads().map(|axis| (axis, axis.values[0])))
+        {
+            press(&mut scene, axis, preload);
         }
         Ok(scene)
     }

@@ -82,6 +82,7 @@ fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> impl Serial
         },
         "axes": plan.scene_axes().iter().map(axis).collect::<Vec<_>>(),
         "preloads": plan.preloads().map(|axis| &axis.values),
+        "preload_symbol": plan.preloads().map(|axis| axis.symbol),
         "quantities": plan.record.iter().map(quantity).collect::<Vec<_>>(),
         "cells": plan.cells(),
         "lines": plan.lines,

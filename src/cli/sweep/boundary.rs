@@ -13,7 +13,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity sweep equation-15 -o edge && asperity sweep boundary edge
   asperity sweep boundary edge --level 0.05 --format csv
-  asperity sweep boundary edge --over elastic_energy_ratio
+  asperity sweep boundary edge --x elastic_energy_ratio
 
 F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
 profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
@@ -31,7 +31,7 @@ pub struct BoundaryArguments {
     pub levels: Vec<f64>,
     /// Parameter of boundaries: kappa or elastic_energy_ratio
     #[arg(long, value_enum, value_name = "PARAMETER", default_value = "kappa", hide_possible_values = true)]
-    pub over: RoughnessParameter,
+    pub x: RoughnessParameter,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -44,6 +44,6 @@ fn level(text: &str) -> Result<f64, String> {
 pub(super) fn boundary(arguments: &BoundaryArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let levels = if arguments.levels.is_empty() { USUAL_LEVELS.to_vec() } else { arguments.levels.clone() };
-    let boundaries = boundaries(&arguments.folder, arguments.over, &levels)?;
+    let boundaries = boundaries(&arguments.folder, arguments.x, &levels)?;
     arguments.output.write(stdout, &boundaries, format, Origin::Files(&[]))
 }

@@ -21,7 +21,7 @@ Examples:
   asperity sweep merge study                        results.csv, summary.csv and results.json
   asperity sweep boundary study                     κ at which F_a(0) vanishes, for each H
   asperity sweep plot study -o map.svg              A phase map, or curves
-  asperity sweep submit my-plan.ron -o study --shards 100
+  asperity sweep submit my-plan.ron -o study --jobs 100
                                                     The same on a Slurm cluster
 
 A run that computes everything merges by itself. Ctrl-C stops after the present cells; nothing is

@@ -7,6 +7,7 @@ use asperity_report::{study_curves, study_figure, study_map};
 use asperity_scene::Scene;
 use asperity_study::{Results, Selected, Selection};
 use clap::Args;
+use std::io;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -42,7 +43,9 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     let format = arguments.output.format(FORMATS, usual)?;
     let study = Results::open(&arguments.folder)?;
     let selected = arguments.selection.of(&study).map_err(CliError::message)?;
-    let Selected { grid, quantities, curves } = selected;
+    let Selected { grid, quantities, curves, note } = selected;
+    // The figure is drawn even if standard error is closed.
+    let _ = note.map(|note| writeln!(io::stderr(), "{note}"));
     // By request there is one scale alone.
     let scales = if arguments.selection.scale.is_some() { 1 } else { 2 };
     let charts = |quantity| match study_map(&grid, quantity, false).filter(|_| !curves) {

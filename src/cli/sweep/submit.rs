@@ -19,8 +19,8 @@ use std::process::{Command, Stdio};
 
 const EXAMPLES: &str = "\
 Examples:
-  asperity sweep submit figure-5b -o study --shards 100 --dry-run
-  asperity sweep submit figure-5b -o study --shards 100 -- --partition=short --time=2:00:00
+  asperity sweep submit figure-5b -o study --jobs 100 --check
+  asperity sweep submit figure-5b -o study --jobs 100 -- --partition=short --time=2:00:00
 
 One task of the array computes one shard, on as many threads as it has processors; the last one
 merges. A killed program is started again within its task, a task whose node is lost on another
@@ -44,15 +44,15 @@ pub struct SubmitArguments {
     /// Folder of the study, visible to all nodes; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// Parts the plan is cut into, one task each
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
-    pub shards: u64,
+    /// Jobs of the array, which compute one part of the plan each
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub jobs: u64,
     /// Random profiles of each cell, in place of the number in the plan
     #[arg(long, value_name = "COUNT")]
     pub lines: Option<u64>,
     /// Print the script for sbatch; write and submit nothing
     #[arg(long)]
-    pub dry_run: bool,
+    pub check: bool,
     #[command(flatten)]
     pub overrides: Overrides,
     /// Options of sbatch, after --: --partition=short, -t 2:00:00
@@ -64,7 +64,7 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     let plan = Plan::open(&arguments.plan, &changes)?;
     let script = script(arguments, &std::env::current_exe()?, &std::path::absolute(&arguments.output)?)?;
-    if arguments.dry_run {
+    if arguments.check {
         return Ok(stdout.write_all(script.as_bytes())?);
     }
     let folder = Folder::create(&arguments.output, &plan)?;
@@ -111,7 +111,7 @@ done
         log = folder.replace('%', "%%"),
         program = quoted(&program),
         folder = quoted(&folder),
-        shards = arguments.shards,
+        shards = arguments.jobs,
     ))
 }
 

@@ -1,7 +1,7 @@
 //! Studies of the present scene: error of its outcome, springs for a tolerance, data of the shown pane, and the curve of a
 //! typed value.
 
-use super::{edit, measured};
+use super::{edit, measured, target};
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::editor::scene_of;
@@ -10,10 +10,13 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::Study;
 use asperity_contact::Move;
+use asperity_data::parallel::threads;
 use asperity_scene::RunError;
+use asperity_scene::Scene;
 use asperity_scene::out_of_reach;
 use asperity_scene::{CheckedScene, Document};
 use asperity_scene::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
+use asperity_study::Ensemble;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -33,12 +36,14 @@ pub struct Choosing {
 /// The studies that the present state needs and that have not ended, in the order in which they are performed.
 pub fn studies(app: &mut App) -> Vec<Study> {
     let mut wanted: Vec<Study> = app.tried.as_ref().map(preview).into_iter().collect();
+    wanted.extend(target::study(app));
     if let Some(computed) = app.current().map(Arc::clone) {
         let generation = computed.generation;
         if let Some(Choosing { tolerance, .. }) = app.studies.value() {
             wanted.push(choice(generation, Arc::clone(&computed.scene), *tolerance));
         } else {
             let is_long = computed.scene.numerics.points > MOST_ESTIMATED;
+            wanted.extend(ensemble(app, is_long));
             let of = Arc::clone(&computed);
             wanted.push(Study::new(generation, is_long, move |_, stop, _: &mut dyn FnMut(Estimate)| {
                 let known = estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop);
@@ -64,6 +69,25 @@ fn preview(document: &Document) -> Study {
         });
         Ok(Preview { text, outcome: outcome? })
     })
+}
+
+/// Computes the random profiles of the scene, for the headline; `None` for a fixed profile.
+fn ensemble(app: &App, is_long: bool) -> Option<Study> {
+    let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
+    let profiles = Ensemble::profiles_of(&scene);
+    (profiles > 1).then(|| {
+        Study::new(key, is_long, move |simulation, stop, report| {
+            let solver = (std::mem::take(simulation), threads());
+            let found = Ensemble::of(&scene, &[], profiles, solver, stop, &mut |part| report(part.clone()));
+            found.map_err(|error| error.to_string())
+        })
+    })
+}
+
+/// Key of the random profiles of a scene, which do not depend on its texts.
+pub fn ensemble_key(scene: &Scene) -> String {
+    let scene = Scene { title: String::new(), notice: String::new(), observe: Vec::new(), ..scene.clone() };
+    format!("ensemble of {scene:?}")
 }
 
 /// Searches the smallest number of springs of a scene for a tolerance.

@@ -3,8 +3,10 @@
 
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::Context;
+use crate::explorer::keys::key::direction;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
+use crossterm::event::{KeyCode, KeyEvent};
 
 /// Number of small and of large steps across a pane.
 const STEPS: (f64, f64) = (100.0, 10.0);
@@ -23,18 +25,20 @@ pub fn toggle(app: &mut App) {
     app.view.crosshair = Some(0.5 * (low + high));
 }
 
-/// Moves the crosshair by a number of steps, positive to the right.
-pub fn move_by(app: &mut App, steps: i32, coarse: bool) {
+/// Moves the crosshair by a small or a large step.
+pub fn step(app: &mut App, key: &KeyEvent) {
+    let Some(((columns, _), is_coarse)) = direction(key) else { return };
     let (low, high) = ends(app);
-    let step = (high - low) / if coarse { STEPS.1 } else { STEPS.0 };
+    let step = (high - low) / if is_coarse { STEPS.1 } else { STEPS.0 };
     let now = app.view.crosshair.unwrap_or(low);
-    app.view.crosshair = Some((now + f64::from(steps) * step).clamp(low, high));
+    app.view.crosshair = Some((now + f64::from(columns) * step).clamp(low, high));
 }
 
 /// Moves the crosshair to the left or right end of the pane.
-pub fn go_to_end(app: &mut App, right: bool) {
+pub fn go_to_end(app: &mut App, key: &KeyEvent) {
     let (low, high) = ends(app);
-    app.view.crosshair = Some(if right { high } else { low });
+    let is_right = matches!(key.code, KeyCode::End | KeyCode::Char('G'));
+    app.view.crosshair = Some(if is_right { high } else { low });
 }
 
 /// Moves the crosshair to a number on the horizontal axis of the selected pane.

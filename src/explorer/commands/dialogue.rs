@@ -1,6 +1,6 @@
 //! Prompts: opening, editing, accepting and cancelling them.
 
-use super::{accuracy, edit, files, measured, movement};
+use super::{accuracy, edit, files, measured, movement, target};
 use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
@@ -8,8 +8,9 @@ use crate::explorer::keys::bindings::{Command, Context};
 use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
-use crate::explorer::prompt::{Prompt, Purpose, Topic};
-use asperity_scene::{Entry, typed_path};
+use crate::explorer::prompt::{Aim, Prompt, Purpose, Topic};
+use asperity_scene::{Entry, presets, typed_path};
+use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::InputRequest;
 
 /// Name of the help, a list that is only read: its entries cannot be chosen.
@@ -39,7 +40,8 @@ pub fn open_help(app: &mut App) {
         section: "What you see",
         name: name.to_owned(),
         text: text.to_owned(),
-        row: None,
+        words: String::new(),
+        aim: Aim::Nothing,
     };
     let notice = app.edit.document.scene().notice.split_whitespace().collect::<Vec<_>>().join(" ");
     let notice = (!notice.is_empty()).then(|| topic("This scene", &notice));
@@ -50,8 +52,11 @@ pub fn open_help(app: &mut App) {
     app.ask(Purpose::Topics { name: HELP, topics, is_typed: false }, "");
 }
 
+/// Opens the list of commands, of the parameters of the scene, and of the built-in scenes.
 pub fn open_commands(app: &mut App) {
-    let topics = app.config.bindings.listed().map(Topic::of).collect();
+    let commands = app.config.bindings.listed().map(Topic::of);
+    let parameters = app.edit.parameters.iter().enumerate().map(Topic::of_parameter);
+    let topics = commands.chain(parameters).chain(presets().iter().map(Topic::of_preset)).collect();
     app.ask(Purpose::Topics { name: "Commands", topics, is_typed: true }, "");
 }
 
@@ -70,10 +75,24 @@ pub fn select(app: &mut App, rows: i32) {
     }
 }
 
-/// Moves the selection of the list, or of the parameters, by pages: half the rows of a window each, since an entry may take
-/// two rows.
-pub fn page(app: &mut App, pages: i32) {
-    let rows = pages * i32::from(Layout::of(app).body().height / 2).max(1);
+/// Moves the selection of the list to the row that a key asks for.
+pub fn select_by(app: &mut App, key: &KeyEvent) {
+    select(
+        app,
+        match key.code {
+            KeyCode::Home | KeyCode::Char('g') => i32::MIN,
+            KeyCode::End | KeyCode::Char('G') => i32::MAX,
+            KeyCode::Up | KeyCode::Char('k' | 'p') => -1,
+            _ => 1,
+        },
+    );
+}
+
+/// Moves the selection of the list, or of the parameters, by a page: half the rows of a window, since an entry may take two
+/// rows.
+pub fn page(app: &mut App, key: &KeyEvent) {
+    let rows = i32::from(Layout::of(app).body().height / 2).max(1);
+    let rows = if key.code == KeyCode::PageUp { -rows } else { rows };
     if app.prompt.is_some() { select(app, rows) } else { edit::move_selection(app, rows) }
 }
 
@@ -97,6 +116,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     match &prompt.purpose {
         Purpose::Value if measured::is_option(app) => return measured::accept_option(app, typed),
         Purpose::Value => return edit::accept_value(app, typed),
+        Purpose::Target => return target::accept(app, typed),
         Purpose::Force => return movement::accept_force(app, typed),
         Purpose::Tolerance => return accuracy::accept_tolerance(app, typed),
         Purpose::Fit => return measured::accept_fit(app, typed),
@@ -120,7 +140,15 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
         }
         Purpose::Topics { topics, .. } => {
             let topic = prompt.choice().and_then(|index| topics.get(index)).ok_or_else(nothing)?;
-            topic.row.into_iter().for_each(|row| choose(app, Command { row, character: None }));
+            match &topic.aim {
+                Aim::Nothing => {}
+                Aim::Command(row) => choose(app, Command { row, key: None }),
+                Aim::Parameter(row) => {
+                    app.edit.select(*row);
+                    app.show(Pane::Parameters);
+                }
+                Aim::Open(name) => app.effects.push(Task::Open(name.clone())),
+            }
         }
         Purpose::Overwrite(file) => {
             app.effects.push(Task::Write(OutputFile { overwrite: true, ..file.clone() }));
@@ -133,6 +161,7 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
 pub fn cancel(app: &mut App) {
     match app.prompt.take().map(|prompt| prompt.purpose) {
         Some(Purpose::Value) => edit::preview(app),
+        Some(Purpose::Target) => app.effects.push(Task::Study),
         Some(Purpose::Parameter { before }) => app.view.pane = before,
         _ => {}
     }

@@ -1,5 +1,6 @@
 //! Edits of the scene. Each gives a new document and can be undone.
 
+use super::accuracy::ensemble_key;
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, CloseUpTarget, Message};
 use crate::explorer::editor::Edited;
@@ -9,7 +10,7 @@ use crate::explorer::parameters::{Parameter, Setting, replaced_by, text_of};
 use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::reading;
-use crate::explorer::request::{Focus, LineView};
+use crate::explorer::request::LineView;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
@@ -19,11 +20,19 @@ use asperity_scene::{
     Adhesion, Document, Range, RoughnessParameter, SceneErrors, Solver, Step, kind_and_number, loading_text,
     pressing_force, read_stage, ron_float,
 };
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use tui_input::InputRequest;
 
 /// Moves the selection in the list of parameters by a number of rows, up to its ends.
 pub fn move_selection(app: &mut App, rows: i32) {
     app.edit.move_selection(rows);
     show_parameters(app);
+}
+
+/// Selects the first or the last parameter.
+pub fn go_to_end(app: &mut App, key: &KeyEvent) {
+    let is_last = matches!(key.code, KeyCode::End | KeyCode::Char('G'));
+    move_selection(app, if is_last { i32::MAX } else { i32::MIN });
 }
 
 /// Explores another scene from its beginning.
@@ -33,8 +42,7 @@ pub fn open(app: &mut App, document: Document) {
         app.set_done("unsaved changes kept; u returns to them");
     }
     app.play = Player::START;
-    app.view.close_up =
-        CloseUpTarget { focus: Focus::Summit, springs: CloseUpTarget::springs_shown(&document) };
+    app.view.close_up = CloseUpTarget::WHOLE;
     app.view.profile = LineView::WHOLE;
     // The shown map is that of the scene; a study stays loaded.
     app.map.of_study = false;
@@ -65,6 +73,35 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
     show_parameters(app);
 }
 
+/// Opens the editor of the selected value with the character of a key, which replaces the value.
+pub fn start_value(app: &mut App, key: &KeyEvent) {
+    if let KeyCode::Char(first) = key.code {
+        edit_value(app, Some(first));
+    }
+}
+
+/// Moves the cursor in the typed line, or deletes a part of it.
+pub fn edit_by(app: &mut App, key: &KeyEvent) {
+    let is_control = key.modifiers.contains(KeyModifiers::CONTROL);
+    let request = match (key.code, is_control) {
+        (KeyCode::Left, false) | (KeyCode::Char('b'), _) => InputRequest::GoToPrevChar,
+        (KeyCode::Right, false) | (KeyCode::Char('f'), _) => InputRequest::GoToNextChar,
+        (KeyCode::Left, true) => InputRequest::GoToPrevWord,
+        (KeyCode::Right, true) => InputRequest::GoToNextWord,
+        (KeyCode::Home, _) | (KeyCode::Char('a'), _) => InputRequest::GoToStart,
+        (KeyCode::End, _) | (KeyCode::Char('e'), _) => InputRequest::GoToEnd,
+        (KeyCode::Backspace, _) | (KeyCode::Char('h'), _) => InputRequest::DeletePrevChar,
+        (KeyCode::Delete, _) | (KeyCode::Char('d'), _) => InputRequest::DeleteNextChar,
+        (KeyCode::Char('w'), _) => InputRequest::DeletePrevWord,
+        _ => return,
+    };
+    edit_line(app, |line| line.edit(request));
+}
+
+pub fn clear_line(app: &mut App) {
+    edit_line(app, |line| line.edit(InputRequest::DeleteLine));
+}
+
 /// Edits the typed line and updates its preview or its list.
 pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     let Some(prompt) = &mut app.prompt else { return };
@@ -75,8 +112,10 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     }
     (prompt.refused, prompt.paths) = (None, Vec::new());
     prompt.search(&app.edit.parameters);
-    if matches!(prompt.purpose, Purpose::Value) {
-        preview(app);
+    match prompt.purpose {
+        Purpose::Value => preview(app),
+        Purpose::Target => app.effects.push(Task::Study),
+        _ => {}
     }
 }
 
@@ -199,7 +238,7 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
-fn set_selected(app: &mut App, written: &str) {
+pub fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
         Ok(document) => apply(app, Ok(document)),
         Err(why) => refuse(app, why),
@@ -366,7 +405,7 @@ fn after_edit(app: &mut App) {
     app.progress = Some(0);
     app.map.moving = false;
     let map = app.map.key(&app.edit.scene).unwrap_or_default();
-    app.studies.keep(&[&map, app.edit.document.text()]);
+    app.studies.keep(&[&map, app.edit.document.text(), &ensemble_key(&app.edit.scene)]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");

@@ -8,7 +8,7 @@ use crate::explorer::measured::Measured;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
 use asperity_report::{Format, check_extension};
-use asperity_scene::{Document, Preset, command_line, presets, quoted};
+use asperity_scene::{Document, command_line, presets, quoted};
 use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {
@@ -43,7 +43,7 @@ pub fn save_before_leaving(app: &mut App) {
 pub fn ask_export(app: &mut App) {
     let name = Path::new(app.edit.document.name());
     let stem = name.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-    app.ask(Purpose::Export, &format!("{stem}.csv"));
+    app.ask(Purpose::Export, &format!("{stem}-{}.csv", app.view.pane.file_name()));
 }
 
 /// Exports the selected pane to a file; the extension of the name chooses the format.
@@ -63,8 +63,8 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
         Ok(()) => {
             let how = if file.content == Content::Scene { "saved" } else { "exported" };
             let mut done = format!("{how} to {path}");
-            if file.content == Content::Scene && has_foreign_notice(&app.edit) {
-                done += "; its title and notice are those of the scene that it was made from";
+            if let Some(what) = foreign_text(&app.edit).filter(|_| file.content == Content::Scene) {
+                done += &format!("; its {what} of the scene that it was made from");
             }
             app.set_done(done);
             if file.content == Content::Scene {
@@ -84,14 +84,19 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
     }
 }
 
-/// Returns true for a changed built-in scene that still has the notice of the built-in one.
-fn has_foreign_notice(edit: &Editor) -> bool {
-    let notice = &edit.document.scene().notice;
-    let preset = presets().iter().find(|preset| preset.name == edit.document.name());
-    let is_own = |preset: &Preset| {
-        Document::parse(preset.text, preset.name).is_ok_and(|own| own.scene().notice == *notice)
-    };
-    !notice.is_empty() && edit.is_unsaved() && preset.is_some_and(is_own)
+/// What a changed built-in scene still has of the text of the built-in one, in words; `None` for a text of its own.
+fn foreign_text(edit: &Editor) -> Option<&'static str> {
+    let (name, scene) = (edit.document.name(), edit.document.scene());
+    let preset = presets().iter().find(|preset| preset.name == name).filter(|_| edit.is_unsaved())?;
+    let built_in = Document::parse(preset.text, preset.name).ok()?;
+    let built_in = built_in.scene();
+    let is_same = |one: &str, other: &str| !one.is_empty() && one == other;
+    match (is_same(&scene.title, &built_in.title), is_same(&scene.notice, &built_in.notice)) {
+        (true, true) => Some("title and notice are those"),
+        (true, false) => Some("title is that"),
+        (false, true) => Some("notice is that"),
+        (false, false) => None,
+    }
 }
 
 /// Leaves the explorer, or asks about unsaved changes first.

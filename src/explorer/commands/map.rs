@@ -3,9 +3,11 @@
 use super::edit;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
+use crate::explorer::keys::key::direction;
 use crate::explorer::map::OpenStudy;
 use asperity_scene::{Document, SceneErrors};
 use asperity_study::{Axis, Place, live_plan, moved};
+use crossterm::event::{KeyCode, KeyEvent};
 use std::sync::Arc;
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
@@ -21,7 +23,8 @@ pub fn toggle_study(app: &mut App) {
 }
 
 /// Shows another map of the study. If the scene belongs to the former map, it is moved to the new one.
-pub fn step_slice(app: &mut App, steps: i32) {
+pub fn step_slice(app: &mut App, key: &KeyEvent) {
+    let steps = if key.code == KeyCode::PageUp { -1 } else { 1 };
     let Some(study) = app.map.shown_study() else {
         let why = if app.map.study.is_some() {
             "this is the map that is computed here; W shows the study's"
@@ -50,8 +53,13 @@ pub fn step_slice(app: &mut App, steps: i32) {
     }
 }
 
-/// Moves the mark, and with it the scene, by columns and rows of the map.
-pub fn step(app: &mut App, columns: i32, rows: i32) {
+/// Number of columns or rows of a large step: on the live map the double of κ.
+const LARGE_STEP: i32 = 4;
+
+/// Moves the mark, and with it the scene, by a column or a row of the map, or by several.
+pub fn step(app: &mut App, key: &KeyEvent) {
+    let Some(((columns, rows), is_coarse)) = direction(key) else { return };
+    let [columns, rows] = [columns, rows].map(|steps| steps * if is_coarse { LARGE_STEP } else { 1 });
     let Some((at_across, at_up)) = app.place() else {
         let why = match live_plan(app.edit.document.scene()) {
             Err(why) => why.to_owned(),

@@ -12,4 +12,5 @@ pub mod movement;
 pub mod opening;
 pub mod stages;
 pub mod table;
+pub mod target;
 pub mod view;

@@ -7,7 +7,6 @@ use crate::explorer::request::{Focus, ManualMove};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::typed::unit_of_force;
 use asperity_data::{in_unit, parse_quantity};
-use asperity_scene::pull_off_point;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -38,12 +37,13 @@ pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
 
-/// Plays or pauses the animation; at its end it begins again. Like all movements of the animation this ends manual loading,
+/// Plays or pauses the animation; from its state of rest it begins again. Like all movements of the animation this ends manual loading,
 /// since the animation shows the loading of the scene.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;
-    let at_end = app.play.at == At::End && app.play.leg + 1 >= app.legs().len();
-    if at_end && !app.play.playing {
+    let is_last = app.play.leg + 1 >= app.legs().len();
+    let is_at_end = app.play == Player::at_rest(app.legs()) || app.play.at == At::End && is_last;
+    if is_at_end && !app.play.playing {
         app.play = Player::START;
     } else {
         app.play.playing = !app.play.playing;
@@ -79,15 +79,14 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
     app.play.at = At::Start;
 }
 
-/// Goes to the state at the pull-off, just before the contact is lost.
+/// Goes to the state at the pull-off, just before the contact is lost, in which the animation rests.
 pub fn go_to_pull_off(app: &mut App) {
-    let legs = app.legs();
-    let Some((leg, point)) = pull_off_point(legs).filter(|(_, point)| point.force < 0.0) else {
+    let rest = Player::at_rest(app.legs());
+    if rest.at == At::End {
         app.set_error("there is no pull-off: the force does not fall below 0 N in the last unloading");
         return;
-    };
-    app.play = Player { leg, at: At::Indentation(point.indentation), playing: false };
-    app.manual = None;
+    }
+    (app.play, app.manual) = (rest, None);
 }
 
 pub fn elapse(app: &mut App, time: Duration) {
@@ -104,7 +103,7 @@ pub fn elapse(app: &mut App, time: Duration) {
     }
     player.at = player.advanced(legs, share);
     if player.leg == last && player.at == At::End {
-        player = if app.config.repeat { Player::START } else { Player { playing: false, ..player } };
+        player = if app.config.repeat { Player::START } else { Player::at_rest(legs) };
     }
     app.play = player;
 }
@@ -145,6 +144,7 @@ pub fn take(app: &mut App, order: Option<ManualMove>) {
         let Player { leg, at, .. } = app.play;
         let start = app.present().map(|snapshot| snapshot.point);
         app.play.playing = false;
+        let at = if at == At::PullOff { At::Indentation(app.indentation()) } else { at };
         let moves = vec![ManualMove::Take { leg, at }];
         // The start of a stage is the end of the one before, which the path may continue.
         let stage = if at == At::Start { leg.saturating_sub(1) } else { leg };

@@ -59,6 +59,6 @@ fn show_measured(app: &mut App, measured: Measured) {
         Some(errors) => app.set_error(errors.to_string()),
     }
     app.view.curve.quantities = LoopQuantities::ForceDisplacement;
-    app.show_large_force();
+    app.show_force_curve();
     app.edit.select_measured();
 }

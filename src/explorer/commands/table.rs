@@ -1,16 +1,19 @@
 //! The one table of keys with their functions, for dispatch, footer, help, list of commands, configuration, demo and
 //! docs/keys.md.
 
-use super::{accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, view};
+use super::{
+    accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target, view,
+};
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::{ANY, Bindings, Command, Context, EXPLORE, MANUAL, Row};
+use crate::explorer::keys::key;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::Parameter;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::Focus;
-use Run::{Character, Do, Edit};
-use tui_input::InputRequest;
+use Run::{Do, Key};
+use crossterm::event::KeyEvent;
 
 /// A row of the table with its function and the condition for its place in the footer.
 pub struct Entry {
@@ -22,19 +25,18 @@ pub struct Entry {
 #[derive(Clone, Copy)]
 enum Run {
     Do(fn(&mut App)),
-    /// Runs a function that also takes the character of the key.
-    Character(fn(&mut App, char)),
-    Edit(InputRequest),
+    /// Runs a function that also takes the key, for keys that differ in what they do.
+    Key(fn(&mut App, &KeyEvent)),
 }
 
 /// Runs a command, which changes the state.
 pub fn run(command: Command, app: &mut App) {
     let Some(entry) = TABLE.iter().find(|entry| std::ptr::eq(&entry.row, command.row)) else { return };
-    match (entry.run, command.character) {
+    // A command by its name alone is that of its first key.
+    let first = || key::Key::named(command.row.keys.split(' ').next()?).map(|key| key.event());
+    match (entry.run, command.key) {
         (Do(change), _) => change(app),
-        (Character(change), Some(character)) => change(app, character),
-        (Character(_), None) => {}
-        (Edit(request), _) => edit::edit_line(app, |line| line.edit(request)),
+        (Key(change), key) => key.or_else(first).iter().for_each(|key| change(app, key)),
     }
 }
 
@@ -87,9 +89,10 @@ const fn row(
     help: &'static str,
     section: &'static str,
 ) -> Entry {
-    let takes_character = matches!(run, Character(_));
+    let takes_key = matches!(run, Key(_));
     let (rank, is_listed, merges) = (3, true, false);
-    let row = Row { keys, contexts, name, label, help, section, rank, is_listed, merges, takes_character };
+    let words = "";
+    let row = Row { keys, contexts, name, label, help, words, section, rank, is_listed, merges, takes_key };
     Entry { row, run, is_shown: always }
 }
 
@@ -101,6 +104,11 @@ impl Entry {
 
     const fn shown_if(mut self, is_shown: fn(&App) -> bool) -> Entry {
         self.is_shown = is_shown;
+        self
+    }
+
+    const fn words(mut self, words: &'static str) -> Entry {
+        self.row.words = words;
         self
     }
 
@@ -142,32 +150,31 @@ static TABLE: &[Entry] = &[
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this loading stage or of the previous one", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off, the smallest force of the last unloading", ANIMATION),
 
-    row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL),
+    row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading at the present indentation, or end it", MANUAL).words("minor loop hand by hand"),
     row("]", EXPLORE, "press", Do(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),
     row("[", EXPLORE, "pull", Do(|app| movement::push(app, -1, false)), "press/pull", "pull by a small step", MANUAL).shown_if(is_manual),
     row("}", EXPLORE, "press-coarse", Do(|app| movement::push(app, 1, true)), "large step", "press by a large step", MANUAL).shown_if(is_manual),
     row("{", EXPLORE, "pull-coarse", Do(|app| movement::push(app, -1, true)), "large step", "pull by a large step", MANUAL).shown_if(is_manual),
-    row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).shown_if(is_manual),
+    row("F", EXPLORE, "type-force", Do(|app| app.ask(Purpose::Force, "")), "force", "type a target force", MANUAL).words("minor loop target load").shown_if(is_manual),
     row("S", EXPLORE, "separate", Do(movement::separate), "separate", "pull to separation", MANUAL).shown_if(is_manual),
-    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the path of manual loading as the loading of the scene", MANUAL).shown_if(is_manual),
+    row("W", OUTSIDE_MAP, "keep-path", Do(stages::keep_path), "keep path", "keep the path of manual loading as the loading of the scene", MANUAL).words("minor loop history").shown_if(is_manual),
 
     row("↑ k", ROWS, "previous-parameter", Do(|app| edit::move_selection(app, -1)), "", "select the parameter above", PARAMETERS),
     row("↓ j", ROWS, "next-parameter", Do(|app| edit::move_selection(app, 1)), "select", "select the parameter below", PARAMETERS),
-    row("Home g", LIST, "first-parameter", Do(|app| edit::move_selection(app, i32::MIN)), "", "select the first parameter", PARAMETERS),
-    row("End G", LIST, "last-parameter", Do(|app| edit::move_selection(app, i32::MAX)), "", "select the last parameter", PARAMETERS),
-    row("PageUp", LIST, "previous-parameters", Do(|app| dialogue::page(app, -1)), "", "go up a page of the parameters", PARAMETERS),
-    row("PageDown", LIST, "next-parameters", Do(|app| dialogue::page(app, 1)), "", "go down a page of the parameters", PARAMETERS),
+    row("Home End g G", LIST, "parameter-at-end", Key(edit::go_to_end), "", "select the first or the last parameter", PARAMETERS).unlisted(),
+    row("PageDown PageUp", LIST, "page-parameters", Key(dialogue::page), "", "go a page of the parameters down or up", PARAMETERS).unlisted(),
     row("← h", LIST, "decrease", Do(|app| stages::step_value(app, -1, false)), "", "decrease the value by a small step", PARAMETERS),
     row("→ l", LIST, "increase", Do(|app| stages::step_value(app, 1, false)), "change", "increase the value by a small step", PARAMETERS),
     row("Shift+← H", LIST, "decrease-coarse", Do(|app| stages::step_value(app, -1, true)), "", "decrease the value by a large step", PARAMETERS),
     row("Shift+→ L", LIST, "increase-coarse", Do(|app| stages::step_value(app, 1, true)), "", "increase the value by a large step", PARAMETERS),
     row("Enter e", LIST, "edit-value", Do(|app| edit::edit_value(app, None)), "type", "type a value, with an optional prefix and unit: 2.5 MPa, 10 µm, 50m", PARAMETERS),
-    row("0–9", LIST, "start-value", Character(|app, first| edit::edit_value(app, Some(first))), "type", "type a number for the selected parameter; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
-    row("- .", VALUES, "start-sign", Character(|app, first| edit::edit_value(app, Some(first))), "", "the same, while the pane of parameters is selected", PARAMETERS).unlisted(),
+    row("0–9", LIST, "start-value", Key(edit::start_value), "type", "type a number for the selected parameter; not for a choice, a switch or a group", PARAMETERS).unlisted().shown_if(takes_number),
+    row("- .", VALUES, "start-sign", Key(edit::start_value), "", "the same, while the pane of parameters is selected", PARAMETERS).unlisted(),
     row("/", EXPLORE, "find-parameter", Do(dialogue::find_parameter), "find", "find a parameter by words of its name, symbol or meaning", PARAMETERS),
+    row("f", LIST, "find-value", Do(target::ask), "for target", "find the value of the selected row, or the preload, for a target such as F_a/F_a,max = 80 %", PARAMETERS).words("inverse question goal reach required which"),
     row("t", LIST, "toggle-effect", Do(edit::toggle_effect), "on/off", "switch the effect of the selected row on or off", PARAMETERS),
-    row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS),
-    row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS),
+    row("R", EXPLORE, "reseed", Do(edit::draw_seed), "reseed", "draw another random profile", PARAMETERS).words("seed realisation realization random"),
+    row("%", EXPLORE, "type-tolerance", Do(accuracy::type_tolerance), "", "type a tolerance (0.1 %, 1e-3): selects number of springs and edges", PARAMETERS).words("accuracy precision error convergence springs"),
     row("u", EXPLORE, "undo", Do(|app| edit::undo(app, true)), "undo", "undo the last edit", PARAMETERS),
     row("U Ctrl+r", EXPLORE, "redo", Do(|app| edit::undo(app, false)), "", "redo the edit", PARAMETERS),
 
@@ -177,95 +184,63 @@ static TABLE: &[Entry] = &[
     row("Shift+↓ J", LIST, "move-stage-down", Do(|app| stages::shift(app, 1)), "move", "move the selected stage down", STAGES).rank(1).shown_if(is_stage),
     row("V", LIST, "next-stage-kind", Do(|app| stages::change_kind(app, true)), "kind", "change the stage: force, indentation, displacement, touch, zero force or separation", STAGES).rank(1).shown_if(is_stage),
 
-    row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).rank(2),
+    row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).words("ghost overlay keep").rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
     row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.edit.measured.is_some()),
 
-    row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or patches", LOOK),
-    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK),
-    row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK),
+    row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or patches", LOOK).words("contact area displacement quantity axis"),
+    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
+    row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK).words("hysteresis loss work energy"),
     row("n", EXPLORE, "next-patch", Do(|app| view::go_to_patch(app, Focus::After)), "patch", "show the next contact patch", LOOK),
     row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_patch(app, Focus::Before)), "", "show the previous contact patch", LOOK),
-    row("b", EXPLORE, "longest-patch", Do(|app| app.view.close_up.focus = Focus::Largest), "", "show the longest contact patch", LOOK),
-    row("B", EXPLORE, "most-loaded-patch", Do(|app| app.view.close_up.focus = Focus::MostLoaded), "", "show the contact patch under the largest force", LOOK),
-    row("f", EXPLORE, "first-touch", Do(|app| app.view.close_up.focus = Focus::Summit), "", "show the point of first touch", LOOK),
     row("+ =", EXPLORE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom in: the profile if selected, else the close-up", LOOK),
     row("-", OTHER_PANES, "zoom-out", Do(|app| view::zoom(app, -1)), "", "zoom out", LOOK),
-    row("(", EXPLORE, "pan-left", Do(|app| view::pan(app, -1)), "", "pan left along the profile", LOOK),
-    row(")", EXPLORE, "pan-right", Do(|app| view::pan(app, 1)), "", "pan right along the profile", LOOK),
+    row("( )", EXPLORE, "pan", Key(view::pan), "", "pan left or right along the profile", LOOK).unlisted(),
     row("Z", EXPLORE, "reset-zoom", Do(view::reset_zoom), "", "show the whole profile", LOOK),
-    row("w", EXPLORE, "toggle-large-force", Do(App::toggle_large_force), "", "show the force curve in place of profile and close-up, or these two", LOOK),
-    row("A", EXPLORE, "toggle-accuracy", Do(|app| app.toggle(Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK),
-    row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK),
-    row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK),
+    row("A", EXPLORE, "toggle-accuracy", Do(|app| app.toggle(Pane::Accuracy)), "accuracy", "show errors against time and the computing stages, in place of profile and close-up", LOOK).words("trust error uncertainty budget theories criteria Persson Tabor JKR convergence cost time"),
+    row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number q in place of profile and close-up", LOOK).words("spectrum power spectral density PSD roughness"),
+    row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload, in place of profile and close-up", LOOK).words("spread scatter ensemble profiles statistics median quartiles load"),
     row("X", EXPLORE, "toggle-preload-scale", Do(view::toggle_preload_scale), "log/linear", "plot adhesion against preload on logarithmic axes, or on linear ones", LOOK).rank(1).shown_if(|app| app.view.pane == Pane::Preloads),
-    row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show changes of F_a by ±10 % of each number, in place of profile and close-up", LOOK),
+    row("Y", EXPLORE, "toggle-sensitivity", Do(|app| app.toggle(Pane::Sensitivity)), "", "show changes of F_a by ±10 % of each number, in place of profile and close-up", LOOK).words("influence derivative variation"),
     row("Tab", EXPLORE, "next-pane", Do(view::next_pane), "pane", "select the next pane", LOOK).rank(2),
     row("Ctrl+l", ANY, "redraw", Do(|app| app.effects.push(Task::Redraw)), "", "draw the whole screen again", LOOK),
-    row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK),
-    row("T", EXPLORE, "next-theme", Do(view::next_theme), "", "change the colours", LOOK),
-    row("M", EXPLORE, "next-marker", Do(view::next_marker), "", "draw plots in braille, or the whole screen in ASCII", LOOK),
+    row("z", EXPLORE, "zoom-pane", Do(|app| app.view.zoomed ^= true), "zoom", "show the selected pane on the whole screen, or all panes", LOOK).words("full screen fullscreen maximise"),
+    row("T", EXPLORE, "next-theme", Do(view::next_theme), "", "change the colours", LOOK).words("theme colors appearance dark light"),
 
-    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair, which reads the curves of the selected pane", CROSS),
-    row("← h", CROSSHAIR, "crosshair-left", Do(|app| crosshair::move_by(app, -1, false)), "", "move the crosshair left", CROSS),
-    row("→ l", CROSSHAIR, "crosshair-right", Do(|app| crosshair::move_by(app, 1, false)), "move", "move the crosshair right", CROSS),
-    row("Shift+← H", CROSSHAIR, "crosshair-left-coarse", Do(|app| crosshair::move_by(app, -1, true)), "", "move the crosshair left by a large step", CROSS),
-    row("Shift+→ L", CROSSHAIR, "crosshair-right-coarse", Do(|app| crosshair::move_by(app, 1, true)), "", "move the crosshair right by a large step", CROSS),
-    row("Home g", CROSSHAIR, "crosshair-start", Do(|app| crosshair::go_to_end(app, false)), "", "move the crosshair to the left end", CROSS),
-    row("End G", CROSSHAIR, "crosshair-end", Do(|app| crosshair::go_to_end(app, true)), "", "move the crosshair to the right end", CROSS),
+    row("*", EXPLORE, "toggle-crosshair", Do(crosshair::toggle), "read", "show or hide the crosshair, which reads the curves of the selected pane", CROSS).words("cursor values coordinates"),
+    row("← → h l Shift+← Shift+→ H L", CROSSHAIR, "move-crosshair", Key(crosshair::step), "move", "move the crosshair left or right by a small or a large step", CROSS).unlisted(),
+    row("Home End g G", CROSSHAIR, "crosshair-to-end", Key(crosshair::go_to_end), "", "move the crosshair to the left or the right end", CROSS).unlisted(),
     row("Esc", CROSSHAIR, "hide-crosshair", Do(crosshair::toggle), "hide", "hide the crosshair", CROSS),
 
-    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ, in place of profile and close-up", MAP).rank(2),
-    row("← h", MAP_PANE, "move-left", Do(|app| map::step(app, -1, 0)), "", "move the scene to the value on the left: decrease H; successive moves are one edit", MAP).merges(),
-    row("→ l", MAP_PANE, "move-right", Do(|app| map::step(app, 1, 0)), "move", "move the scene to the value on the right: increase H", MAP).merges(),
-    row("↓ j", MAP_PANE, "move-down", Do(|app| map::step(app, 0, -1)), "", "move the scene to the value below: decrease κ", MAP).merges(),
-    row("↑ k", MAP_PANE, "move-up", Do(|app| map::step(app, 0, 1)), "", "move the scene to the value above: increase κ", MAP).merges(),
-    row("Shift+← H", MAP_PANE, "move-left-coarse", Do(|app| map::step(app, -4, 0)), "", "move by four values to the left", MAP).merges(),
-    row("Shift+→ L", MAP_PANE, "move-right-coarse", Do(|app| map::step(app, 4, 0)), "", "move by four values to the right", MAP).merges(),
-    row("Shift+↓ J", MAP_PANE, "move-down-coarse", Do(|app| map::step(app, 0, -4)), "", "move by four values down: half the κ", MAP).merges(),
-    row("Shift+↑ K", MAP_PANE, "move-up-coarse", Do(|app| map::step(app, 0, 4)), "", "move by four values up: twice the κ", MAP).merges(),
+    row("m", EXPLORE, "toggle-map", Do(|app| app.toggle(Pane::Map)), "map", "show the regimes over H and κ, in place of profile and close-up", MAP).words("phase diagram").rank(2),
+    row("← → ↓ ↑ h l j k", MAP_PANE, "move-scene", Key(map::step), "move", "move the scene to the next value of H or κ; successive moves are one edit", MAP).merges().unlisted(),
+    row("Shift+← Shift+→ Shift+↓ Shift+↑ H L J K", MAP_PANE, "move-scene-coarse", Key(map::step), "", "move the scene by four values: up to twice the κ, down to half of it", MAP).merges().unlisted(),
     row("V", MAP_PANE, "next-map-quantity", Do(|app| app.map.quantity = app.next_mapped()), "quantity", "map another quantity: regime, F_a(0)/F_a,max, F_a/F_n; all recorded ones of a study", MAP),
     row("W", MAP_PANE, "toggle-study", Do(map::toggle_study), "", "show the map of the opened study, or the live map", MAP),
-    row("P PageDown", MAP_PANE, "next-slice", Do(|app| map::step_slice(app, 1)), "", "show the next preload of the study, or value of a further axis; the scene follows", MAP),
-    row("PageUp", MAP_PANE, "previous-slice", Do(|app| map::step_slice(app, -1)), "", "show the previous one", MAP),
+    row("P PageDown PageUp", MAP_PANE, "next-slice", Key(map::step_slice), "", "show the next or the previous preload of the study, or value of a further axis; the scene follows", MAP),
 
-    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene by name, number or path; or the folder of a study, or a measured force curve", SCENE).rank(2),
-    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).rank(2),
-    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane: table (.csv, .npy, .json), figure (.svg, .png, .pdf), screen (.txt)", SCENE),
+    row("o", EXPLORE, "open-library", Do(dialogue::open_library), "open", "open a scene by name, number or path; or the folder of a study, or a measured force curve", SCENE).words("load file preset example").rank(2),
+    row("s", EXPLORE, "save", Do(|app| files::ask_save(app, false)), "save", "save the scene to a file", SCENE).words("write file store").rank(2),
+    row("E", EXPLORE, "export", Do(files::ask_export), "export", "export the selected pane: table (.csv, .npy, .json), figure (.svg, .png, .pdf), screen (.txt)", SCENE).words("figure picture print image table data csv pdf"),
     row("y", EXPLORE, "copy-command", Do(files::copy_command), "copy", "copy the command that opens the present scene", SCENE),
     row(": Ctrl+p", EXPLORE, "open-palette", Do(dialogue::open_commands), "commands", "find a command by words of its description, and run it", SCENE).rank(2).unlisted(),
-    row("? F1", EXPLORE, "help", Do(dialogue::open_help), "help", "show this help", SCENE).rank(0),
-    row("q Ctrl+c", EXPLORE, "quit", Do(files::ask_quit), "quit", "quit", SCENE).rank(0),
+    row("? F1", EXPLORE, "help", Do(dialogue::open_help), "help", "show this help", SCENE).words("manual documentation keys").rank(0),
+    row("q Ctrl+c", EXPLORE, "quit", Do(files::ask_quit), "quit", "quit", SCENE).words("exit leave close").rank(0),
     row("Ctrl+z", ANY, "suspend", Do(|app| app.effects.push(Task::Suspend)), "", "suspend to the shell; fg resumes", SCENE),
 
-    row("↓ j space", HELP, "next-row", Do(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
-    row("↑ k", HELP, "previous-row", Do(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),
-    row("Home g", HELP, "first-row", Do(|app| dialogue::select(app, i32::MIN)), "", "select the first row", TEXT),
-    row("End G", HELP, "last-row", Do(|app| dialogue::select(app, i32::MAX)), "", "select the last row", TEXT),
+    row("↓ ↑ j k space Home End g G", HELP, "select-row", Key(dialogue::select_by), "select", "select the next, previous, first or last row", TEXT),
     row("/", HELP, "search-help", Do(dialogue::search_help), "find", "search the help by words", TEXT),
     row("Esc ? q F1 Ctrl+c", HELP, "close-help", Do(dialogue::cancel), "back", "close the help", TEXT).rank(0),
-    row("↓ Ctrl+n", SEARCHED, "next-row", Do(|app| dialogue::select(app, 1)), "select", "select the row below", TEXT),
-    row("↑ Ctrl+p", SEARCHED, "previous-row", Do(|app| dialogue::select(app, -1)), "", "select the row above", TEXT),
-    row("PageDown", LISTS, "next-page", Do(|app| dialogue::page(app, 1)), "page", "go down a page", TEXT),
-    row("PageUp", LISTS, "previous-page", Do(|app| dialogue::page(app, -1)), "", "go up a page", TEXT),
-    row("Home", SEARCHED, "first-row", Do(|app| dialogue::select(app, i32::MIN)), "", "select the first row", TEXT),
-    row("End", SEARCHED, "last-row", Do(|app| dialogue::select(app, i32::MAX)), "", "select the last row", TEXT),
+    row("↓ ↑ Ctrl+n Ctrl+p Home End", SEARCHED, "select-row", Key(dialogue::select_by), "select", "select the next, previous, first or last row", TEXT),
+    row("PageDown PageUp", LISTS, "page-rows", Key(dialogue::page), "page", "go down or up a page", TEXT),
     row("Enter", TYPED, "accept", Do(dialogue::accept), "accept", "accept the typed text, or the selected row", TEXT),
     row("Tab", TYPED, "complete", Do(dialogue::complete), "complete", "complete the typed path, in a value the one between quotes", TEXT).shown_if(dialogue::can_complete),
     row("Esc Ctrl+c", TYPED, "cancel", Do(dialogue::cancel), "cancel", "cancel: keep the previous value", TEXT),
-    row("← Ctrl+b", TYPED, "cursor-left", Edit(InputRequest::GoToPrevChar), "", "move the cursor left", TEXT),
-    row("→ Ctrl+f", TYPED, "cursor-right", Edit(InputRequest::GoToNextChar), "", "move the cursor right", TEXT),
-    row("Home", LINE, "cursor-start", Edit(InputRequest::GoToStart), "", "move the cursor to the start", TEXT),
-    row("End", LINE, "cursor-end", Edit(InputRequest::GoToEnd), "", "move the cursor to the end", TEXT),
-    row("Ctrl+a", TYPED, "cursor-start", Edit(InputRequest::GoToStart), "", "move the cursor to the start", TEXT),
-    row("Ctrl+e", TYPED, "cursor-end", Edit(InputRequest::GoToEnd), "", "move the cursor to the end", TEXT),
-    row("Backspace Ctrl+h", TYPED, "delete-backwards", Edit(InputRequest::DeletePrevChar), "", "delete the character before the cursor", TEXT),
-    row("Ctrl+←", TYPED, "word-left", Edit(InputRequest::GoToPrevWord), "", "move the cursor to the start of the word", TEXT),
-    row("Ctrl+→", TYPED, "word-right", Edit(InputRequest::GoToNextWord), "", "move the cursor to the next word", TEXT),
-    row("Ctrl+w", TYPED, "delete-word", Edit(InputRequest::DeletePrevWord), "", "delete the word before the cursor", TEXT),
-    row("Delete Ctrl+d", TYPED, "delete-forwards", Edit(InputRequest::DeleteNextChar), "", "delete the character under the cursor", TEXT),
-    row("Ctrl+u", TYPED, "clear", Edit(InputRequest::DeleteLine), "clear", "clear the typed text", TEXT),
+    row("← → Ctrl+b Ctrl+f Ctrl+← Ctrl+→ Ctrl+a Ctrl+e", TYPED, "move-cursor", Key(edit::edit_by), "", "move the cursor by a character, by a word, or to an end of the text", TEXT),
+    row("Home End", LINE, "cursor-to-end", Key(edit::edit_by), "", "move the cursor to the start or the end of the text", TEXT),
+    row("Backspace Delete Ctrl+h Ctrl+d Ctrl+w", TYPED, "delete", Key(edit::edit_by), "", "delete the character before or under the cursor, or the word before it", TEXT),
+    row("Ctrl+u", TYPED, "clear", Do(edit::clear_line), "clear", "clear the typed text", TEXT),
     row("y", OVERWRITE, "accept", Do(dialogue::accept), "overwrite", "overwrite the file", TEXT),
     row("n Esc Ctrl+c", OVERWRITE, "cancel", Do(dialogue::cancel), "keep it", "keep the existing file", TEXT),
     row("s", LEAVE, "save-then-quit", Do(files::save_before_leaving), "save", "save, then quit", TEXT),

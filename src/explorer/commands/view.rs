@@ -1,12 +1,13 @@
 //! Changes of the view: panes, close-up, visible part of the line, quantities, colours.
 
 use crate::explorer::action::Task;
-use crate::explorer::app::{App, CloseUpTarget};
+use crate::explorer::app::App;
 use crate::explorer::pane::Pane;
 use crate::explorer::request::{Focus, LineView};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Cycle;
 use asperity_data::AxisScale;
+use crossterm::event::{KeyCode, KeyEvent};
 use std::sync::Arc;
 
 /// Smallest number of springs in a section of the profile.
@@ -18,10 +19,10 @@ pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     app.view.close_up.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
-/// Shows the whole profile, and the close-up at its initial size.
+/// Shows the whole profile, and in the close-up the whole patch.
 pub fn reset_zoom(app: &mut App) {
     app.view.profile = LineView::WHOLE;
-    app.view.close_up.springs = CloseUpTarget::springs_shown(&app.edit.document);
+    app.view.close_up.springs = None;
 }
 
 pub fn next_pane(app: &mut App) {
@@ -33,13 +34,6 @@ pub fn next_pane(app: &mut App) {
 pub fn next_theme(app: &mut App) {
     app.view.appearance.theme = app.view.appearance.theme.next();
     app.set_done(format!("colours: {}", app.view.appearance.theme.name()));
-}
-
-pub fn next_marker(app: &mut App) {
-    app.view.appearance.marker = app.view.appearance.marker.next();
-    app.set_done(format!("markers: {}", app.view.appearance.marker.name()));
-    // A terminal may have given the former markers another width than the program.
-    app.effects.push(Task::Redraw);
 }
 
 /// Changes between equal distances and equal ratios of the preloads.
@@ -55,6 +49,12 @@ fn springs(app: &App) -> usize {
     app.solved.as_ref().map_or(1, |computed| computed.outcome.line.points).max(1)
 }
 
+/// Number of springs in the close-up.
+fn close_up_springs(app: &App) -> usize {
+    let shown = app.snapshot.as_ref().map(|snapshot| snapshot.close_up.section.springs);
+    app.view.close_up.springs.or(shown).unwrap_or(FEWEST_SPRINGS)
+}
+
 /// Zooms the profile if its pane is selected, otherwise the close-up; positive steps zoom in.
 pub fn zoom(app: &mut App, steps: i32) {
     let most = springs(app);
@@ -66,9 +66,9 @@ pub fn zoom(app: &mut App, steps: i32) {
             app.view.profile = LineView::WHOLE;
         }
     } else {
-        let springs = app.view.close_up.springs;
+        let springs = close_up_springs(app);
         let springs = if steps > 0 { springs / 2 } else { springs * 2 };
-        app.view.close_up.springs = springs.clamp(FEWEST_SPRINGS, most.max(FEWEST_SPRINGS));
+        app.view.close_up.springs = Some(springs.clamp(FEWEST_SPRINGS, most.max(FEWEST_SPRINGS)));
     }
 }
 
@@ -81,7 +81,7 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
         (position / snapshot.line.spacing - first) / section.springs.max(1) as f64
     };
     let pointer = position.zip(app.snapshot.as_ref()).map(share);
-    let (profile, springs_before) = (app.view.profile, app.view.close_up.springs as f64);
+    let (profile, springs_before) = (app.view.profile, close_up_springs(app) as f64);
     zoom(app, steps);
     let Some(pointer) = pointer else { return };
     let away = pointer - 0.5;
@@ -93,14 +93,14 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     } else if let Some(snapshot) = &app.snapshot {
         let section = &snapshot.close_up.section;
         let middle = section.first as f64 + section.springs as f64 / 2.0;
-        let to = middle + away * (springs_before - app.view.close_up.springs as f64);
+        let to = middle + away * (springs_before - close_up_springs(app) as f64);
         app.view.close_up.focus = Focus::Spring(to.clamp(0.0, (springs(app) - 1) as f64) as usize);
     }
 }
 
-/// Moves along the profile by quarters of the visible part.
-pub fn pan(app: &mut App, quarters: i32) {
-    let quarters = f64::from(quarters) / 4.0;
+/// Moves along the profile by a quarter of the visible part.
+pub fn pan(app: &mut App, key: &KeyEvent) {
+    let quarters = if key.code == KeyCode::Char('(') { -0.25 } else { 0.25 };
     if app.view.pane == Pane::Profile {
         let half = app.view.profile.share / 2.0;
         let centre = app.view.profile.centre + quarters * app.view.profile.share;

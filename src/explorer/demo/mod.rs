@@ -118,9 +118,9 @@ impl Demo {
                 self.cues.push_front(Cue::Repeat(times - 1, seconds, command));
             }
             Cue::Select(path) => {
-                self.explorer.command("first-parameter");
-                let place = self.explorer.app.edit.parameters.iter().position(|one| one.path == path);
-                (0..place.unwrap_or(0)).for_each(|_| drop(self.explorer.command("next-parameter")));
+                let edit = &mut self.explorer.app.edit;
+                let place = edit.parameters.iter().position(|one| one.path == path);
+                edit.select(place.unwrap_or(0));
             }
             Cue::Enter(value) => {
                 self.explorer.command("edit-value");

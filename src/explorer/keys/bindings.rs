@@ -2,7 +2,7 @@
 
 use super::key::Key;
 use asperity_scene::nearest;
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::KeyEvent;
 use std::fmt;
 
 /// Context of keys: it depends on the prompt or, without a prompt, on the selected pane.
@@ -34,21 +34,23 @@ pub struct Row {
     /// Word for the footer; empty for a function that the footer leaves out.
     pub label: &'static str,
     pub help: &'static str,
+    /// Everyday words for the function that its description does not have.
+    pub words: &'static str,
     pub section: &'static str,
     /// Rank in the footer; the smallest is first.
     pub rank: u8,
     pub is_listed: bool,
     /// True if a further command of the kind continues the same edit.
     pub merges: bool,
-    /// True if the function receives the character of the key.
-    pub takes_character: bool,
+    /// True if the keys differ in what the function does, which receives the key.
+    pub takes_key: bool,
 }
 
-/// A row of the table as a command, with the character of the key if its function receives one.
+/// A row of the table as a command, with the pressed key.
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
     pub row: &'static Row,
-    pub character: Option<char>,
+    pub key: Option<KeyEvent>,
 }
 
 impl fmt::Debug for Row {
@@ -65,7 +67,7 @@ pub const MANUAL: &str = "Manual loading";
 impl Row {
     /// Returns true if the configuration may replace the keys of the row. Digits and keys for prompts are fixed.
     fn is_rebindable(&self) -> bool {
-        !self.takes_character && self.contexts.iter().all(|context| EXPLORE.contains(context))
+        !self.takes_key && self.contexts.iter().all(|context| EXPLORE.contains(context))
     }
 
     /// Returns true if the list of commands has the row. Keys for texts and questions only work in a prompt.
@@ -113,21 +115,19 @@ impl Bindings {
     }
 
     pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
-        let character = if let KeyCode::Char(character) = event.code { Some(character) } else { None };
         let found = self.valid_in(context).find(|one| one.keys.iter().any(|key| key.matches(event)))?;
-        Some(Command { row: found.row, character })
+        Some(Command { row: found.row, key: Some(*event) })
     }
 
     pub fn listed(&self) -> impl Iterator<Item = &Binding> {
         self.rows().filter(|binding| binding.row.is_listed())
     }
 
-    /// The command with a name in a context, with a character if the row takes one: `start-value 3`.
+    /// The command with a name in a context, with a key if the row takes one: `start-value 3`.
     pub fn named(&self, name: &str, context: Context) -> Option<Command> {
-        let (name, character) =
-            name.split_once(' ').map_or((name, None), |(name, rest)| (name, rest.parse().ok()));
+        let (name, key) = name.split_once(' ').map_or((name, None), |(name, key)| (name, Key::named(key)));
         let found = self.valid_in(context).find(|binding| binding.row.name == name)?;
-        Some(Command { row: found.row, character })
+        Some(Command { row: found.row, key: key.map(|key| key.event()) })
     }
 
     /// Keys and rows for the footer in a context, the most important first; neighbouring rows with the same label are one
@@ -142,7 +142,11 @@ impl Bindings {
         let mut rows: Vec<&Binding> = self.valid_in(context).filter(is_shown).collect();
         rows.sort_by_key(|binding| binding.row.place(is_manual));
         let items = rows.chunk_by(|one, next| one.row.label == next.row.label);
-        let first = |binding: &&Binding| binding.keys.first().map_or("", |key| &key.name).to_owned();
+        // Of keys that differ in what they do the first two.
+        let first = |binding: &&Binding| {
+            let keys = binding.keys.iter().take(1 + usize::from(binding.row.takes_key));
+            keys.map(|key| key.name.as_str()).collect::<Vec<_>>().join(" ")
+        };
         items.map(|rows| (rows.iter().map(first).collect::<Vec<_>>().join(" "), rows[0].row)).collect()
     }
 
@@ -207,6 +211,9 @@ mod tests {
     use crate::explorer::commands::table::bindings;
     use crossterm::event::{KeyCode, KeyModifiers};
 
+    /// Largest number of rows of the table of keys, which a user reads in the help.
+    const MOST_ROWS: usize = 95;
+
     #[test]
     fn every_key_has_a_name_and_one_meaning_in_each_context() {
         assert_eq!(bindings().conflict(), None);
@@ -231,14 +238,22 @@ mod tests {
     }
 
     #[test]
+    fn the_table_is_short() {
+        let rows = bindings().rows().count();
+        assert!(rows <= MOST_ROWS, "{rows} rows; allowed: at most {MOST_ROWS}");
+    }
+
+    #[test]
     fn a_command_is_found_by_its_name_where_it_is_valid() {
         let bindings = bindings();
-        let name = |command: Option<Command>| command.map(|command| (command.row.name, command.character));
+        let name = |command: Option<Command>| {
+            command.map(|command| (command.row.name, command.key.map(|key| key.code)))
+        };
         assert_eq!(name(bindings.named("pull-coarse", Context::Explore)), Some(("pull-coarse", None)));
         assert_eq!(name(bindings.named("accept", Context::Explore)), None);
         assert_eq!(name(bindings.named("no such command", Context::Explore)), None);
         let three = KeyEvent::new(KeyCode::Char('3'), KeyModifiers::NONE);
-        let typed = Some(("start-value", Some('3')));
+        let typed = Some(("start-value", Some(KeyCode::Char('3'))));
         assert_eq!(name(bindings.named("start-value 3", Context::Explore)), typed);
         assert_eq!(name(bindings.command(&three, Context::Explore)), typed);
         assert_eq!(name(bindings.command(&three, Context::Parameters)), typed);

@@ -63,6 +63,21 @@ impl Key {
     }
 }
 
+/// Direction of an arrow or of its letter, in columns to the right and in rows upwards, and whether the step is a large
+/// one; `None` for another key.
+pub fn direction(key: &KeyEvent) -> Option<((i32, i32), bool)> {
+    let is_coarse = key.modifiers.contains(KeyModifiers::SHIFT);
+    let way = match key.code {
+        KeyCode::Left | KeyCode::Char('h' | 'H') => (-1, 0),
+        KeyCode::Right | KeyCode::Char('l' | 'L') => (1, 0),
+        KeyCode::Up | KeyCode::Char('k' | 'K') => (0, 1),
+        KeyCode::Down | KeyCode::Char('j' | 'J') => (0, -1),
+        _ => return None,
+    };
+    let is_capital = matches!(key.code, KeyCode::Char(letter) if letter.is_uppercase());
+    Some((way, is_coarse || is_capital))
+}
+
 const NAMES: [(&str, KeyCode); 19] = [
     ("space", KeyCode::Char(' ')),
     ("↑", KeyCode::Up),

@@ -3,11 +3,11 @@
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
-use crate::explorer::panel::{Panel, names};
+use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled};
-use crate::explorer::theme::{Appearance, Meaning};
+use crate::explorer::theme::Meaning;
 use asperity_contact::Edges;
 use asperity_data::format_rounded;
 use asperity_data::{grouped, per_cent};
@@ -18,7 +18,7 @@ use asperity_scene::{CostTable, Estimate, Knob, Progress, measure};
 use asperity_scene::{Numerics, Solver};
 use asperity_scene::{Stage, Workload};
 use ratatui::layout::Size;
-use ratatui::text::{Line, Span as Text};
+use ratatui::text::Span as Text;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -73,7 +73,7 @@ const TARGETS: [f64; 2] = [0.01, 0.001];
 const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
-    let title = "Accuracy: error over time, log–log".to_owned();
+    let title = "Accuracy: relative error over time, log–log".to_owned();
     let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
     let parts = std::iter::once(sentence(app, table)).chain(stages(app));
     let foot = parts.flat_map(|parts| filled(parts, "  ", size.width.into())).collect();
@@ -81,8 +81,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
         return Panel { foot, ..Panel::of_text(title, &nothing_yet(app)) };
     };
-    let head = entries(table, &chart, size.width, app.view.appearance);
-    Panel { head, foot, ..Panel::of_chart(title, with_scene(chart, app, table)) }
+    Panel { foot, ..Panel::of_chart(title, with_scene(with_orders(chart, table), app, table)) }
 }
 
 fn nothing_yet(app: &App) -> String {
@@ -152,16 +151,15 @@ fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
     Some((between(before.0, there.0), between(before.1, there.1)))
 }
 
-/// Legend: the sign of each knob, with its observed order of convergence.
-fn entries(table: &CostTable, chart: &Chart, width: u16, look: Appearance) -> Vec<Line<'static>> {
-    let mut parts = names(chart, look);
-    for part in &mut parts {
-        let is_of = |knob: &Knob| part.last().is_some_and(|name| name.content.trim_start() == knob.name());
-        if let Some(order) = Knob::ALL.iter().find(|knob| is_of(knob)).and_then(|knob| table.order(*knob)) {
-            part.push(Text::raw(format!(" order {order:.1}")));
+/// The chart with the observed order of convergence in the name of each kind of setting.
+fn with_orders(mut chart: Chart, table: &CostTable) -> Chart {
+    for layer in &mut chart.layers {
+        let knob = Knob::ALL.iter().find(|knob| layer.name.to_string() == knob.name());
+        if let Some(order) = knob.and_then(|knob| table.order(*knob)) {
+            layer.name = layer.name.clone().then(&format!(", order {order:.1}"));
         }
     }
-    filled(parts, "  ", usize::from(width))
+    chart
 }
 
 /// Error and time of the scene, springs and time of the fastest setting for each target, and the setting that is tried now.

@@ -5,22 +5,24 @@ use crate::explorer::app::App;
 use crate::explorer::caption::caption;
 use crate::explorer::ghost::{Ghost, letter};
 use crate::explorer::measured::{Measured, fitted};
-use crate::explorer::panel::{Body, Panel, WITH_BELOW, meaning, names, spaced};
-use crate::explorer::text::filled;
+use crate::explorer::panel::{Body, Panel, meaning};
+use crate::explorer::text::counted;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction};
-use asperity_data::{AxisScale, format_rounded};
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, glyph};
-use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, loop_chart, sign};
+use asperity_data::{AxisScale, format_rounded, grouped};
+use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
+use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
 use asperity_scene::quoted;
 use asperity_scene::{LEAST_TABOR_NUMBER, Mark, marks};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
+use std::f64::consts::PI;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| match fit_report(app) {
         Some(report) => report.figure(),
+        None if app.manual.is_none() && !app.ghosts.is_empty() => compared(app),
         None => Some(Figure::of_chart(app.edit.document.title(), chart(app)?)),
     },
     report: |app| fit(app).or_else(|| outcome(app)),
@@ -39,6 +41,18 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
     Some(FitReport { title: name, curve, fit: fitted(&app.studies).filter(|_| app.is_current())? })
 }
 
+/// The curves of the kept scenes and of the present one, by their titles, or by what differs where the titles are the same.
+fn compared(app: &App) -> Option<Figure> {
+    let present = app.edit.document.title();
+    let name = |ghost: &Ghost| match ghost.document.title() {
+        same if same == present => differences(app, ghost),
+        other => other.to_owned(),
+    };
+    let names: Vec<String> = app.ghosts.iter().map(name).chain([present.to_owned()]).collect();
+    let outcomes = app.ghosts.iter().map(|ghost| &*ghost.outcome).chain([&app.current()?.outcome]);
+    Some(force_figure(&names.iter().map(String::as_str).zip(outcomes).collect::<Vec<_>>()))
+}
+
 /// The report of the measured curve, with the command that computes the fit.
 fn fit(app: &App) -> Exported<'_> {
     let (report, options) = (fit_report(app)?, &app.edit.measured.as_ref()?.options);
@@ -47,57 +61,98 @@ fn fit(app: &App) -> Exported<'_> {
     Some((command.into(), Box::new(report)))
 }
 
-/// Smallest number of rows of a pane with the label of the vertical axis above the chart.
-const WITH_HEAD: u16 = 7;
 /// Smallest number of rows of a pane that lists the kept scenes.
 const WITH_GHOSTS: u16 = 12;
 
 fn panel(app: &App, size: Size) -> Panel {
     let Some(chart) = shown_chart(app) else {
         let reason = if app.is_computing() { "computing…" } else { "no curve" };
-        return Panel::of_text(title(app), reason);
+        return Panel::of_text(title(app, None), reason);
     };
-    let (theme, width, units) = (app.view.appearance.theme, usize::from(size.width), units(app));
-    let legend = names(&chart, app.view.appearance);
-    let mut edge: Vec<_> = legend.iter().take(usize::from(size.height < WITH_HEAD)).cloned().collect();
-    let mut head: Vec<Line<'static>> = spaced(legend, width).into_iter().collect();
-    let mut texts = Vec::new();
+    let (theme, units) = (app.view.appearance.theme, units(app));
+    let (mut head, mut names) = (Vec::new(), Vec::new());
     if app.is_current() {
-        head.extend(values(app, width));
-        let marks = marks(app.legs()).into_iter().filter(|(mark, _)| units.shows(*mark));
-        texts.extend(marks.map(|(mark, at)| (units.place(&at), mark.name().to_owned(), Ink::Quiet)));
+        let mut marks = marks(app.legs());
+        marks.retain(|(mark, _)| units.shows(*mark));
+        // The most important first.
+        marks.sort_by_key(|(mark, _)| {
+            [Mark::PullOff, Mark::Preload, Mark::JumpIn].iter().position(|one| one == mark).unwrap_or(3)
+        });
+        for (mark, point) in marks {
+            let (name, force) = (mark.name(), units.force_in_words(app.without_rounding(point.force)));
+            let texts = vec![format!("{name} {force}"), force, name.to_owned()];
+            names.push(Name { at: vec![units.place(&point)], texts, ink: Ink::Text });
+        }
     }
     for (number, ghost) in app.ghosts.iter().enumerate().rev() {
         let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
         let ink = Ink::Compared(number);
         let line = format!("{}:{force} {}", letter(number), differences(app, ghost));
         // The curve keeps the larger part of the pane.
-        if size.height >= WITH_GHOSTS && head.len() < 2 + usize::from(size.height / 5) {
+        if size.height >= WITH_GHOSTS && head.len() < usize::from(size.height / 4) {
             head.push(Line::styled(line, theme.style(meaning(ink))));
         }
-        texts.extend(marked(ghost).map(|at| (units.place(&at), letter(number).to_owned(), ink)));
+        let at = marked(ghost).iter().map(|at| units.place(at)).collect();
+        names.push(Name { at, texts: vec![letter(number).to_owned()], ink });
     }
     let below = residuals(app, &chart.x);
-    if below.is_some() && usize::from(size.height) >= head.len() + usize::from(WITH_BELOW) {
-        edge.push(vec![Text::styled("below: residual over noise", theme.style(Meaning::Quiet))]);
-    }
-    let mut panel = Panel { head, edge, ..Panel::of_chart(title(app), chart) };
+    let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
+    let share = app.adhesion_share_in_words().map(|share| vec![Text::raw(share)]);
+    let edge = state(app).into_iter().enumerate().map(|(number, text)| {
+        let sign = (number == 0).then(|| sign.clone());
+        sign.into_iter().chain([Text::raw(text)]).collect()
+    });
+    let mut panel = Panel {
+        head,
+        edge: share.into_iter().chain(edge).collect(),
+        ..Panel::of_chart(title(app, Some(&chart.y)), chart)
+    };
     if let Body::Chart(plot) = &mut panel.body {
-        (plot.names, plot.below) = (texts, below);
+        (plot.names, plot.below) = (names, below);
     }
     panel
 }
 
-fn title(app: &App) -> String {
+/// The shown state in words, the most important first: indentation, force and contact, and under manual loading what the
+/// last move changed. E* l is the stiffness with fixed edges (Popov and Filippov 2012, eq. (1)), p_m the mean pressure on a
+/// circle with the radius of the contact.
+fn state(app: &App) -> Vec<String> {
+    let (Some(snapshot), Some(computed)) = (app.present(), app.solved.as_ref()) else { return Vec::new() };
+    let (outcome, point, units) = (&computed.outcome, snapshot.point, units(app));
+    let force = app.without_rounding(point.force);
+    let mut parts = vec![
+        format!("d {}", format_rounded(point.indentation, 3, "m")),
+        format!("F {}", units.force_in_words(force)),
+    ];
+    match &app.manual {
+        Some(state) => {
+            parts.push(format!("{} changed", counted(state.changed, "spring")));
+            parts.push(format!("released {}", format_rounded(state.released_energy, 2, "J")));
+        }
+        None => {
+            let percent = 100.0 * point.contact_length / outcome.line.length;
+            parts.push(format!("contact {} %", format_rounded(percent, 2, "1")));
+        }
+    }
+    let patches = if point.fragments == 1 { "patch" } else { "patches" };
+    parts.push(format!("{} {patches}", grouped(point.fragments)));
+    let stiffness = outcome.governing.effective_modulus * point.contact_length;
+    parts.push(format!("E*l {}", format_rounded(stiffness, 2, "N/m")));
+    let radius = snapshot.contact_radius;
+    if radius > 0.0 {
+        parts.push(format!("p_m {}", format_rounded(force / (PI * radius * radius), 2, "Pa")));
+    }
+    parts
+}
+
+/// Name of the vertical quantity with its unit, and the event at the shown state.
+fn title(app: &App, y: Option<&Axis>) -> String {
     let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
         LoopQuantities::LengthForce => "Contact length",
         LoopQuantities::FragmentsIndentation => "Contact patches",
     };
-    // Not every scene has an h or an F_a,max.
-    let (x, y) = units(app).symbols();
-    let is_normalised = [&x, &y].iter().any(|symbol| symbol.contains('/'));
-    let name = if is_normalised { format!("{name} {y} over {x}") } else { format!("{name} {y}({x})") };
+    let name = y.map_or_else(|| name.to_owned(), |y| format!("{name} {}", y.symbol_with_unit()));
     let loss = if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
         match app.solved.as_ref().and_then(|computed| computed.outcome.figures.dissipated_energy) {
             Some(energy) => {
@@ -176,6 +231,11 @@ fn stiffness(app: &App) -> Option<f64> {
 /// The chart without the names that the pane writes elsewhere: of marks, kept scenes and axes.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
+    if let Some(snapshot) = app.present() {
+        let (x, y) = units(app).place(&snapshot.point);
+        let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
+        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
+    }
     for layer in chart.layers.iter_mut().filter(|layer| matches!(layer.ink, Ink::Text | Ink::Compared(_))) {
         layer.name = Label::default();
     }
@@ -231,37 +291,9 @@ fn chart(app: &App) -> Option<Chart> {
     // Below the curves, which stay whole.
     if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
         let border = app.legs().iter().flat_map(|leg| &leg.curve).map(|point| units.place(point)).collect();
-        chart.layers.insert(1, Layer::unnamed(Ink::Quiet, Shape::Inside(border)));
-    }
-    if let Some(snapshot) = app.present() {
-        let (x, y) = units.place(&snapshot.point);
-        let at = (x.clamp(chart.x.span.low, chart.x.span.high), y.clamp(chart.y.span.low, chart.y.span.high));
-        let name = if app.manual.is_some() { "manual" } else { "now" };
-        chart.layers.push(Layer::new(name.into(), Ink::Cursor, Shape::signs(vec![at], Sign::Diamond)));
+        chart.layers.insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
     }
     Some(chart)
-}
-
-/// The marked forces with their values, the most important first; with names in words if there is room for all.
-fn values(app: &App, width: usize) -> Option<Line<'static>> {
-    let mut marks = marks(app.legs());
-    marks.sort_by_key(|(mark, _)| match mark {
-        Mark::PullOff => 0,
-        Mark::Preload => 1,
-        Mark::JumpIn => 2,
-        Mark::JumpOut => 3,
-    });
-    let lines = |words: bool| {
-        let part = |&(mark, point): &(Mark, CurvePoint)| {
-            let force = format_rounded(app.without_rounding(point.force), 3, "N");
-            let name = if words { format!(" {}", mark.name()) } else { String::new() };
-            let sign = Text::styled(glyph(sign(mark)), app.view.appearance.theme.style(Meaning::Title));
-            vec![sign, Text::raw(format!("{name} {force}"))]
-        };
-        filled(marks.iter().map(part).collect(), "  ", width)
-    };
-    let words = Some(lines(true)).filter(|lines| lines.len() == 1);
-    words.unwrap_or_else(|| lines(false)).into_iter().next()
 }
 
 /// Values of a kept scene that differ from the present scene, in words.
@@ -269,20 +301,27 @@ fn differences(app: &App, ghost: &Ghost) -> String {
     ghost.changes(&app.edit.document, |change| format!("{} {}", change.name, change.from))
 }
 
-/// Point beside which the letter of a kept scene is drawn: its pull-off, or the end of its curve.
-fn marked(ghost: &Ghost) -> Option<CurvePoint> {
+/// Number of points of each loading stage of a kept scene beside which its letter may stand.
+const PLACES: usize = 8;
+
+/// Points beside which the letter of a kept scene may stand: its marks, the pull-off first, and some of its curve.
+fn marked(ghost: &Ghost) -> Vec<CurvePoint> {
     let legs = &ghost.outcome.history.legs;
-    let at = marks(legs).into_iter().rev().find(|(mark, _)| *mark != Mark::JumpOut).map(|(_, point)| point);
-    at.or_else(|| legs.last().and_then(|leg| leg.curve.last().copied()))
+    let mut marks = marks(legs);
+    marks.retain(|(mark, _)| *mark != Mark::JumpOut);
+    let curves = legs.iter().rev().map(|leg| &leg.curve);
+    let some = curves.flat_map(|curve| curve.iter().step_by((curve.len() / PLACES).max(1)).copied());
+    marks.into_iter().rev().map(|(_, point)| point).chain(some).collect()
 }
 
-/// Adhesion force of a kept scene, and its difference from the present scene: `F_a 12 µN (+3 µN)`.
+/// Adhesion force of a kept scene, and how much more or less the present scene has: `F_a 12 µN, now 3 µN more`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
+    let units = units(app);
     let force = ghost.outcome.figures.adhesion_force?;
     let present = app.current().and_then(|one| one.outcome.figures.adhesion_force);
-    let difference = present.map_or_else(String::new, |present| {
-        let sign = if force > present { "+" } else { "" };
-        format!(" ({sign}{})", format_rounded(force - present, 3, "N"))
+    let difference = present.filter(|present| *present != force).map_or_else(String::new, |present| {
+        let more = if present > force { "more" } else { "less" };
+        format!(", now {} {more}", units.force_in_words((present - force).abs()))
     });
-    Some(format!("F_a {}{difference}", format_rounded(force, 3, "N")))
+    Some(format!("F_a {}{difference}", units.force_in_words(force)))
 }

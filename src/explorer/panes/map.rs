@@ -3,7 +3,7 @@
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
 use crate::explorer::map::{Live, OpenStudy};
-use crate::explorer::panel::{Panel, in_theme, names, shades};
+use crate::explorer::panel::{Panel, entries, in_theme, shades};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
@@ -67,10 +67,8 @@ fn panel(app: &App, size: Size) -> Panel {
         let Some(chart) = curves(app, grid).into_iter().next() else {
             return Panel::of_text(title, "the study has no quantity to draw over its axis");
         };
-        let mut parts = names(&chart, app.view.appearance);
-        parts[0] =
-            vec![Text::styled(chart.heading.to_string(), app.view.appearance.theme.style(Meaning::Title))];
-        return Panel { head: filled(parts, "  ", size.width.into()), foot, ..Panel::of_chart(title, chart) };
+        let heading = chart.heading.to_string();
+        return Panel { head: vec![Line::raw(heading)], foot, ..Panel::of_chart(title, chart) };
     };
     let head = legend(app, &chart, size.width.into());
     if let Some((across, Some(up))) = app.place() {
@@ -184,7 +182,7 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
         }
     } else {
         // The last name is that of the boundary.
-        parts.extend(names(chart, look).pop().filter(|_| map.contour.is_some()));
+        parts.extend(entries(chart, look).pop().filter(|_| map.contour.is_some()));
     }
     let Some(study) = app.map.shown_study() else { return filled(parts, "  ", width) };
     let slices = study.study_map.slices();

@@ -5,7 +5,6 @@ mod close_up;
 pub mod force;
 mod map;
 mod parameters;
-pub mod preload_curve;
 mod preloads;
 mod profile;
 pub mod row;
@@ -46,8 +45,7 @@ pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     // The crosshair of profile and close-up is at a spring.
     let is_chart = pane == app.view.pane && pane.keys() == Context::Crosshair && app.section().is_none();
     if let Some(position) = app.view.crosshair.filter(|_| is_chart) {
-        let width = if pane.is_large() { size.width } else { u16::MAX };
-        panel.read_at(position, app.view.appearance, width);
+        panel.read_at(position, app.view.appearance, size.width);
     }
     panel
 }
@@ -61,5 +59,5 @@ pub fn figure(app: &App, pane: Pane) -> Option<Figure> {
 pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
     let layout = Layout::of(app);
     let (pane, area) = layout.panes.into_iter().find(|(_, area)| area.contains(cell))?;
-    Some((pane, panel::under(&panel(app, pane, inside(area).as_size()), area, cell)))
+    Some((pane, panel::under(&panel(app, pane, inside(area).as_size()), area, app.view.appearance, cell)))
 }

@@ -13,7 +13,7 @@ use crate::explorer::text_line::TextLine;
 use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
 use asperity_data::{format_quantity, unit_of};
-use asperity_scene::{Effect, FIELDS, Field, Roughness};
+use asperity_scene::{Effect, FIELDS, Field, Range, Roughness};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 
@@ -29,6 +29,8 @@ pub static ROW: PaneRow = PaneRow {
 
 /// Smallest number of columns for a typed value beside its name.
 const TYPED_COLUMNS: usize = 12;
+/// Largest number of rows of an explanation, except of a refusal.
+const MOST_EXPLAINED: u16 = 6;
 /// Smallest number of letters of a shortened name.
 const FEWEST_LETTERS: usize = 4;
 
@@ -40,7 +42,11 @@ fn panel(app: &App, size: Size) -> Panel {
         Some(index) => explanation(app, *index),
         None => Line::styled(not_listed(app), quiet),
     };
+    let mut foot = if size.height >= 12 { derived(app, size.width) } else { Vec::new() };
     let help_rows = if size.height >= 9 { 3 } else { u16::from(size.height >= 3) };
+    // Rows that the list does not need are for the explanation.
+    let free = usize::from(size.height).saturating_sub(rows.len() + foot.len()) as u16;
+    let help_rows = help_rows.max(free.min(MOST_EXPLAINED));
     // The list makes room for the whole reason of a refusal, and for all that was done to a measured curve.
     let is_refused = refusal(app).is_some();
     let is_of_curve =
@@ -52,7 +58,6 @@ fn panel(app: &App, size: Size) -> Panel {
         let kept = if is_of_curve { explained.len().max(3) } else { help_rows.into() };
         explained.resize(kept, Line::default());
     }
-    let mut foot = if size.height >= 12 { derived(app, size.width) } else { Vec::new() };
     foot.extend(explained);
     let width = usize::from(size.width);
     let lines = rows.iter().enumerate();
@@ -99,7 +104,13 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
     // The name makes room for the value, which matters more.
     let value = typed::shown(app, parameter);
     let symbol = parameter.field.symbol;
-    let least = columns(&lead) + if symbol.is_empty() { FEWEST_LETTERS } else { columns(symbol) } + 1;
+    let letters = match parameter.field.range {
+        // A long text is cut, and not its name.
+        Range::Text { .. } => columns(&parameter.name()),
+        _ if symbol.is_empty() => FEWEST_LETTERS,
+        _ => columns(symbol),
+    };
+    let least = columns(&lead) + letters + 1;
     let value = cut(&value, width.saturating_sub(least).max(width / 3));
     let room = width.saturating_sub(columns(&lead) + usize::from(!value.is_empty()) + columns(&value));
     let name = name_within(parameter, room);
@@ -200,13 +211,6 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     }
     if let Some(force) = outcome.ideal_adhesion_force {
         values.push(("F_a,max", format_quantity(force, "N")));
-    }
-    if let Some(regime) = outcome.regime {
-        let other = outcome.regime_after_zero_force;
-        let label = if other == Some(regime) { "regime (touch, F=0)" } else { "regime (touch)" };
-        values.push((label, regime.name().to_owned()));
-        let other = other.filter(|other| *other != regime);
-        values.extend(other.map(|other| ("regime (F=0)", other.name().to_owned())));
     }
     values
 }

@@ -1,16 +1,16 @@
 //! Adhesion force against preload: the staircase of the scene's profile, the spread over random profiles, adhesion without
 //! load, and the preload of the scene.
 
-use super::preload_curve::{PROFILES, PreloadCurve};
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
-use crate::explorer::panel::{Body, Panel, names};
+use crate::explorer::panel::{Body, Panel};
 use crate::explorer::studies::Study;
-use crate::explorer::text::{filled, wrapped};
+use crate::explorer::text::wrapped;
 use crate::explorer::theme::Meaning;
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, Ink, Layer, Shape, Sign};
 use asperity_report::{PreloadReport, distribution, preload_chart, preload_figure, warning};
+use asperity_study::PreloadCurve;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::sync::Arc;
@@ -28,7 +28,14 @@ pub static ROW: PaneRow = PaneRow {
         let key = format!("{} {scale:?}", computed.generation);
         vec![Study::new(key, false, move |simulation, stop, report| {
             let report: &mut dyn FnMut(&PreloadCurve) = &mut |curve| report(curve.clone());
-            PreloadCurve::compute(&computed, scale, begun, simulation, stop, report)
+            PreloadCurve::compute(
+                (&computed.scene, &computed.outcome),
+                scale,
+                begun,
+                simulation,
+                stop,
+                report,
+            )
         })]
     },
     help: &[(
@@ -55,23 +62,24 @@ fn report(app: &App) -> Exported<'_> {
 }
 
 fn panel(app: &App, size: Size) -> Panel {
-    let title = "Adhesion against preload".to_owned();
+    let name = "Adhesion force";
     let Some(curve) = app.studies.value::<PreloadCurve>() else {
-        return Panel::of_text(title, app.studies.failure::<PreloadCurve>().unwrap_or("computing …"));
+        return Panel::of_text(
+            name.to_owned(),
+            app.studies.failure::<PreloadCurve>().unwrap_or("computing …"),
+        );
     };
     let look = app.view.appearance;
     let (chart, beside) = charts(app, curve);
-    // The title of the pane has the names of both axes.
     let chart = chart.with_symbols();
-    let mut parts = names(&chart, look);
-    if !curve.is_whole() && curve.profiles() >= 1 {
-        let progress = format!("{} of {} profiles", curve.profiles(), PROFILES);
-        parts.insert(1, vec![Text::styled(progress, look.theme.style(Meaning::Title))]);
-    }
+    let title = format!("{name} {}", chart.y.symbol_with_unit());
+    let is_begun = !curve.is_whole() && curve.profiles() >= 1;
+    let progress = is_begun
+        .then(|| vec![Text::raw(format!("{} of {} profiles", curve.profiles(), PreloadCurve::PROFILES))]);
     let warning = warning(&curve.results.spread_of_adhesion()).unwrap_or_default();
     let foot = wrapped(&Line::styled(warning, look.theme.style(Meaning::Key)), size.width);
-    let mut panel =
-        Panel { head: filled(parts, "  ", size.width.into()), foot, ..Panel::of_chart(title, chart) };
+    let edge = progress.into_iter().collect();
+    let mut panel = Panel { edge, foot, ..Panel::of_chart(title, chart) };
     if let Body::Chart(plot) = &mut panel.body {
         plot.beside = beside.map(Chart::with_symbols);
     }
@@ -92,6 +100,6 @@ fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
     let x = &chart.x;
     let crosshair = app.view.crosshair.map(|share| x.scale.number(x.span.low + share * x.span.width()));
     let read = crosshair.or(present.map(|(preload, _)| preload));
-    let beside = read.and_then(|preload| distribution(&curve.results, preload, &chart.y));
+    let beside = read.and_then(|preload| distribution(&curve.results, preload, Some(&chart.y)));
     (chart, beside)
 }

@@ -3,7 +3,9 @@
 use super::row::PaneRow;
 use super::section;
 use crate::explorer::app::App;
-use crate::explorer::panel::{Body, Panel, names};
+use crate::explorer::layout::Layout;
+use crate::explorer::pane::Pane;
+use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Appearance;
 use asperity_data::AxisScale;
@@ -14,11 +16,18 @@ use asperity_surface::Histogram;
 use std::f64::consts::TAU;
 
 pub static ROW: PaneRow = PaneRow {
-    panel: |app, _| {
+    panel: |app, size| {
         let Some(snapshot) = app.snapshot.as_deref() else { return Panel::of_text(title(app), "…") };
         let histogram = app.solved.as_ref().and_then(|computed| computed.outcome.histogram.as_ref());
         let z = section::heights(app, snapshot);
-        of_scene(title(app), snapshot, histogram, z, app.view.appearance)
+        let mut panel = of_scene(&title(app), snapshot, histogram, z, (app.view.appearance, size.width));
+        let is_marked = Layout::of(app).pane(Pane::CloseUp).is_some();
+        if let (Body::Chart(plot), true) = (&mut panel.body, is_marked) {
+            let (part, shown) = (&snapshot.close_up.section, &snapshot.profile);
+            let share = |spring: usize| (spring as f64 - shown.first as f64) / shown.springs as f64;
+            plot.contact.marked = Some((share(part.first), share(part.first + part.springs)));
+        }
+        panel
     },
     figure: |app, _| {
         let chart = of_springs(app, LinePart::drawn)?;
@@ -27,8 +36,8 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(
         "Profile",
-        "rigid profile below, elastic surface above; ■ marks contact. On the right the density of heights, and dotted the \
-         normal distribution of the same rms height",
+        "rigid profile below, elastic surface above; in the row below ■ marks contact and [ ] the part in the close-up. On \
+         the right, where there is room, the density of heights, and dotted the normal distribution of the same rms height",
     )],
     ..PaneRow::EMPTY
 };
@@ -40,34 +49,28 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
 }
 
 fn title(app: &App) -> String {
-    let length = format_quantity(app.edit.document.scene().length, "m");
-    let Some(snapshot) = app.snapshot.as_ref() else { return format!("Profile z(x), x to {length}") };
-    let shown = &snapshot.profile;
-    if app.view.profile.share >= 1.0 {
-        return format!("Profile z(x), x to {length}");
-    }
-    let from = (snapshot.line.first + shown.first) as f64 * snapshot.line.spacing;
-    let to = from + shown.springs as f64 * snapshot.line.spacing;
-    let [from, to] = [from, to].map(|x| format_quantity(x, "m"));
-    format!("Profile z(x), x from {from} to {to} of {length}")
+    let Some(snapshot) = app.snapshot.as_ref().filter(|_| app.view.profile.share < 1.0) else {
+        return "Profile".to_owned();
+    };
+    let length = |springs: f64| format_quantity(springs * snapshot.line.spacing, "m");
+    let share =
+        format!("{} of {}", length(snapshot.profile.springs as f64), length(snapshot.line.points as f64));
+    format!("Profile, {share},")
 }
 
 /// Panel of the profile and the distribution of heights of a scene in one state; `z` is the range of heights, m.
-pub fn of_scene(
-    title: String,
+fn of_scene(
+    title: &str,
     snapshot: &ContactSnapshot,
     histogram: Option<&Histogram>,
     z: Span,
-    look: Appearance,
+    look: (Appearance, u16),
 ) -> Panel {
     let mut panel = section::panel(title, snapshot, &snapshot.profile, z, look);
     if let Body::Chart(plot) = &mut panel.body {
-        let beside = distribution(histogram, plot.chart.y.clone());
-        if snapshot.probe.is_none() {
-            panel.edge.extend(names(&beside, look).into_iter().skip(1));
-        }
-        plot.beside = Some(beside);
-        plot.contact = snapshot.profile.columns.iter().map(|column| column.contact.is_some()).collect();
+        plot.beside = Some(distribution(histogram, plot.chart.y.clone()));
+        plot.contact.springs =
+            snapshot.profile.columns.iter().map(|column| column.contact.is_some()).collect();
     }
     panel
 }

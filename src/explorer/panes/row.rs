@@ -7,6 +7,7 @@ use crate::explorer::studies::Study;
 use asperity_plot::Figure;
 use asperity_report::Report;
 use asperity_report::{PathReport, RunReport};
+use asperity_study::MeasuredAdhesion;
 use ratatui::layout::Size;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -50,6 +51,14 @@ pub fn outcome(app: &App) -> Exported<'_> {
         return Some((OPEN_COMMAND.into(), Box::new(PathReport { scene, loading, path, stages })));
     }
     let outcome = &app.current()?.outcome;
-    let report = RunReport { title, scene, outcome, choice: None, estimate: app.studies.value() };
+    let report = RunReport {
+        title,
+        scene,
+        outcome,
+        choice: None,
+        estimate: app.studies.value(),
+        ensemble: app.studies.value(),
+        deviation: app.studies.value::<MeasuredAdhesion>().and_then(MeasuredAdhesion::fit_deviation),
+    };
     Some(("asperity run".into(), Box::new(report)))
 }

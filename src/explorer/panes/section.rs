@@ -2,7 +2,7 @@
 
 use super::row::{Exported, OPEN_COMMAND};
 use crate::explorer::app::App;
-use crate::explorer::panel::{Panel, names};
+use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::text::Part;
 use crate::explorer::theme::{Appearance, Meaning};
@@ -13,32 +13,31 @@ use asperity_report::{Part as LinePart, Section};
 use asperity_scene::LineFacts;
 use ratatui::text::Span as Text;
 
-/// Panel of a section over the position; `z` is the range of heights, m. Its lower edge has the names of the lines, or the
-/// readings of the crosshair.
+/// Panel of a section over the position; `z` is the range of heights, m. Beside its title are the readings of the
+/// crosshair.
 pub fn panel(
-    title: String,
+    title: &str,
     snapshot: &ContactSnapshot,
     section: &Section,
     z: Span,
-    look: Appearance,
+    (look, width): (Appearance, u16),
 ) -> Panel {
     let mut chart = section.chart(snapshot.line, z).with_symbols();
     // Without colours the stroke separates the surface from the profile.
     if let Some(surface) = chart.layers.first_mut() {
         surface.shape = Shape::line(surface.shape.points(), Stroke::Dotted);
     }
-    let mut edge = names(&chart, look);
-    // A row of signs shows the contact without colours.
-    if let Some(sample) = edge.last_mut().and_then(|contact| contact.first_mut()) {
-        sample.content = "■".into();
-    }
     if let Some(probe) = snapshot.probe {
         let lines = [Shape::Upright(position(snapshot.line, probe.spring)), Shape::Level(probe.height)];
         // Below the curves, which remain complete.
         chart.layers.splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
-        edge = reading(snapshot, look);
     }
-    Panel { edge, ..Panel::of_chart(title, chart) }
+    let title = format!("{title} {}", chart.y.symbol_with_unit());
+    let mut panel = Panel::of_chart(title, chart);
+    if snapshot.probe.is_some() {
+        panel.show(reading(snapshot, look), width);
+    }
+    panel
 }
 
 /// Chart of the springs of a section for a file, with the range of heights `z` (m); it does not depend on the size of the

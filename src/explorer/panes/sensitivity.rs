@@ -5,8 +5,9 @@ use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
 use crate::explorer::text::filled;
-use asperity_plot::Label;
-use asperity_report::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
+use asperity_data::parallel::threads;
+use asperity_plot::{Figure, Label};
+use asperity_report::{SensitivityReport, sensitivity_chart, sensitivity_table};
 use asperity_study::Sensitivity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
@@ -17,19 +18,25 @@ const BESIDE: u16 = 5;
 
 pub static ROW: PaneRow = PaneRow {
     panel,
+    figure: |app, _| {
+        let found = app.studies.value::<Sensitivity>().filter(|found| found.missing().is_none())?;
+        let chart = sensitivity_chart(found, 0, found.influences.len());
+        Some(Figure::of_chart(app.edit.document.title(), chart))
+    },
     report,
     studies: |_, computed| {
         let scene = Arc::clone(&computed.scene);
         vec![Study::new(computed.generation, false, move |simulation, stop, report| {
+            let simulation = (std::mem::take(simulation), threads());
             let found = Sensitivity::of(&scene, simulation, stop, &mut |part| report(part.clone()));
             found.map_err(|error| error.to_string())
         })]
     },
     help: &[(
         "Sensitivity",
-        "Y: bars of the change of the adhesion force where one number of the scene is 10 % smaller or larger, a whole number \
-         by 1 at least, the largest change at the top, and the range over other random profiles; beside them, where there \
-         is room, the changes of F_a, F_a(0) and the dissipated energy ΔW",
+        "Y: bars of the change of the median adhesion force over random profiles where one number of the scene is 10 % smaller \
+         or larger, a whole number by 1 at least, the largest change at the top, and the range over the profiles; beside \
+         them, where there is room, the changes of F_a, F_a(0) and the dissipated energy ΔW",
     )],
     ..PaneRow::EMPTY
 };
@@ -49,14 +56,14 @@ fn panel(app: &App, size: Size) -> Panel {
         return Panel::of_text(title, missing);
     }
     let bars = usize::from(size.height.saturating_sub(BESIDE));
-    let most = (bars / 2).saturating_sub(found.seeds.iter().len()).max(1);
+    let most = (bars / 2).saturating_sub(found.range.iter().len()).max(1);
     let mut rows = sensitivity_table(found, most);
     let present = rows.remove(1);
     let fits = |labels: &Vec<String>| labels[0].chars().count() + 2 <= usize::from(3 * size.width / 4);
     let labels = (1..=3).rev().map(|results| labels(&rows, results)).find(fits);
     let mut chart = sensitivity_chart(found, 0, most);
-    let present = (3..6).map(|result| vec![Span::raw(format!("{} {}", rows[0][result], present[result]))]);
-    let mut head = filled(present.collect(), "  ", size.width.into());
+    let present = [3, 5, 6].map(|result| vec![Span::raw(format!("{} {}", rows[0][result], present[result]))]);
+    let mut head = filled(present.to_vec(), "  ", size.width.into());
     if let Some(labels) = labels {
         head.push(Line::raw(labels[0].clone()));
         chart.y.names = labels[1..].iter().rev().map(|label| Label::plain(label)).collect();
@@ -69,19 +76,16 @@ fn panel(app: &App, size: Size) -> Panel {
 }
 
 /// Rows of the table, padded to one width: name, change of the number, and changes of the first `results` results.
-fn labels(rows: &[[String; 6]], results: usize) -> Vec<String> {
+fn labels(rows: &[[String; 7]], results: usize) -> Vec<String> {
     let length = |text: &String| text.chars().count();
-    // Short names leave more room.
-    let short =
-        |name: &str| name.replace("force of ", "").replace("indentation of ", "").replace("other ", "");
-    let mut rows = rows.to_vec();
-    rows.iter_mut().for_each(|row| row[0] = short(&row[0]));
-    let line = |row: &[String; 6]| {
-        let columns = [0, 2, 3, 4, 5].into_iter().take(2 + results);
+    let line = |row: &[String; 7]| {
+        let columns = [0, 2, 3, 5, 6].into_iter().take(2 + results);
         let cell = |at: usize| {
-            // What is not allowed has no other results beside it.
-            let cells = rows.iter().map(|row| &row[at]).filter(|cell| *cell != NOT_ALLOWED);
-            format!("{:width$}  ", row[at], width = cells.map(length).max().unwrap_or(0))
+            format!(
+                "{:width$}  ",
+                row[at],
+                width = rows.iter().map(|row| length(&row[at])).max().unwrap_or(0)
+            )
         };
         columns.map(cell).collect::<String>().trim_end().to_owned()
     };

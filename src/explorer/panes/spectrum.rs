@@ -2,10 +2,10 @@
 
 use super::row::PaneRow;
 use crate::explorer::app::App;
-use crate::explorer::panel::{Panel, names};
+use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
-use crate::explorer::text::{filled, wrapped};
+use crate::explorer::text::wrapped;
 use crate::explorer::theme::Meaning;
 use asperity_data::format_quantity;
 use asperity_data::per_cent;
@@ -41,17 +41,16 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 fn panel(app: &App, size: Size) -> Panel {
-    let title = "Spectrum: C over q, log–log".to_owned();
+    let title = "Spectrum".to_owned();
     let shown = app.studies.value::<SceneSpectra>();
     let quiet = app.view.appearance.theme.style(Meaning::Quiet);
     let words = words(app, shown).into_iter();
     let words = words.flat_map(|text| wrapped(&Line::styled(text, quiet), size.width)).collect();
     let chart = shown.map(|shown| shown.spectra.chart()).filter(|chart| !chart.layers.is_empty());
     let Some(mut chart) = chart else { return Panel { head: words, ..Panel::of_text(title, "") } };
-    // The title has the names of both axes.
     chart.y.name.clear();
-    let head = filled(names(&chart, app.view.appearance), "  ", size.width.into());
-    Panel { head, foot: words, ..Panel::of_chart(title, chart) }
+    let title = format!("{title} {}, log–log", chart.y.symbol_with_unit());
+    Panel { foot: words, ..Panel::of_chart(title, chart) }
 }
 
 /// Text below the chart: moments with their errors, or the reason why there is no chart.

@@ -21,7 +21,8 @@ const WITH_SCENE: u16 = 62;
 
 /// Panel of a list of this name and length with these rows; `none` is its text without rows.
 fn list(prompt: &Prompt, (name, length, none): (&str, usize, &str), (rows, selected): Rows) -> Panel {
-    let title = format!("{name}, {} of {length}", prompt.found.len());
+    let corrected = prompt.corrected.as_ref().map_or_else(String::new, |other| format!(", for {other}"));
+    let title = format!("{name}, {} of {length}{corrected}", prompt.found.len());
     if rows.is_empty() {
         return Panel::of_text(title, none);
     }
@@ -64,13 +65,13 @@ pub fn draw_topics(
 
 /// Adds the name and the text of a topic, in as many lines as needed.
 fn entry(rows: &mut Vec<Line<'static>>, topic: &Topic, is_selected: bool, width: u16, theme: Theme) {
-    let is_beside = width >= BESIDE_FROM;
-    let indent = if is_beside { NAMES } else { INDENT };
+    let is_beside = width >= BESIDE_FROM && topic.name.chars().count() + 2 < NAMES;
+    let indent = if width >= BESIDE_FROM { NAMES } else { INDENT };
     let name = Line::styled(
         format!("{} {}", if is_selected { "›" } else { " " }, topic.name),
         theme.style(Meaning::Key),
     );
-    let mut name = Some(fitted(name, if is_beside { NAMES as u16 - 1 } else { width }));
+    let mut name = Some(fitted(name, width));
     if !is_beside {
         rows.extend(name.take());
     }

@@ -7,9 +7,9 @@ use crate::explorer::app::App;
 use crate::explorer::layout::{Layout, inside};
 use crate::explorer::panel;
 use crate::explorer::panes;
-use crate::explorer::picture::ascii::to_ascii;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::theme::Marker;
+use asperity_plot::to_ascii;
 use ratatui::Frame;
 use ratatui::layout::Rect;
 

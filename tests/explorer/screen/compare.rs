@@ -37,7 +37,7 @@ fn ghosts_have_letters_and_say_where_they_differ() {
     driver.press("u");
     // The letters are in the plot too.
     driver.press("z");
-    let plot = driver.rows()[8..36].join("\n");
+    let plot = driver.rows()[5..36].join("\n");
     for letter in ['A', 'B'] {
         assert_eq!(plot.matches(letter).count(), 1, "{letter}\n{}", driver.text());
     }

@@ -8,9 +8,12 @@ fn probe(driver: &Driver) -> Probe {
     driver.snapshot().probe.unwrap()
 }
 
-/// The lower edge of the frame of a pane.
+/// The title of a pane with the readings beside it, and the rows of readings below the chart.
 fn edge(driver: &Driver, pane: Pane) -> String {
-    driver.pane(pane).pop().unwrap()
+    let rows = driver.pane(pane);
+    let title = rows[0].replace('▸', "");
+    let below = rows.iter().rev().take_while(|row| !row.contains(['┤', '│', '└']));
+    [title].into_iter().chain(below.cloned()).collect::<Vec<_>>().join(" ")
 }
 
 /// A value with this number of digits behind the first, as in the panes.
@@ -22,7 +25,7 @@ fn read(value: f64, digits: usize, unit: &str) -> String {
 #[test]
 fn on_the_force_curve_the_crosshair_reads_both_branches() {
     let mut driver = mid_retraction(changed(&punch(), &[("adhesion", "None")]));
-    assert!(!edge(&driver, Pane::Force).contains(" d "));
+    assert!(!edge(&driver, Pane::Force).contains(" loading "));
     driver.press("* End Shift+Left");
     assert_eq!(driver.app.keys(), Context::Crosshair);
     assert!(driver.footer().contains("hide"), "{}", driver.text());

@@ -2,7 +2,6 @@
 
 use super::*;
 use asperity::explorer::action::{Content, OutputFile};
-use asperity::explorer::picture;
 use asperity::explorer::theme::Marker;
 use asperity::scene::command_line;
 use asperity_report::RunReport;
@@ -37,10 +36,10 @@ fn the_ending_of_a_name_shows_what_is_exported() {
     let mut driver = pressed("");
     assert!(export(&mut driver, Path::new("a.gif")).is_empty() && driver.files().is_empty());
     driver.states("unsupported file extension .gif; use .csv, .npy, .json, .svg, .png, .pdf or .txt");
-    // The proposed name is that of the scene.
+    // The proposed name is that of the scene with the pane.
     let mut driver = pressed("");
     driver.press("E Enter");
-    assert_eq!(driver.files(), ["rough-line.csv"]);
+    assert_eq!(driver.files(), ["rough-line-force.csv"]);
     assert!(pressed("E Ctrl+u Enter").files().is_empty(), "no name is no file");
 }
 
@@ -71,7 +70,15 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
     let command = command_line("asperity run", driver.document().name(), &[]);
     let provenance = scene_provenance(&command, &scene, Path::new(""), Path::new("")).unwrap();
     let estimate = driver.app.studies.value();
-    let report = RunReport { title: "", scene: &scene, outcome: &outcome, choice: None, estimate };
+    let report = RunReport {
+        title: "",
+        scene: &scene,
+        outcome: &outcome,
+        choice: None,
+        estimate,
+        ensemble: None,
+        deviation: None,
+    };
     let (mut curve, mut figures) = (Vec::new(), Vec::new());
     write(&mut curve, &report, Format::Csv, &provenance).unwrap();
     write(&mut figures, &report, Format::Json, &provenance).unwrap();
@@ -123,10 +130,10 @@ fn the_text_is_the_screen_without_the_prompt() {
         let mut driver = pressed("c L d { j");
         driver.app.view.appearance.marker = marker;
         driver.perform(vec![Task::Ask]);
-        let seen = picture::text(&driver.screen());
+        let seen = asperity_plot::screen_text(&driver.screen());
         let written = exported(&mut driver, "a.txt");
         assert_eq!(written, seen);
-        assert!(written.contains("Force F(d)") && !written.contains("Export to"));
+        assert!(written.contains("Force F (") && !written.contains("Export to"));
         assert_eq!(written.lines().count(), 40);
         assert_eq!(marker == Marker::Ascii, written.is_ascii());
     }

@@ -7,20 +7,19 @@ use asperity::explorer::snapshot::PatchFacts;
 #[test]
 fn the_close_up_goes_round_all_fragments() {
     let mut driver = Driver::start(rough());
-    driver.press("> f");
+    driver.press(">");
     let count = driver.point().fragments as usize;
     assert!(count > 3, "{count} fragments");
     for closer in ["", "+ +", "- - - -"] {
         driver.press(closer);
         for key in ["n", "p"] {
-            driver.press("f");
             let number = |driver: &Driver| driver.snapshot().close_up.patch.unwrap().number;
             let start = number(&driver);
             let mut seen = Vec::new();
             for _ in 0..count {
                 driver.press(key);
                 seen.push(number(&driver));
-                let expected = format!("patch {} of {count}", number(&driver) + 1);
+                let expected = format!("Patch {} of {count} ·", number(&driver) + 1);
                 assert!(driver.text().contains(&expected), "{expected}: {}", driver.text());
             }
             assert_eq!(number(&driver), start, "{key}: {seen:?}");
@@ -32,7 +31,7 @@ fn the_close_up_goes_round_all_fragments() {
 
 #[test]
 fn a_moment_on_its_way_does_not_take_the_chosen_fragment_away() {
-    let mut driver = pressed("f");
+    let mut driver = pressed("");
     let number = |driver: &Driver| driver.snapshot().close_up.patch.unwrap().number;
     let before = driver.snapshot().clone();
     let first = number(&driver);
@@ -63,35 +62,33 @@ fn fragments(driver: &mut Driver) -> Vec<Patch> {
     }))
 }
 
-fn facts(driver: &Driver) -> PatchFacts {
-    driver.snapshot().close_up.patch.unwrap()
-}
-
 #[test]
-fn the_close_up_goes_to_the_longest_and_the_most_loaded() {
+fn the_close_up_holds_the_whole_patch_and_both_its_ends() {
     for keys in ["", ". . . . . . . .", "> . . ."] {
         let mut driver = pressed(keys);
         let all = fragments(&mut driver);
         assert!(all.len() > 3, "{all:?}");
-        let longest = all.iter().map(|patch| patch.springs().len()).max();
-        driver.press("b");
-        assert!(all.contains(&facts(&driver).patch), "{:?} of {all:?}", facts(&driver));
-        assert_eq!(Some(facts(&driver).patch.springs().len()), longest);
-        // The selected fragment is shown with its force.
-        let mut forces = Vec::new();
+        let (mut seen, mut forces) = (Vec::new(), Vec::new());
         for _ in 0..all.len() {
             driver.press("n");
-            forces.push(facts(&driver).state.force);
+            let PatchFacts { patch, state, .. } = driver.snapshot().close_up.patch.unwrap();
+            let shown = &driver.snapshot().close_up.section;
+            let part = shown.first..shown.first + shown.springs;
+            assert!(part.contains(&patch.first) && part.contains(&patch.last), "{patch:?} in {part:?}");
+            // It fills a good part of the pane, unless it has few springs.
+            assert!(
+                5 * patch.springs().len() >= shown.springs || shown.springs <= 32,
+                "{patch:?} in {part:?}"
+            );
+            let ends: Vec<usize> = driver.snapshot().close_up.boundaries.iter().map(|end| end.0).collect();
+            assert!(ends.contains(&patch.first) && ends.contains(&patch.last), "{ends:?}");
+            driver.shows(format!("of {}", all.len()));
+            seen.push(patch);
+            forces.push(state.force);
         }
-        let total: f64 = forces.iter().sum();
-        let force = driver.point().force;
+        seen.sort_by_key(|patch| patch.first);
+        assert_eq!(seen, all);
+        let (total, force): (f64, f64) = (forces.iter().sum(), driver.point().force);
         assert!((total / force - 1.0).abs() < 1e-9, "together they carry all: {total} {force}");
-        let most = forces.iter().map(|force| force.abs()).fold(0.0, f64::max);
-        driver.press("B");
-        assert_eq!(facts(&driver).state.force.abs(), most);
-        driver.press("f");
-        let summit = driver.snapshot().close_up.section.clone();
-        let highest = summit.columns.iter().map(|column| column.line.1).fold(f64::MIN, f64::max);
-        assert_eq!(highest, driver.snapshot().profile.heights.1);
     }
 }

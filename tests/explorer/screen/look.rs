@@ -5,7 +5,7 @@ use super::*;
 #[test]
 fn the_profile_is_looked_at_from_near_and_moved_along() {
     let mut driver = pressed("Tab");
-    driver.shows("x to 100 µm");
+    driver.shows("Profile z (nm)");
     for (keys, first, springs) in [
         ("", 0, 1024),
         // There is nothing beside the whole line.
@@ -22,7 +22,7 @@ fn the_profile_is_looked_at_from_near_and_moved_along() {
         let section = &driver.snapshot().profile;
         assert_eq!((section.first, section.springs), (first, springs), "{keys}");
     }
-    driver.sees("+", "x from 25 µm to 75 µm of 100 µm");
+    driver.sees("+", "Profile, 50 µm of 100 µm, z (nm)");
     driver.press(&"+ ".repeat(20));
     assert_eq!(driver.snapshot().profile.springs, 8);
 }
@@ -39,12 +39,12 @@ fn curve(driver: &mut Driver) -> String {
 fn the_curve_has_three_views_in_two_units() {
     let mut driver = pressed("");
     for [title, x, y] in [
-        ["Force F(d)", "d (nm)", "F (µN)"],
-        ["Force F/F_a,max over d/h", "d/h", "F/F_a,max"],
-        ["Contact length l(F)", "F (µN)", "l (µm)"],
-        ["Contact length l/L over F/F_a,max", "F/F_a,max", "l/L"],
-        ["Contact patches n(d)", "d (nm)", "n"],
-        ["Contact patches n over d/h", "d/h", "n"],
+        ["Force F (µN)", "d (nm)", "F (µN)"],
+        ["Force F/F_a,max", "d/h", "F/F_a,max"],
+        ["Contact length l (µm)", "F (µN)", "l (µm)"],
+        ["Contact length l/L", "F/F_a,max", "l/L"],
+        ["Contact patches n", "d (nm)", "n"],
+        ["Contact patches n", "d/h", "n"],
     ] {
         let text = curve(&mut driver);
         assert!([title, x, y].iter().all(|words| text.contains(words)), "{title}, {x}, {y}\n{text}");
@@ -53,7 +53,7 @@ fn the_curve_has_three_views_in_two_units() {
             driver.press("v");
         }
     }
-    assert!(curve(&mut driver).contains("Force F(d)"), "they come round");
+    assert!(curve(&mut driver).contains("Force F (µN)"), "they come round");
     // Without adhesion there is no F_a,max as a unit.
     let mut driver = mid_retraction(without_adhesion());
     driver.press("N");

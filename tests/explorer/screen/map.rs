@@ -22,7 +22,7 @@ fn set(map: &mut LiveMap, cell: u64) {
         let after_zero_force = if regime == 1 { 0 } else { regime };
         let (regime, after_zero_force) = (f64::from(regime), f64::from(after_zero_force));
         let [touch, zero_force] = [1.0, 0.5].map(|slope: f64| (-slope * kappa).exp());
-        map.set(cell, line, &[touch, 2.0 * zero_force, regime, zero_force, after_zero_force]);
+        map.set(cell, line, &[touch, 2.0 * zero_force, regime, zero_force, after_zero_force, 1.5 * touch]);
     }
 }
 
@@ -112,7 +112,7 @@ fn other_edits_begin_the_map_anew() {
 fn the_regime_has_two_protocols() {
     let mut driver = mapped(rough());
     driver.shows("Map of regime (touch) over H, κ");
-    driver.press("V V V V");
+    driver.press("V V V V V");
     driver.shows_all([
         "Map of regime (F=0)",
         "pressure-insensitive after zero net force (3 of 4",

@@ -2,7 +2,7 @@
 //! reads. The curves are those of a smooth sphere.
 
 use super::*;
-use asperity::explorer::picture::text;
+use asperity_plot::screen_text as text;
 
 #[test]
 fn the_main_screen() {

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::explorer::config::Config;
-use asperity::explorer::player::At;
+use asperity::explorer::player::{At, Player};
 
 #[test]
 fn the_animation_is_paused_stepped_and_begun_again() {
@@ -79,6 +79,10 @@ fn the_animation_is_as_far_however_often_it_is_drawn() {
     };
     for seconds in [1.0, 5.9, 6.3, 11.0, 13.0, 17.9, 18.1, 100.0] {
         let (player, share, point) = place(1, seconds);
+        if seconds > 18.0 {
+            // There is no pull-off after the last of the three stages, which presses.
+            assert_eq!(player.at, At::End);
+        }
         let expected = (seconds / 6.0).min(3.0);
         assert!((player.leg as f64 + share - expected).abs() < 1e-9, "{seconds}: {player:?}");
         for steps in [3, 70, 211] {
@@ -102,7 +106,19 @@ fn the_configuration_sets_speed_and_end() {
     };
     assert_eq!(place(Config::new(bindings()), 3), (0, 5.0, true));
     assert_eq!(place(config("(version: 1, speed: 2.0)"), 3), (0, 10.0, true));
-    assert_eq!(place(config("(version: 1)"), 20), (1, 10.0, false));
+    // It ends at the pull-off, and the next play begins anew.
+    let mut driver = Driver::start(rough());
+    (0..200).for_each(|_| drop(driver.elapse(0.1)));
+    let expected = -driver.outcome().figures.adhesion_force.unwrap();
+    assert!((driver.point().force / expected - 1.0).abs() < 1e-9 && !driver.app.play.playing);
+    driver.shows("· pull-off");
+    // An edit shows its own pull-off.
+    driver.select("roughness.hurst");
+    driver.press("l");
+    let expected = -driver.outcome().figures.adhesion_force.unwrap();
+    assert!((driver.point().force / expected - 1.0).abs() < 1e-9, "{:?}", driver.point());
+    driver.press("Space");
+    assert_eq!(driver.app.play, Player::START);
     let (leg, _, playing) = place(config("(version: 1, repeat: true)"), 14);
     assert!(leg == 0 && playing, "it begins again");
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::explorer::commands::accuracy::studies;
-use asperity::explorer::panes::preload_curve::{PROFILES, PreloadCurve};
+use asperity::study::PreloadCurve;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Computes the curve up to this number of profiles.
@@ -11,7 +11,7 @@ fn compute(driver: &mut Driver, profiles: usize) {
     for study in studies(&mut driver.app).into_iter().filter(|study| study.is::<PreloadCurve>()) {
         study.perform(&mut Simulation::default(), &|| known.load(Relaxed) == profiles, &mut |finding| {
             driver.act(Action::Found(finding));
-            known.store(computed(driver) % PROFILES, Relaxed);
+            known.store(computed(driver) % PreloadCurve::PROFILES, Relaxed);
         });
     }
 }
@@ -35,11 +35,11 @@ fn shown(document: Document, profiles: usize) -> Driver {
 
 #[test]
 fn adhesion_against_preload_is_shown_beside_the_curve() {
-    for profiles in [PROFILES, 3] {
+    for profiles in [PreloadCurve::PROFILES, 3] {
         let mut driver = shown(rough(), profiles);
         for size in [(120, 40), (80, 24)] {
             driver.resize(size);
-            driver.shows_all(["Adhesion against preload", "present preload", "Parameters", "this profile"]);
+            driver.shows_all(["Adhesion force F_a (", "present preload", "Parameters", "this profile"]);
             assert_eq!(driver.text().contains("3 of 16 profiles"), profiles == 3);
             driver.shows(format!("range of {profiles} profiles"));
             // The status line and the crosshair.

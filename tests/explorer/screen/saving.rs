@@ -117,7 +117,7 @@ fn scenes_in_whose_place_others_were_opened_are_not_forgotten() {
 
 #[test]
 fn what_changes_only_the_view_or_the_writing_of_a_number_is_no_change() {
-    let mut driver = pressed("v N a n + - A A m t X m z z M T d d");
+    let mut driver = pressed("v N a n + - A A m t X m z z T d d");
     driver.select("roughness.hurst");
     driver.press("l h");
     assert!(driver.app.edit.unsaved().is_empty(), "{}", driver.document().text());

@@ -179,7 +179,7 @@ fn nothing_that_is_named_acts_on_a_terminal() {
         &["sweep", "plot", &evil, "--at", "preload=0.01", "--quantity", "regime", "-o", &map],
         &["sweep", &wrong, "-o", &new],
         &["sweep", &other, "-o", &new],
-        &["sweep", "submit", &plan_file, "-o", &new, "--shards", "2", "--dry-run", "--", EVIL],
+        &["sweep", "submit", &plan_file, "-o", &new, "--jobs", "2", "--check", "--", EVIL],
         &["run", &evil],
         &["run", &none],
         &["run", "jkr-sphere", "--set", &title],

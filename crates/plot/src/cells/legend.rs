@@ -10,6 +10,7 @@ fn strokes(stroke: Stroke) -> [&'static str; 3] {
         Stroke::Solid => ["⠒"; 3],
         Stroke::Dashed => ["⠒", "⠂", "⠒"],
         Stroke::Dotted => ["⠒", " ", "⠒"],
+        Stroke::DashDotted => ["⠒", "⠐", "⠒"],
         Stroke::Sparse => ["⠂", " ", "⠂"],
     }
 }
@@ -20,7 +21,7 @@ fn text_of(sample: Sample) -> String {
             let [left, middle, right] = stroke.map_or(["", "", ""], strokes);
             format!("{left}{}{right}", sign.map_or(middle, glyph))
         }
-        Sample::Area => strokes(Stroke::Sparse).concat(),
+        Sample::Area => "⠪⠕⠪".to_owned(),
         Sample::Solid => "■".to_owned(),
         Sample::Guide => "┊".to_owned(),
         Sample::Contour => "▁▕".to_owned(),

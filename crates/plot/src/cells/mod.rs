@@ -2,6 +2,7 @@
 
 pub(crate) mod legend;
 pub(crate) mod map;
+pub(crate) mod pane;
 pub(crate) mod plot;
 pub(crate) mod shapes;
 pub(crate) mod style;

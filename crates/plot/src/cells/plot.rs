@@ -24,11 +24,25 @@ const WITH_LABEL_BELOW: u16 = 16;
 /// Columns and rows of Braille dots in a cell.
 const DOTS: (u16, u16) = (2, 4);
 
+/// A text beside a point of a chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// Points of the chart, in numbers on the axes; the text is beside the first one with room for the text.
+    pub at: Vec<(f64, f64)>,
+    /// The text, followed by shorter ones for less room.
+    pub texts: Vec<String>,
+    /// Ink of the text.
+    pub ink: Ink,
+}
+
 /// Division of an area of the screen into the plot and the scales of a chart.
 pub struct CellPlot {
     /// Area of the plot.
     pub plot: Rect,
     left: u16,
+    /// Number of rows between the plot and the numbers below it.
+    between: u16,
+    /// True for a line in the first of these rows.
     line: bool,
     below: bool,
     label: bool,
@@ -37,10 +51,16 @@ pub struct CellPlot {
 impl CellPlot {
     /// Divides an area of the screen between the plot and the scales of a chart.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
-        let below = area.height >= WITH_SCALE_BELOW;
         let line = area.height >= WITH_LINE_BELOW;
+        CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
+    }
+
+    /// Divides an area as [`CellPlot::within`] does, with rows of the caller between the plot and the numbers below it in
+    /// place of the line.
+    pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
+        let below = area.height >= WITH_SCALE_BELOW;
         let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
-        let height = area.height - u16::from(below) - u16::from(line) - u16::from(label);
+        let height = area.height.saturating_sub(u16::from(below) + between + u16::from(label));
         let mut left = 0;
         if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {
             let labels = scale_beside(chart, height);
@@ -50,7 +70,7 @@ impl CellPlot {
         let most = if chart.y.names.is_empty() { area.width / 2 } else { 3 * area.width / 4 };
         let left = if left > most { 0 } else { left };
         let plot = Rect { x: area.x + left, width: area.width - left, height, ..area };
-        CellPlot { plot, left, line, below, label }
+        CellPlot { plot, left, between, line: false, below, label }
     }
 
     /// Numbers on both axes at a cell of the screen: for a map the numbers of the value that the cell shows, if any;
@@ -109,8 +129,9 @@ impl CellPlot {
                 .paint(|context| {
                     for layer in chart.layers.iter().filter(drawn) {
                         context.layer();
-                        let colour = (style.ink)(layer.ink).fg.unwrap_or_default();
-                        context.draw(&LayerShape { chart, shape: &layer.shape, colour });
+                        let (shape, ink) = (&layer.shape, layer.ink);
+                        let colour = (style.ink)(ink).fg.unwrap_or_default();
+                        context.draw(&LayerShape { chart, shape, ink, colour });
                     }
                 })
                 .render(self.plot, buffer);
@@ -118,38 +139,47 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes each name (point, text and ink) beside its point, where the plot is blank.
-    pub fn draw_names(
+    /// Writes the first text of a name for which the plot is blank beside one of its points. Returns false if there is no
+    /// such place.
+    pub fn draw_name(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>, name: &Name) -> bool {
+        let pairs = name.texts.iter().flat_map(|text| name.at.iter().map(move |at| (text, *at)));
+        for (text, at) in pairs {
+            if let Some((x, y)) = self.free_place(buffer, chart, at, text) {
+                buffer.set_string(x, y, text, (style.ink)(name.ink));
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Cell from which on a text is beside a point on blank cells of the plot.
+    fn free_place(
         &self,
-        buffer: &mut Buffer,
+        buffer: &Buffer,
         chart: &Chart,
-        style: &CellStyle<'_>,
-        names: &[((f64, f64), String, Ink)],
-    ) {
+        point: (f64, f64),
+        text: &str,
+    ) -> Option<(u16, u16)> {
         let plot = self.plot;
         let all_columns = i32::from(plot.x)..i32::from(plot.right());
         let all_rows = i32::from(plot.y)..i32::from(plot.bottom());
-        for (point, name, ink) in names {
-            let Some(cell) = self.cell(chart, *point) else { continue };
-            let (column, row) = (i32::from(cell.0), i32::from(cell.1));
-            let wide = name.chars().count() as i32;
-            let rows = [row, row + 1, row - 1].into_iter();
-            let sides = rows.flat_map(|y| [(column + 2, y), (column - 1 - wide, y)]);
-            let mut places = sides.chain([row + 1, row - 1].map(|y| (column - wide / 2, y)));
-            let free = places.find(|&(x, y)| {
-                let inside = all_columns.start <= x && x + wide <= all_columns.end && all_rows.contains(&y);
-                // With a blank column on either side, unless the plot ends there.
-                let mut columns = (x - 1).max(all_columns.start)..(x + wide + 1).min(all_columns.end);
-                inside
-                    && columns.all(|column| {
-                        let at = (column as u16, y as u16);
-                        at == cell || matches!(buffer[at].symbol(), " " | "\u{2800}")
-                    })
-            });
-            if let Some((x, y)) = free {
-                buffer.set_string(x as u16, y as u16, name, (style.ink)(*ink));
-            }
-        }
+        let cell = self.cell(chart, point)?;
+        let (column, row) = (i32::from(cell.0), i32::from(cell.1));
+        let wide = text.chars().count() as i32;
+        let rows = [row, row + 1, row - 1].into_iter();
+        let sides = rows.flat_map(|y| [(column + 2, y), (column - 1 - wide, y)]);
+        let mut places = sides.chain([row + 1, row - 1].map(|y| (column - wide / 2, y)));
+        let free = places.find(|&(x, y)| {
+            let inside = all_columns.start <= x && x + wide <= all_columns.end && all_rows.contains(&y);
+            // With a blank column on either side, unless the plot ends there.
+            let mut columns = (x - 1).max(all_columns.start)..(x + wide + 1).min(all_columns.end);
+            inside
+                && columns.all(|column| {
+                    let at = (column as u16, y as u16);
+                    at == cell || matches!(buffer[at].symbol(), " " | "\u{2800}")
+                })
+        });
+        free.map(|(x, y)| (x as u16, y as u16))
     }
 
     fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
@@ -192,8 +222,8 @@ impl CellPlot {
                 buffer.set_string(plot.x - 1, y, "└", quiet);
             }
             buffer.set_string(plot.x, y, line.into_iter().collect::<String>(), quiet);
-            y += 1;
         }
+        y += self.between;
         if self.below {
             let from = plot.x - self.left;
             let width = (label.chars().count() as u16).min(plot.width);
@@ -382,27 +412,29 @@ mod tests {
             let mut after = before.clone();
             let style = CellStyle { ink: &|_| Style::new(), colours: Colours::None };
             let names = [(points[9], "preload"), (points[30], "pull-off"), ((1.0, 0.0), "outside")];
-            let names = names.map(|(at, name)| (at, name.to_owned(), Ink::Quiet));
-            place.draw_names(&mut after, &chart, &style, &names);
+            for (at, name) in names {
+                let name = Name { at: vec![at], texts: vec![name.to_owned()], ink: Ink::Quiet };
+                place.draw_name(&mut after, &chart, &style, &name);
+            }
             let rows = after.content.chunks(usize::from(after.area.width));
             let text: String =
                 rows.flat_map(|row| row.iter().map(|cell| cell.symbol()).chain(["\n"])).collect();
             let written: Vec<&str> =
-                names.iter().map(|(_, name, _)| name.as_str()).filter(|name| text.contains(name)).collect();
+                names.iter().map(|(_, name)| *name).filter(|name| text.contains(name)).collect();
             assert!(!written.contains(&"outside"));
             found += written.len();
             for (cell, old) in after.content.iter().zip(&before.content) {
                 let is_blank = [" ", "\u{2800}"].contains(&old.symbol());
                 assert!(cell.symbol() == old.symbol() || is_blank, "{size:?}");
             }
-            for (point, name, _) in names.iter().filter(|(_, name, _)| written.contains(&name.as_str())) {
+            for (point, name) in names.iter().filter(|(_, name)| written.contains(name)) {
                 let (column, row) = place.cell(&chart, *point).unwrap();
                 let near = (row.saturating_sub(1).max(after.area.y)..=(row + 1).min(after.area.bottom() - 1))
                     .any(|y| {
                         let from = column.saturating_sub(name.len() as u16 + 1).max(after.area.x);
                         let to = (column + name.len() as u16 + 2).min(after.area.right());
                         let text: String = (from..to).map(|x| after[(x, y)].symbol()).collect();
-                        text.contains(name.as_str())
+                        text.contains(name)
                     });
                 assert!(near, "{size:?} {name}");
             }

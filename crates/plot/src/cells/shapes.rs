@@ -2,12 +2,14 @@
 
 use crate::axis::{Axes, Share};
 use crate::chart::{Chart, Shape, Sign, Stroke};
+use crate::colour::Ink;
 use ratatui::style::Color;
 use ratatui::widgets::canvas::{Painter, Shape as CanvasShape};
 
 pub(super) struct LayerShape<'a> {
     pub chart: &'a Chart,
     pub shape: &'a Shape,
+    pub ink: Ink,
     pub colour: Color,
 }
 
@@ -47,12 +49,17 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Dots of the area inside a closed line, every other one. A dot is inside if the line crosses the column below it an
-    /// odd number of times.
+    /// Dots of the area inside a closed line: every other one, or in the quiet ink one of eight. A dot is inside if the line
+    /// crosses the column below it an odd number of times.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
+        let is_shaded = |column: usize, row: usize| match self.ink {
+            Ink::Quiet => column.is_multiple_of(2) && (column / 2 + row).is_multiple_of(4),
+            _ => (column + row).is_multiple_of(2),
+        };
         let Some((last, _)) = painter.get_point(1.0, 0.0) else { return };
-        let shares: Vec<(f64, f64)> =
-            border.iter().map(|(x, y)| (self.chart.x.share(*x), self.chart.y.share(*y))).collect();
+        // A zero on a logarithmic axis is far below the chart.
+        let share = |(x, y): &(f64, f64)| (self.chart.x.share(*x), self.chart.y.share(*y).clamp(-9.0, 9.0));
+        let shares: Vec<(f64, f64)> = border.iter().map(share).collect();
         let ends = || shares.iter().zip(shares.iter().cycle().skip(1));
         for column in 0..=last {
             let x = column as f64 / last.max(1) as f64;
@@ -65,9 +72,7 @@ impl LayerShape<'_> {
             for pair in crossings.chunks_exact(2) {
                 let row = |y: f64| painter.get_point(x, y.clamp(0.0, 1.0)).map(|(_, row)| row);
                 let (Some(low), Some(high)) = (row(pair[0]), row(pair[1])) else { continue };
-                (high..=low)
-                    .filter(|y| (column + y).is_multiple_of(2))
-                    .for_each(|y| self.paint(painter, (column, y)));
+                (high..=low).filter(|y| is_shaded(column, *y)).for_each(|y| self.paint(painter, (column, y)));
             }
         }
     }
@@ -81,10 +86,9 @@ impl CanvasShape for LayerShape<'_> {
                 self.lines(painter, &self.axes().runs(points.iter().copied()), *stroke);
             }
             Shape::Band(points) => {
-                for end in [|point: &(f64, f64, f64)| point.1, |point: &(f64, f64, f64)| point.2] {
-                    let runs = self.axes().runs(points.iter().map(|point| (point.0, end(point))));
-                    self.lines(painter, &runs, Stroke::Sparse);
-                }
+                let upper = points.iter().rev().map(|(x, _, high)| (*x, *high));
+                let border: Vec<_> = points.iter().map(|(x, low, _)| (*x, *low)).chain(upper).collect();
+                self.inside(painter, &border);
             }
             Shape::Envelope { x, columns } => {
                 self.lines(painter, &self.axes().envelope(*x, columns), Stroke::Solid);
@@ -115,6 +119,7 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
         Stroke::Solid => true,
         Stroke::Dashed => dot % 8 < 6,
         Stroke::Dotted => dot % 4 < 2,
+        Stroke::DashDotted => !matches!(dot % 10, 6 | 7 | 9),
         Stroke::Sparse => dot.is_multiple_of(4),
     }
 }

@@ -42,6 +42,7 @@ impl Pen {
             Stroke::Solid => "",
             Stroke::Dashed => " stroke-dasharray=\"6 3.5\"",
             Stroke::Dotted => " stroke-dasharray=\"2.5 2.5\"",
+            Stroke::DashDotted => " stroke-dasharray=\"8 2.5 1.5 2.5\"",
             Stroke::Sparse => " stroke-dasharray=\"1.5 4.5\"",
         };
         format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(self.colour), px(self.width))
@@ -185,7 +186,17 @@ fn with_minus(text: &str) -> String {
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
+    // Some viewers drop blanks at the ends of an element: they are between elements, as no-break spaces.
+    let blanks = |count: usize| "\u{a0}".repeat(count);
     for (face, text) in label.runs() {
+        let text = with_minus(text);
+        let is_blank = |character: char| [' ', '\u{a0}'].contains(&character);
+        let inner = text.trim_matches(is_blank);
+        let before = text.chars().take_while(|character| is_blank(*character)).count();
+        elements += &blanks(before);
+        if inner.is_empty() {
+            continue;
+        }
         let small = || format!(" font-size=\"{}\"", px(SMALL * size));
         let (below, looks) = match face {
             Face::Upright => (0.0, String::new()),
@@ -198,12 +209,13 @@ fn runs(label: &Label, size: f64) -> String {
             step => format!(" dy=\"{step}\""),
         };
         shift = below;
-        let text = escaped(&with_minus(text));
+        let shown = escaped(inner);
         if step.is_empty() && looks.is_empty() {
-            elements.push_str(&text);
+            elements.push_str(&shown);
         } else {
-            elements.push_str(&format!("<tspan{step}{looks}>{text}</tspan>"));
+            elements.push_str(&format!("<tspan{step}{looks}>{shown}</tspan>"));
         }
+        elements += &blanks(text.chars().count() - inner.chars().count() - before);
     }
     elements
 }
@@ -247,7 +259,7 @@ mod tests {
         assert_eq!(
             runs(&label, 10.0),
             "<tspan font-style=\"italic\">F</tspan><tspan dy=\"2.5\" font-size=\"7.2\">a,max</tspan>\
-             <tspan dy=\"-2.5\"> &lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
+             \u{a0}<tspan dy=\"-2.5\">&lt; 10</tspan><tspan dy=\"-4.2\" font-size=\"7.2\">−3</tspan>"
         );
     }
 

@@ -85,7 +85,7 @@ impl Frame<'_> {
 
     fn ticks(&self, side: Side) -> usize {
         // Wide charts have more ticks, low ones fewer.
-        let room = if side == Side::Below { self.width() / 55.0 } else { self.height() / 40.0 };
+        let room = if side == Side::Below { self.width() / 55.0 } else { self.height() / 30.0 };
         (room as usize).clamp(3, if side == Side::Below { 9 } else { TICKS })
     }
 

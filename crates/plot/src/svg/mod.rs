@@ -32,23 +32,60 @@ const LEAST: f64 = 110.0;
 const WIDEST: f64 = 1400.0;
 /// Width up to which a frame is at least as high as it is wide, px.
 const SQUARE: f64 = 150.0;
+/// Largest ratio of height to width of frames below each other.
+const LOW: f64 = 0.62;
+/// Largest height of a figure with a given width: 240 mm, px; and lowest height of a frame, px.
+const PAGE: f64 = 907.0;
+const LOWEST: f64 = 60.0;
+/// Height of a name on an axis, px.
+const NAME: f64 = 14.0;
+
+/// Size of a figure and its frames.
+struct Layout {
+    /// Width of the picture, px.
+    width: f64,
+    /// Size of the frames, px.
+    size: (f64, f64),
+    /// Room on the left and on the right of each column of charts, px.
+    rooms: Vec<(f64, f64)>,
+}
 
 impl Figure {
     /// Draws the figure and returns the SVG document.
     pub fn svg(&self) -> String {
-        let (size, rooms) = self.columns();
-        let width = self.width.unwrap_or_else(|| width_of(&rooms, size));
+        let mut layout = self.columns();
+        let (mut svg, mut height) = self.drawn(&layout);
+        let most = self.height.or(self.width.map(|_| PAGE));
+        // Besides the frames all has the same height.
+        if let Some(most) = most.filter(|most| self.height.is_some() || height > *most) {
+            let rows = self.charts.len().div_ceil(layout.rooms.len()).max(1) as f64;
+            layout.size.1 = (layout.size.1 - (height - most) / rows).max(LOWEST);
+            (svg, height) = self.drawn(&layout);
+        }
+        let width = layout.width;
+        let mut document = Svg::new(width, height, &Label::plain(&self.title).to_string());
+        if !self.origin.is_empty() {
+            let lines: Vec<String> = self.origin.lines().map(escaped).collect();
+            document.push(format_args!("<metadata>{}</metadata>", lines.join("\n")));
+        }
+        document.rectangle((0.0, 0.0), (width, height), PAPER);
+        document.group(FONTS, |document| document.append(svg));
+        document.finish()
+    }
+
+    /// Draws all elements; returns them with the height of the picture.
+    fn drawn(&self, Layout { width, size, rooms }: &Layout) -> (Svg, f64) {
         let mut svg = Svg::default();
         let middle = width / 2.0;
         let wrapped = |label: &Label, size: f64| label.wrapped((width - 4.0 * MARGIN) / size);
-        let title = wrapped(&Label::plain(&self.title), TITLE);
-        let first = if self.title.is_empty() && self.notes.is_empty() { 10.0 } else { 20.0 };
+        let title = if self.untitled { Vec::new() } else { wrapped(&Label::plain(&self.title), TITLE) };
+        let first = if title.is_empty() && self.notes.is_empty() { 10.0 } else { 20.0 };
         let mut y = svg.lines(&title, (middle, first), TITLE, Anchor::Middle);
         for note in &self.notes {
             y = svg.lines(&wrapped(note, TEXT_SIZE), (middle, y), TEXT_SIZE, Anchor::Middle);
         }
         for (row, charts) in self.charts.chunks(rooms.len()).enumerate() {
-            y = self.draw_row(&mut svg, row * rooms.len(), charts, (size, &rooms, y));
+            y = self.draw_row(&mut svg, row * rooms.len(), charts, (*size, rooms, y));
         }
         y = legend::draw(&mut svg, &self.legend(), (middle, y + 2.0), width - 4.0 * MARGIN) + MARGIN;
         let parameters: Vec<Label> =
@@ -59,19 +96,11 @@ impl Figure {
             svg.frame((MARGIN, y), (width - MARGIN, end), Pen::solid(TEXT, 0.8));
             y = end + MARGIN;
         }
-        let mut document = Svg::new(width, y, &Label::plain(&self.title).to_string());
-        if !self.origin.is_empty() {
-            let lines: Vec<String> = self.origin.lines().map(escaped).collect();
-            document.push(format_args!("<metadata>{}</metadata>", lines.join("\n")));
-        }
-        document.rectangle((0.0, 0.0), (width, y), PAPER);
-        document.group(FONTS, |document| document.append(svg));
-        document.finish()
+        (svg, y)
     }
 
-    /// Size of the frames, and the room on the left and on the right of each column of charts, px, for the fewest rows that
-    /// fit the width.
-    fn columns(&self) -> ((f64, f64), Vec<(f64, f64)>) {
+    /// Layout of the charts in the fewest rows that fit the width.
+    fn columns(&self) -> Layout {
         let count = self.charts.len().max(1);
         let rooms = |columns: usize, size| -> Vec<(f64, f64)> {
             let charts = |column| self.charts.iter().skip(column).step_by(columns);
@@ -85,13 +114,18 @@ impl Figure {
             for width in self.width.into_iter().chain(self.width) {
                 let across = (width - width_of(&rooms(columns, size), (0.0, 0.0))) / columns as f64;
                 let across = across.max(MARGIN);
-                size = (across, (across * self.size.1 / self.size.0).max(across.min(SQUARE)));
+                let share = (self.size.1 / self.size.0).min(if columns < count { LOW } else { 1.0 });
+                size = (across, (across * share).max(across.min(SQUARE)));
             }
-            (size, rooms(columns, size))
+            // Each name on an axis has a line.
+            let names = self.charts.iter().map(|chart| chart.y.names.len()).max().unwrap_or(0);
+            size.1 = size.1.max(NAME * names as f64);
+            let rooms = rooms(columns, size);
+            Layout { width: self.width.unwrap_or_else(|| width_of(&rooms, size)), size, rooms }
         };
-        let fits = |(size, rooms): &((f64, f64), Vec<(f64, f64)>)| match self.width {
-            Some(_) => size.0 >= LEAST,
-            None => width_of(rooms, *size) <= WIDEST,
+        let fits = |layout: &Layout| match self.width {
+            Some(_) => layout.size.0 >= LEAST,
+            None => layout.width <= WIDEST,
         };
         let mut layouts = (1..count).map(|rows| within(count.div_ceil(rows)));
         layouts.find(fits).unwrap_or_else(|| within(1))
@@ -220,7 +254,7 @@ mod tests {
             assert!(svg.contains(&format!("<{text}>{number}<")), "{text}");
         }
         let words = parsed(&svg).1;
-        assert!(words.contains("d (nm)") && words.contains("Fn (mN)"), "{words}");
+        assert!(words.contains("d\u{a0}(nm)") && words.contains("Fn\u{a0}(mN)"), "{words}");
         assert!(words.contains("a < b & \\u{1b}"), "{words}");
         assert_eq!(svg, small(vec![curve(&points, Ink::Series(0), "F_n")]).svg());
     }
@@ -280,10 +314,48 @@ mod tests {
                 .collect();
             assert_eq!(frames.len(), count);
             for (index, [x, y, across, down]) in frames.iter().enumerate() {
-                assert!(*x > 0.0 && x + across < width && *across > 90.0 && *down > 90.0, "{frames:?}");
+                assert!(*x > 0.0 && x + across < width && *across > 90.0 && *down >= LOWEST, "{frames:?}");
                 let apart = |other: &[f64; 4]| x + across < other[0] || y + down < other[1];
                 assert!(frames[index + 1..].iter().all(apart), "{frames:?}");
             }
+        }
+    }
+    #[test]
+    fn a_figure_has_the_height_that_is_asked_for_and_fits_on_a_page() {
+        let chart = small(Vec::new()).charts.remove(0);
+        let of = |count: usize| Figure {
+            charts: vec![chart.clone(); count],
+            width: Some(321.0),
+            ..small(Vec::new())
+        };
+        let height = |figure: &Figure| attribute(&elements(&figure.svg(), "rect")[0], "height");
+        for count in [1, 2, 4] {
+            for asked in [400.0, 700.0] {
+                let figure = Figure { height: Some(asked), ..of(count) };
+                let found = height(&figure);
+                let least = LOWEST * count as f64;
+                assert!(
+                    (found - asked).abs() < 0.01 || (found > asked && found < asked + least),
+                    "{count} {found}"
+                );
+            }
+        }
+        assert!((height(&of(6)) - PAGE).abs() < 0.01 && height(&of(2)) < PAGE);
+        let titled = of(1);
+        assert!(parsed(&titled.svg()).1.matches("a < b").count() == 2, "a title, and its name for readers");
+        let untitled = Figure { untitled: true, ..titled };
+        assert_eq!(parsed(&untitled.svg()).1.matches("a < b").count(), 1);
+    }
+
+    #[test]
+    fn panels_are_chosen_by_their_letters() {
+        let heading = |heading: &str| Chart { heading: heading.into(), ..small(Vec::new()).charts.remove(0) };
+        let figure = Figure { charts: ["one", "two", "three"].map(heading).to_vec(), ..small(Vec::new()) };
+        let words = |letters: &str| parsed(&figure.clone().with_panels(letters).unwrap().svg()).1;
+        assert!(words("ca").contains("(a) three") && words("ca").contains("(b) one"));
+        assert!(!words("b").contains("two"), "a single chart has no heading");
+        for wrong in ["", "d", "aé"] {
+            assert_eq!(figure.clone().with_panels(wrong).unwrap_err(), "abc");
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::scene::errors::SceneErrors;
 use crate::scene::model::Solver;
 use crate::simulation::outcome::RunError;
 use asperity_contact::Edges;
-use asperity_data::grouped;
+use asperity_data::{grouped, parse_quantity};
 use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
@@ -21,9 +21,7 @@ const MOST_TRIED: u64 = 1 << 21;
 /// Parses a tolerance: `1e-3` or `0.1 %`; the error is the allowed range.
 pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
-    let text = text.trim();
-    let (number, whole) = text.strip_suffix('%').map_or((text, 1.0), |number| (number.trim_end(), 100.0));
-    let tolerance = number.parse::<f64>().map_err(|_| allowed())? / whole;
+    let tolerance = parse_quantity(text, "1").map_err(|_| allowed())?;
     if tolerance > 0.0 && tolerance < 1.0 { Ok(tolerance) } else { Err(allowed()) }
 }
 

@@ -6,6 +6,7 @@ use super::fields::{FIELDS, field};
 use super::range::{Range, choice_name};
 use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
+use std::collections::BTreeSet;
 
 /// The field at a path, given the variant of its group or loading stage in the text.
 pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
@@ -37,11 +38,15 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
     // Several if variants of a choice share the name.
     let fields: Vec<&Field> = FIELDS.iter().filter(|field| field.path == base).collect();
     let Some(field) = fields.first() else {
-        let mut names: Vec<_> = FIELDS.iter().map(|field| field.path).collect();
-        names.sort_unstable();
-        names.dedup();
-        let near = did_you_mean(path, names.iter().copied());
-        return Err(format!("no such field{near} (fields: {})", names.join(", ")));
+        let near = did_you_mean(path, FIELDS.iter().map(|field| field.path));
+        let group = path.split('.').next().unwrap_or_default();
+        let all = |group: &str| -> Vec<&str> {
+            let inside = FIELDS.iter().filter(|field| field.parent() == group).map(|field| field.path);
+            inside.collect::<BTreeSet<_>>().into_iter().collect()
+        };
+        let fields = [all(group), all("")].into_iter().find(|fields| !fields.is_empty()).unwrap_or_default();
+        let fields = if near.is_empty() { format!(" (fields: {})", fields.join(", ")) } else { near };
+        return Err(format!("no such field{fields}"));
     };
     let (parent, name) = (field.parent(), field.last());
     let variant = text.variant(parent);
@@ -179,7 +184,8 @@ mod tests {
         for (path, said) in [
             ("roughness.hurts", "did you mean roughness.hurst?"),
             ("hurst", "did you mean roughness.hurst?"),
-            ("nothing", "no such field (fields: adhesion, adhesion."),
+            ("nothing", "no such field (fields: adhesion, form, length, "),
+            ("adhesion.nothing", "no such field (fields: adhesion.closing_work, "),
             ("", "no such field"),
             ("loading.", "no such field"),
             ("..", "no such field"),

@@ -81,7 +81,8 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
         return Ok(());
     }
     let reach = Reach::of(contact);
-    loading.iter().find_map(|stage| reach.beyond(*stage)).map_or(Ok(()), Err)
+    let beyond = loading.iter().filter_map(|stage| reach.beyond(*stage));
+    beyond.max_by(|one, other| one.found.total_cmp(&other.found)).map_or(Ok(()), Err)
 }
 
 /// Force by which an indentation of one length of the profile increases the force at full contact, N.

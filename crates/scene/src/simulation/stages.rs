@@ -100,6 +100,14 @@ impl Simulation {
         self
     }
 
+    /// Creates a simulation for the same files and the same measured surface, without any kept stage.
+    pub fn another(&self) -> Simulation {
+        let RoughnessMaker { folder, measured, .. } = &self.maker;
+        let (folder, measured) = (folder.clone(), measured.clone());
+        let maker = RoughnessMaker { folder, measured, ..RoughnessMaker::default() };
+        Simulation { single: self.single, maker, ..Simulation::default() }
+    }
+
     /// The profile of the last scene.
     pub fn line(&self) -> Option<&Line> {
         self.line.as_ref().map(|(_, line)| line)
@@ -231,9 +239,7 @@ impl Simulation {
     }
 
     fn give_back(&mut self) {
-        let RoughnessMaker { folder, measured, .. } = take(&mut self.maker);
-        let maker = RoughnessMaker { folder, measured, ..RoughnessMaker::default() };
-        *self = Simulation { single: self.single, maker, ..Simulation::default() };
+        *self = self.another();
     }
 
     /// Makes the profile and the contact of a checked scene by this plan.

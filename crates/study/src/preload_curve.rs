@@ -1,13 +1,13 @@
 //! Adhesion force of the scene against preload: first the staircase of its own profile, then the spread over random profiles.
 
-use crate::explorer::snapshot::SolvedScene;
+use crate::axis::Axis;
+use crate::preloads::Staircase;
+use crate::profiles::Stop;
+use crate::results::Results;
+use crate::statistics::Statistics;
 use asperity_contact::Move;
 use asperity_data::AxisScale;
-use asperity_plot::Span;
-use asperity_scene::Figures;
-use asperity_scene::Simulation;
-use asperity_scene::Solver;
-use asperity_study::{Axis, Results, Staircase, Statistics};
+use asperity_scene::{CheckedScene, Figures, Outcome, Simulation, Solver};
 
 /// Number of preloads, and index of the scene's own preload among them: a linear axis extends from the force at first touch
 /// to twice the preload, a logarithmic one over six decades, two of them above the preload.
@@ -16,11 +16,11 @@ const PLACES: (f64, f64) = (31.0, 42.0);
 const DECADES: f64 = 6.0;
 /// Relative difference of preloads that count as equal.
 const SAME: f64 = 1e-9;
-pub const PROFILES: usize = 16;
 
 /// Adhesion forces of a scene for many preloads, as far as computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
+    /// The preloads.
     pub axis: Axis,
     /// The staircase of the scene's own profile.
     pub staircase: Staircase,
@@ -30,23 +30,26 @@ pub struct PreloadCurve {
 }
 
 impl PreloadCurve {
+    /// Number of random profiles of a curve.
+    pub const PROFILES: usize = 16;
+
     /// Computes the curve of a computed scene, or the missing part of one that was begun before. `report` receives the
     /// curve after each addition.
     ///
     /// # Errors
     /// The scene has no such curve, a profile or contact fails, or `stop` returned true.
     pub fn compute(
-        computed: &SolvedScene,
+        (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
         begun: Option<PreloadCurve>,
         simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
+        stop: &Stop<'_>,
         report: &mut dyn FnMut(&PreloadCurve),
     ) -> Result<PreloadCurve, String> {
         let begun = begun.filter(|begun| begun.axis.scale() == scale && begun.staircase.is_whole());
-        let mut curve = begun.map_or_else(|| Self::begin(computed, scale, simulation, stop), Ok)?;
+        let mut curve = begun.map_or_else(|| Self::begin((scene, outcome), scale, simulation, stop), Ok)?;
         if !curve.staircase.is_whole() {
-            let (scene, axis) = (&computed.scene, curve.axis.clone());
+            let axis = curve.axis.clone();
             let found = Staircase::find(scene, &axis, simulation, stop, &mut |part| {
                 curve.staircase = part.clone();
                 report(&curve);
@@ -54,7 +57,7 @@ impl PreloadCurve {
             found.map_err(|error| error.to_string())?;
         }
         let mut results = curve.results.clone();
-        let done = results.extend(simulation, stop, &mut |part| {
+        let done = results.extend((std::mem::take(simulation), 1), stop, &mut |part| {
             report(&PreloadCurve { results: part.clone(), ..curve.clone() });
         });
         done.map_err(|error| error.to_string())?;
@@ -63,12 +66,11 @@ impl PreloadCurve {
 
     /// Begins the curve of a computed scene, without results.
     fn begin(
-        computed: &SolvedScene,
+        (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
         simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
+        stop: &Stop<'_>,
     ) -> Result<Self, String> {
-        let SolvedScene { scene, outcome, .. } = computed;
         if scene.numerics.solver != Solver::Exact {
             return Err("many preloads at once need the exact solver".into());
         }
@@ -85,24 +87,26 @@ impl PreloadCurve {
         });
         touched.map_err(|error| error.to_string())?;
         let last = (PRELOADS - 1) as f64;
-        let Span { low, high } = match scale {
-            AxisScale::Linear => Span { low: touch, high: touch + (preload - touch) * last / PLACES.0 },
+        let (low, high) = match scale {
+            AxisScale::Linear => (touch, touch + (preload - touch) * last / PLACES.0),
             AxisScale::Logarithmic => {
                 let low = scale.coordinate(preload) - DECADES * PLACES.1 / last;
-                Span { low, high: low + DECADES }
+                (low, low + DECADES)
             }
         };
         let axis = Axis::of_preloads((scale.number(low), scale.number(high)), PRELOADS, scale)?;
-        let lines = scene.seed().map_or(1, |_| PROFILES as u64);
+        let lines = scene.seed().map_or(1, |_| Self::PROFILES as u64);
         let results = Results::begin(scene, &Results::OF_PRELOADS, lines, Some(&axis));
         let results = results.map_err(|_| "there is not enough memory for the curve")?;
         Ok(PreloadCurve { axis, staircase: Staircase::default(), results })
     }
 
+    /// Returns true if nothing is missing.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
 
+    /// Number of the computed profiles.
     pub fn profiles(&self) -> usize {
         self.results.records_of(0).count()
     }
@@ -121,50 +125,64 @@ mod tests {
     use super::*;
     use asperity_contact::Edges;
     use asperity_scene::open;
-    use std::cell::Cell;
-    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
     const LINEAR: AxisScale = AxisScale::Linear;
 
-    fn computed(name: &str) -> SolvedScene {
+    fn computed(name: &str) -> (CheckedScene, Outcome) {
         let scene = open(name).unwrap().scene().with(|scene| scene.numerics.points = 2048).unwrap();
-        let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        SolvedScene { generation: 1, scene: Arc::new(scene), outcome, reach: Default::default() }
+        let outcome = outcome(&scene);
+        (scene, outcome)
     }
 
-    fn curve(computed: &SolvedScene, scale: AxisScale) -> Result<PreloadCurve, String> {
+    fn outcome(scene: &CheckedScene) -> Outcome {
+        Simulation::default().run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap()
+    }
+
+    fn curve((scene, outcome): &(CheckedScene, Outcome), scale: AxisScale) -> Result<PreloadCurve, String> {
         let simulation = &mut Simulation::default();
-        PreloadCurve::compute(computed, scale, None, simulation, &|| false, &mut |_| ())
+        PreloadCurve::compute((scene, outcome), scale, None, simulation, &|| false, &mut |_| ())
     }
 
     #[test]
     fn the_curve_grows_and_continues_where_it_was_stopped() {
         let computed = computed("pressure-sensitive");
-        let (simulation, profiles, parts) = (&mut Simulation::default(), Cell::new(0), Cell::new(0));
-        let stop = || profiles.get() >= 3;
+        let (simulation, profiles, parts) =
+            (&mut Simulation::default(), AtomicUsize::new(0), AtomicUsize::new(0));
+        let stop = || profiles.load(Relaxed) >= 3;
         let mut last = None;
         let mut see = |curve: &PreloadCurve| {
-            profiles.set(curve.profiles());
-            parts.set(parts.get() + 1);
+            profiles.store(curve.profiles(), Relaxed);
+            parts.fetch_add(1, Relaxed);
             last = Some(curve.clone());
         };
-        let done = PreloadCurve::compute(&computed, LINEAR, None, simulation, &stop, &mut see);
+        let done =
+            PreloadCurve::compute((&computed.0, &computed.1), LINEAR, None, simulation, &stop, &mut see);
         let begun = last.unwrap();
-        assert!(done.is_err() && begun.staircase.is_whole() && begun.profiles() == 3 && parts.get() > 4);
+        assert!(
+            done.is_err() && begun.staircase.is_whole() && begun.profiles() == 3 && parts.load(Relaxed) > 4
+        );
         let mut first = None;
         let mut see = |part: &PreloadCurve| {
             first.get_or_insert(part.profiles());
         };
-        let whole = PreloadCurve::compute(&computed, LINEAR, Some(begun), simulation, &|| false, &mut see);
+        let whole = PreloadCurve::compute(
+            (&computed.0, &computed.1),
+            LINEAR,
+            Some(begun),
+            simulation,
+            &|| false,
+            &mut see,
+        );
         let whole = whole.unwrap();
-        assert_eq!((first, whole.profiles(), whole.is_whole()), (Some(4), PROFILES, true));
+        assert_eq!((first, whole.profiles(), whole.is_whole()), (Some(4), PreloadCurve::PROFILES, true));
         assert_eq!(curve(&computed, LINEAR), Ok(whole.clone()));
         // The preload of the scene is among those of the axis, and its adhesion force on the staircase.
-        let figures = computed.outcome.figures;
+        let figures = computed.1.figures;
         let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
         let at = whole.staircase.forces.iter().find(|at| (at.0 / preload - 1.0).abs() < SAME).unwrap();
         assert!((at.1 / force - 1.0).abs() < 1e-9);
-        assert_eq!(whole.at(preload).map(|all| all.count), Some(PROFILES));
+        assert_eq!(whole.at(preload).map(|all| all.count), Some(PreloadCurve::PROFILES));
         assert_eq!((whole.at(0.7 * preload), whole.axis.values[0]), (None, whole.staircase.touch.0));
         // Another axis is another curve.
         let ratios = curve(&computed, AxisScale::Logarithmic).unwrap();
@@ -176,17 +194,16 @@ mod tests {
     fn scenes_without_preload_or_exact_solver_have_no_curve() {
         let mut one = computed("jkr-sphere");
         assert_eq!(curve(&one, LINEAR).unwrap().profiles(), 1);
-        let scene = Arc::clone(&one.scene);
+        let scene = one.0.clone();
         let steps = scene.with(|scene| {
             (scene.numerics.solver, scene.numerics.edges) = (Solver::Stepwise { step: 1e-9 }, Edges::Grid);
         });
-        one.scene = Arc::new(steps.unwrap());
+        one.0 = steps.unwrap();
         assert!(curve(&one, LINEAR).unwrap_err().contains("exact solver"));
         let scene = scene.with(|scene| scene.loading = vec![Move::ToIndentation(-1e-9)]).unwrap();
-        one.outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
-        one.scene = Arc::new(scene.clone());
+        one = (scene.clone(), outcome(&scene));
         assert!(curve(&one, LINEAR).unwrap_err().contains("presses"));
-        one.scene = Arc::new(scene.with(|scene| scene.adhesion = None).unwrap());
+        one.0 = scene.with(|scene| scene.adhesion = None).unwrap();
         assert!(curve(&one, LINEAR).unwrap_err().contains("adhesion"));
     }
 }

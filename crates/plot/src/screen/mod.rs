@@ -1,7 +1,7 @@
 //! Screens for use outside of the terminal: as plain text, in ASCII, and as an SVG document.
 
-pub mod ascii;
-pub mod svg;
+pub(crate) mod ascii;
+pub(crate) mod svg;
 
 use ratatui::buffer::{Buffer, Cell, CellWidth};
 use ratatui::layout::Rect;
@@ -53,7 +53,7 @@ fn dots(character: char) -> Option<u8> {
 }
 
 /// The rows of a screen without the blanks at their ends, each with a line feed.
-pub fn text(buffer: &Buffer) -> String {
+pub fn screen_text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {
         let Some(row) = rows.get_mut(usize::from(glyph.row)) else { break };
@@ -77,7 +77,7 @@ mod tests {
             (&["", ""], "\n\n"),
             (&[], ""),
         ] {
-            assert_eq!(text(&Buffer::with_lines(rows.iter().copied())), expected);
+            assert_eq!(screen_text(&Buffer::with_lines(rows.iter().copied())), expected);
         }
     }
 }

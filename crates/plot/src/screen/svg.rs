@@ -1,10 +1,11 @@
 //! The screen as an SVG document, for slides and for pages on the web.
 //!
-//! Each letter is placed in its cell. Dots, blocks and the lines of frames are drawn as shapes, so that they meet from cell
-//! to cell with any font.
+//! Each word is placed in its first cell and is as long as its cells. Dots, blocks and the lines of frames are drawn as shapes,
+//! so that they meet from cell to cell with any font.
 
 use super::{Glyph, dots, glyphs};
-use asperity_plot::{Palette, Rgb, Svg, escaped, hex};
+use crate::colour::{Palette, Rgb, hex};
+use crate::svg::elements::{Svg, escaped};
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
@@ -31,7 +32,7 @@ enum Kind {
 }
 
 /// The screen as a self-contained SVG document; equal screens give equal bytes.
-pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
+pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
     let width = u32::from(buffer.area.width) * WIDTH + 2 * MARGIN;
     let height = u32::from(buffer.area.height) * HEIGHT + 2 * MARGIN;
     let mut svg = Svg::new(f64::from(width), f64::from(height), title);
@@ -53,10 +54,13 @@ pub fn svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
         };
         svg.push(format_args!("<path {looks} d=\"{path}\"/>"));
     }
-    for ((row, colour, is_bold), (places, letters)) in texts(buffer, palette) {
-        let (y, colour, letters) = (u32::from(row) * HEIGHT + BASE, hex(colour), escaped(&letters));
+    for Word { column, row, cells, look: (colour, is_bold), letters } in words(buffer, palette) {
+        let [x, y] = [u32::from(column) * WIDTH, u32::from(row) * HEIGHT + BASE];
+        let (long, colour, letters) = (u32::from(cells) * WIDTH, hex(colour), escaped(&letters));
         let bold = if is_bold { " font-weight=\"bold\"" } else { "" };
-        svg.push(format_args!("<text x=\"{places}\" y=\"{y}\" fill=\"{colour}\"{bold}>{letters}</text>"));
+        svg.push(format_args!(
+            "<text x=\"{x}\" y=\"{y}\" textLength=\"{long}\" fill=\"{colour}\"{bold}>{letters}</text>"
+        ));
     }
     svg.push(format_args!("</g>"));
     svg.finish()
@@ -84,24 +88,31 @@ fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
 }
 
-/// Positions and letters of the texts on each row, by colour and weight, with blanks between words.
-fn texts(buffer: &Buffer, palette: &Palette) -> BTreeMap<(u16, Rgb, bool), (String, String)> {
-    let mut texts = BTreeMap::<_, (String, String)>::new();
-    let mut ends = BTreeMap::new();
+/// Letters without a blank between them, in one colour and weight.
+struct Word {
+    column: u16,
+    row: u16,
+    /// Number of cells.
+    cells: u16,
+    look: (Rgb, bool),
+    letters: String,
+}
+
+/// The words on each row. A list of places for the letters of a text is read by few viewers.
+fn words(buffer: &Buffer, palette: &Palette) -> Vec<Word> {
+    let mut words: Vec<Word> = Vec::new();
     for glyph in glyphs(buffer).filter(|glyph| glyph.symbol() != " " && shape(glyph).is_none()) {
-        let is_bold = glyph.cell.modifier.contains(Modifier::BOLD);
-        let look = (glyph.row, colours(&glyph, palette).0, is_bold);
-        let (places, letters) = texts.entry(look).or_default();
-        let end = ends.insert(look, glyph.column + glyph.width).unwrap_or(glyph.column);
-        let blank = (end < glyph.column).then_some((end, ' '));
-        let symbol = glyph.symbol().chars().map(|letter| (glyph.column, letter));
-        for (column, letter) in blank.into_iter().chain(symbol) {
-            *places += if places.is_empty() { "" } else { " " };
-            *places += &(u32::from(column) * WIDTH).to_string();
-            letters.push(letter);
+        let (column, row, cells, letters) = (glyph.column, glyph.row, glyph.width, glyph.symbol());
+        let look = (colours(&glyph, palette).0, glyph.cell.modifier.contains(Modifier::BOLD));
+        match words.last_mut() {
+            Some(word) if word.row == row && word.column + word.cells == column && word.look == look => {
+                word.cells += cells;
+                word.letters += letters;
+            }
+            _ => words.push(Word { column, row, cells, look, letters: letters.to_owned() }),
         }
     }
-    texts
+    words
 }
 
 fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
@@ -160,7 +171,7 @@ fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_plot::judge::parsed;
+    use crate::judge::parsed;
     use ratatui::layout::Rect;
     use ratatui::style::Style;
 
@@ -168,7 +179,7 @@ mod tests {
     fn drawn(text: &str, style: Style) -> Vec<String> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 1));
         buffer.set_string(1, 0, text, style);
-        let svg = svg(&buffer, &Palette::DARK, "");
+        let svg = screen_svg(&buffer, &Palette::DARK, "");
         parsed(&svg);
         let inner = svg.split_once("\"preserve\">\n").unwrap().1;
         inner.lines().filter(|line| !line.starts_with("</")).map(str::to_owned).collect()
@@ -176,7 +187,8 @@ mod tests {
 
     #[test]
     fn the_document_has_a_title_and_the_size_of_the_screen() {
-        let svg = svg(&Buffer::empty(Rect::new(5, 5, 120, 40)), &Palette::LIGHT, "κ < 6 & \"h\" > 0\u{1}");
+        let svg =
+            screen_svg(&Buffer::empty(Rect::new(5, 5, 120, 40)), &Palette::LIGHT, "κ < 6 & \"h\" > 0\u{1}");
         let (elements, text) = parsed(&svg);
         assert_eq!(text.trim(), "κ < 6 & \"h\" > 0\u{fffd}");
         assert!(
@@ -185,24 +197,25 @@ mod tests {
         );
         assert_eq!(elements[2], r##"rect width="976" height="656" rx="6" fill="#ffffff""##);
         assert_eq!(elements.len(), 4, "{svg}");
-        parsed(&super::svg(&Buffer::empty(Rect::ZERO), &Palette::LIGHT, ""));
+        parsed(&super::screen_svg(&Buffer::empty(Rect::ZERO), &Palette::LIGHT, ""));
     }
 
     #[test]
     fn letters_have_the_places_of_their_cells_and_their_looks() {
-        let text = |places: &str, look: &str, letters: &str| {
-            format!(r#"<text x="{places}" y="12" fill={look}>{letters}</text>"#)
+        let text = |x: u32, cells: u32, look: &str, letters: &str| {
+            format!(r#"<text x="{x}" y="12" textLength="{}" fill={look}>{letters}</text>"#, 8 * cells)
         };
         let face = r##""#e1e6eb""##;
-        assert_eq!(drawn("a<b  漢c", Style::new()), [text("8 16 24 32 48 64", face, "a&lt;b 漢c")]);
-        let bold = text("8", r##""#ff6b3d" font-weight="bold""##, "x");
+        let words = [text(8, 3, face, "a&lt;b"), text(48, 3, face, "漢c")];
+        assert_eq!(drawn("a<b  漢c", Style::new()), words);
+        let bold = text(8, 1, r##""#ff6b3d" font-weight="bold""##, "x");
         assert_eq!(drawn("x", Style::new().bold().red()), [bold]);
         // Three fifths of the foreground over the background.
-        assert_eq!(drawn("x", Style::new().dim()), [text("8", r##""#8d9297""##, "x")]);
+        assert_eq!(drawn("x", Style::new().dim()), [text(8, 1, r##""#8d9297""##, "x")]);
         let ground = |colour: &str| {
             format!(r##"<path fill="{colour}" shape-rendering="crispEdges" d="M8 0h8v16h-8z"/>"##)
         };
-        let reversed = [ground("#e1e6eb"), text("8", r##""#10151b""##, "x")];
+        let reversed = [ground("#e1e6eb"), text(8, 1, r##""#10151b""##, "x")];
         assert_eq!(drawn("x", Style::new().reversed()), reversed);
         assert_eq!(drawn(" ", Style::new().bg(Color::Red)), [ground("#ff6b3d")]);
     }

@@ -1,0 +1,115 @@
+//! A font embedded in a PDF file, with the letters of its glyphs for readers that search.
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
+use pdf_writer::writers::PositionedItems;
+use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
+use resvg::usvg::fontdb::{Database, ID, Style};
+use std::collections::BTreeMap;
+use std::io;
+use std::io::Write;
+use ttf_parser::{Face, GlyphId};
+
+/// Objects of a font in a file.
+const OBJECTS: i32 = 5;
+/// Glyphs are numbered as in the font itself.
+const IDENTITY: SystemInfo<'_> =
+    SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
+/// Width of vertical stems, in thousandths of the font size, by which a reader chooses another font if this one fails.
+const STEM: f32 = 80.0;
+
+/// A font on a page.
+pub(super) struct PdfFont {
+    id: ID,
+    name: String,
+    is_italic: bool,
+    data: Vec<u8>,
+    units_per_em: f32,
+    /// Shown glyphs, each with its width in thousandths of the font size and its letters.
+    glyphs: BTreeMap<u16, (f32, String)>,
+}
+
+impl PdfFont {
+    /// A font of the fonts of a document; `None` if it cannot be read.
+    pub(super) fn new(fonts: &Database, id: ID) -> Option<PdfFont> {
+        let face = fonts.face(id)?;
+        let (name, is_italic) = (face.post_script_name.clone(), face.style != Style::Normal);
+        let data = fonts.with_face_data(id, |data, _| data.to_vec())?;
+        let units_per_em = f32::from(Face::parse(&data, 0).ok()?.units_per_em());
+        Some(PdfFont { id, name, is_italic, data, units_per_em, glyphs: BTreeMap::new() })
+    }
+
+    pub(super) fn is(&self, id: ID) -> bool {
+        self.id == id
+    }
+
+    pub(super) fn units_per_em(&self) -> f32 {
+        self.units_per_em
+    }
+
+    /// Name of the font with this index on its page.
+    pub(super) fn name(&self, index: usize) -> String {
+        format!("f{index}")
+    }
+
+    /// Reference of the font with this index, if the first free reference of the file is `first`.
+    pub(super) fn reference(&self, first: i32, index: usize) -> Ref {
+        Ref::new(first + OBJECTS * index as i32)
+    }
+
+    /// Shows a glyph, which has these letters, and returns its width in thousandths of the font size.
+    pub(super) fn show(&mut self, items: &mut PositionedItems<'_>, glyph: u16, letters: &str) -> f32 {
+        items.show(Str(&glyph.to_be_bytes()));
+        let PdfFont { glyphs, data, units_per_em, .. } = self;
+        let advance = || Face::parse(data, 0).ok().and_then(|face| face.glyph_hor_advance(GlyphId(glyph)));
+        let width = || 1000.0 * f32::from(advance().unwrap_or(0)) / *units_per_em;
+        glyphs.entry(glyph).or_insert_with(|| (width(), letters.to_owned())).0
+    }
+
+    /// Writes the objects of the font.
+    pub(super) fn write(&self, pdf: &mut Pdf, first: i32, index: usize) -> io::Result<()> {
+        let reference = self.reference(first, index);
+        let [cid, descriptor, letters, file] = [1, 2, 3, 4].map(|next| Ref::new(reference.get() + next));
+        let name = Name(self.name.as_bytes());
+        let face = Face::parse(&self.data, 0).map_err(io::Error::other)?;
+        let scaled = |units: i16| 1000.0 * f32::from(units) / self.units_per_em;
+        pdf.type0_font(reference)
+            .base_font(name)
+            .encoding_predefined(Name(b"Identity-H"))
+            .descendant_font(cid)
+            .to_unicode(letters);
+        let mut font = pdf.cid_font(cid);
+        font.subtype(CidFontType::Type2).base_font(name).system_info(IDENTITY).font_descriptor(descriptor);
+        font.cid_to_gid_map_predefined(Name(b"Identity"));
+        let mut widths = font.widths();
+        for (glyph, (width, _)) in &self.glyphs {
+            widths.same(*glyph, *glyph, *width);
+        }
+        widths.finish();
+        font.finish();
+        let bounds = face.global_bounding_box();
+        let [left, bottom, right, top] = [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(scaled);
+        let style = if self.is_italic { FontFlags::ITALIC } else { FontFlags::empty() };
+        pdf.font_descriptor(descriptor)
+            .name(name)
+            .flags(FontFlags::SYMBOLIC | style)
+            .bbox(Rect::new(left, bottom, right, top))
+            .italic_angle(face.italic_angle())
+            .ascent(scaled(face.ascender()))
+            .descent(scaled(face.descender()))
+            .cap_height(scaled(face.capital_height().unwrap_or(face.ascender())))
+            .stem_v(STEM)
+            .font_file2(file);
+        let mut cmap = UnicodeCmap::new(Name(b"Letters"), IDENTITY);
+        for (glyph, (_, letters)) in &self.glyphs {
+            cmap.pair_with_multiple(*glyph, letters.chars());
+        }
+        pdf.cmap(letters, cmap.finish().as_slice());
+        let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
+        packed.write_all(&self.data)?;
+        let packed = packed.finish()?;
+        pdf.stream(file, &packed).filter(Filter::FlateDecode).pair(Name(b"Length1"), self.data.len() as i32);
+        Ok(())
+    }
+}

@@ -1,0 +1,214 @@
+//! The number at which a quantity reaches a target, as text, JSON and a table.
+
+use crate::ensemble::{profiles_named, rounded};
+use crate::report::{Json, Report};
+use crate::sensitivity::others_stay;
+use crate::sheet::Sheet;
+use asperity_data::{Kind, Table, object};
+use asperity_data::{format_quantity, format_range, format_rounded, grouped, one_unit};
+use asperity_scene::Scene;
+use asperity_study::{Answer, Ensemble, Found};
+
+/// Number of profiles with several crossings that are listed; further ones are counted.
+const MOST_LISTED: usize = 8;
+
+/// An answered question, with the title of its scene.
+#[derive(Clone, Copy, Debug)]
+pub struct FindReport<'a> {
+    pub title: &'a str,
+    pub scene: &'a Scene,
+    pub found: &'a Found,
+}
+
+/// The answer in one sentence: the median with quartiles, `at any preload`, or `never` with the values within reach.
+pub fn found_in_words(found: &Found) -> String {
+    let question = &found.question;
+    let unit = question.axis.unit;
+    let target = target_in_words(found);
+    let name = question.axis.symbol_or_name();
+    let count = found.answers.len();
+    let searched = format_range(question.searched, 4, unit);
+    let reachable = found.reachable().map_or_else(String::new, |ends| values_in_words(found, ends));
+    let is_reached = |answer: &&Answer| answer.reached == [true; 2] && answer.crossings.is_empty();
+    let reached = found.answers.iter().filter(is_reached).count();
+    let met = found.values().iter().flatten().count();
+    let quantity = question.quantity.symbol_or_name();
+    let profiles = |met: usize| match count {
+        1 => String::new(),
+        _ if met == count => format!(" on all {count} profiles"),
+        _ => format!(" on {met} of {count} profiles"),
+    };
+    if reached == count {
+        let any =
+            if question.is_of_preload() { "at any preload".to_owned() } else { format!("at any {name}") };
+        let touch = found.answers.iter().filter(|answer| answer.at_touch).count();
+        let touch = match touch {
+            0 => String::new(),
+            _ if touch == count => ", already after a turn at first touch".to_owned(),
+            _ => format!(", on {touch} of {count} profiles already after a turn at first touch"),
+        };
+        return format!("{target} is reached {any} from {searched}{touch}: {quantity} is {reachable}.");
+    }
+    if met + reached == 0 {
+        return format!("{target} is never reached with {name} from {searched}: {quantity} is {reachable}.");
+    }
+    let Some(median) = found.quantile(0.5) else {
+        let range =
+            found.range().map_or_else(String::new, |range| format!(": {}", format_range(range, 3, unit)));
+        return format!(
+            "{target} has no median {name} from {searched}; it is crossed{}{range}. {quantity} is {reachable}.",
+            profiles(met)
+        );
+    };
+    let median = format_quantity(median, unit);
+    if count == 1 {
+        return format!("{name} = {median} for {target}.");
+    }
+    let quartiles = match [0.25, 0.75].map(|share| found.quantile(share)) {
+        [Some(low), Some(high)] => format!("quartiles {}", format_range((low, high), 3, unit)),
+        [Some(low), None] => format!(
+            "lower quartile {}, upper quartile beyond the searched range",
+            format_rounded(low, 3, unit)
+        ),
+        [None, Some(high)] => format!(
+            "lower quartile beyond the searched range, upper quartile {}",
+            format_rounded(high, 3, unit)
+        ),
+        [None, None] => "quartiles beyond the searched range".to_owned(),
+    };
+    format!("{name} = {median} for {target}: median of {count} profiles, {quartiles}.")
+}
+
+/// The target in words: `F_a/F_a,max = 80 %`.
+fn target_in_words(found: &Found) -> String {
+    let quantity = found.question.quantity;
+    format!("{} = {}", quantity.symbol_or_name(), rounded(quantity, found.question.target, 4))
+}
+
+/// Values of the quantity within reach, in words.
+fn values_in_words(found: &Found, (least, most): (f64, f64)) -> String {
+    one_unit([least, most].map(|value| rounded(found.question.quantity, value, 4)))
+}
+
+impl FindReport<'_> {
+    /// Sentences on the profiles that do not count with a single number.
+    fn exceptions(&self) -> Vec<String> {
+        let (found, question) = (self.found, &self.found.question);
+        let name = question.axis.symbol_or_name();
+        let count = |is: &dyn Fn(&Answer) -> bool| found.answers.iter().filter(|answer| is(answer)).count();
+        let mut sentences = Vec::new();
+        let mut say = |count: usize, words: String| {
+            if count > 0 && found.answers.len() > 1 {
+                sentences.push(format!("{count} of {} {words}", found.answers.len()));
+            }
+        };
+        if question.is_of_preload() {
+            let least = format_quantity(question.searched.0, question.axis.unit);
+            say(
+                count(&|answer| answer.reached[0]),
+                format!("need no preload above {least}, and count with {least}."),
+            );
+            say(count(&|answer| answer.at_touch), "reach it already after a turn at first touch.".to_owned());
+        } else {
+            let whole = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [true; 2];
+            say(count(&whole), format!("have more at any {name} of the searched range."));
+        }
+        let never = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [false; 2];
+        let most = found.answers.iter().filter(|answer| never(answer)).filter_map(|answer| answer.reachable);
+        if let Some(most) = most.map(|ends| ends.1).reduce(f64::max) {
+            let most = values_in_words(found, (most, most));
+            say(
+                count(&never),
+                format!("never reach it in the searched range; there they have at most {most}."),
+            );
+        }
+        sentences
+    }
+
+    /// Rows of the profiles on which the quantity crosses the target more than once, or which fall below it again.
+    fn several(&self) -> Vec<(String, String)> {
+        let unit = self.found.question.axis.unit;
+        let several = self.found.answers.iter().filter(|answer| answer.crossings.len() > 1);
+        let row = |answer: &Answer| {
+            let all: Vec<String> =
+                answer.crossings.iter().map(|number| format_rounded(*number, 3, unit)).collect();
+            let seed = answer.seed.map_or("this profile".to_owned(), |seed| format!("seed {seed}"));
+            (seed, all.join(", "))
+        };
+        several.map(row).collect()
+    }
+}
+
+impl Report for FindReport<'_> {
+    fn text(&self) -> Option<String> {
+        let (found, question) = (self.found, &self.found.question);
+        let axis = &question.axis;
+        let mut sheet = Sheet::default();
+        sheet.paragraph(self.title);
+        sheet.heading(&found_in_words(found));
+        self.exceptions().iter().for_each(|sentence| sheet.paragraph(sentence));
+        let several = self.several();
+        if !several.is_empty() {
+            sheet.heading("Several crossings, of which the first counts");
+            several.iter().take(MOST_LISTED).for_each(|(seed, all)| sheet.row(seed, all));
+            let more = several.len().saturating_sub(MOST_LISTED);
+            sheet.row_of("and more", (more > 0).then(|| format!("{} profiles", grouped(more as u64))));
+        }
+        let searched =
+            format!("Searched: {} from {}.", axis.name, format_range(question.searched, 4, axis.unit));
+        let profiles = match found.answers.first().and_then(|answer| answer.seed) {
+            Some(first) => format!(
+                "{}, {} springs.",
+                profiles_named(question.profiles(), first),
+                grouped(self.scene.numerics.points)
+            ),
+            None => Ensemble::FIXED.to_owned(),
+        };
+        let others = if question.is_of_preload() {
+            "The preload replaces the loading of the scene.".to_owned()
+        } else {
+            others_stay(self.scene)
+        };
+        sheet.heading(&format!("{searched} {others} {profiles}"));
+        Some(sheet.into_text())
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let (found, question) = (self.found, &self.found.question);
+        let [low, median, high] = [0.25, 0.5, 0.75].map(|share| found.quantile(share));
+        Some(Box::new(object! {
+            "scene": self.scene,
+            "field": &question.axis.path,
+            "unit": question.axis.unit,
+            "quantity": question.quantity,
+            "value": question.target,
+            "profiles": question.profiles(),
+            "median": median,
+            "quartiles": [low, high],
+            "range": found.range(),
+            "values": found.values(),
+            "crossings": found.answers.iter().map(|answer| answer.crossings.len()).collect::<Vec<_>>(),
+            "all_crossings": found.answers.iter().map(|answer| &answer.crossings).collect::<Vec<_>>(),
+            "at_first_touch": question.is_of_preload().then(|| found.answers.iter().filter(|answer| answer.at_touch).count()),
+            "reachable": found.reachable(),
+            "searched": question.searched,
+            "answer": found_in_words(found),
+        }))
+    }
+
+    /// A row for each profile.
+    fn table(&self) -> Option<Table<'_>> {
+        let values = self.found.values();
+        let rows = move || self.found.answers.iter().zip(values.clone());
+        let mut table = Table::of(rows);
+        if self.found.answers.iter().all(|answer| answer.seed.is_some()) {
+            table = table.whole("seed", |(answer, _)| answer.seed.unwrap_or_default());
+        }
+        let table = table
+            .with(self.found.question.axis.path.clone(), Kind::Real, |(_, value)| *value)
+            .whole("crossings", |(answer, _)| answer.crossings.len() as u64)
+            .real("least", |(answer, _)| answer.reachable.map(|ends| ends.0))
+            .real("most", |(answer, _)| answer.reachable.map(|ends| ends.1));
+        Some(table.done())
+    }
+}

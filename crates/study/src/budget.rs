@@ -1,0 +1,125 @@
+//! Errors of an adhesion force by their sources: grid, sample of random profiles, measured surface, model.
+
+use super::ensemble::Ensemble;
+use super::quantity::Quantity;
+use asperity_data::quantile;
+use asperity_scene::{Estimate, Outcome};
+use serde::Serialize;
+use std::ops::Range;
+
+/// Fewest profiles whose median has an interval.
+const FEWEST: usize = 4;
+/// Half the width of the interval of a median in quantiles, times the root of the number of profiles: the normal
+/// approximation of the binomial distribution, for 95 of 100 cases.
+const HALF: f64 = 0.98;
+
+/// Errors of the adhesion force by their sources. Each is a share of the force that the error exceeds in about 5 of 100 cases;
+/// `None` for a source without a known error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Budget {
+    /// Of the profile of the scene, by the finite number of springs.
+    pub grid: Option<f64>,
+    /// Of the median over random profiles, by the finite number of profiles.
+    pub sample: Option<f64>,
+    /// Of the median, by the uncertainty of the spectrum of a measured surface.
+    pub surface: Option<f64>,
+    /// Of the model, against the same bodies in three dimensions; not known.
+    pub model: Option<f64>,
+    /// Name of the largest known error.
+    pub largest: Option<&'static str>,
+}
+
+impl Budget {
+    /// The budget of an outcome with the estimated error of its adhesion force, with an ensemble of random profiles, and with
+    /// the standard deviation of the force, N, by the spectrum of a measured surface, as far as they are known. `None` without
+    /// an adhesion force above zero.
+    pub fn of(
+        outcome: &Outcome,
+        estimate: Option<&Estimate>,
+        ensemble: Option<&Ensemble>,
+        deviation: Option<f64>,
+    ) -> Option<Budget> {
+        let forces = ensemble.map(|ensemble| ensemble.values(Quantity::AdhesionForce));
+        let mut forces: Vec<f64> = forces.into_iter().flatten().flatten().collect();
+        let force = outcome.figures.adhesion_force.filter(|force| *force > 0.0)?;
+        let finite = |share: f64| Some(share).filter(|share| share.is_finite());
+        forces.sort_by(f64::total_cmp);
+        let median = if forces.is_empty() { force } else { quantile(&forces, 0.5) };
+        let grid = estimate.and_then(|estimate| finite(estimate.of_adhesion_force(outcome)? / force));
+        let sample = median_interval(&forces).and_then(|ends| finite(0.5 * (ends.end - ends.start) / median));
+        let surface = deviation.and_then(|deviation| finite(2.0 * deviation / median));
+        let known = [("grid", grid), ("sample", sample), ("surface", surface)];
+        let known = known.into_iter().filter_map(|(name, share)| Some((name, share?)));
+        let largest = known.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(name, _)| name);
+        Some(Budget { grid, sample, surface, model: None, largest })
+    }
+}
+
+/// Interval of ascending values that holds the median of their distribution in about 95 of 100 cases, whatever the
+/// distribution; `None` for few values.
+fn median_interval(ascending: &[f64]) -> Option<Range<f64>> {
+    let count = ascending.len();
+    let half = HALF / (count as f64).sqrt();
+    (count >= FEWEST).then(|| quantile(ascending, 0.5 - half)..quantile(ascending, 0.5 + half))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::{Evidence, Simulation, Target, open, run};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    /// The interval holds the median of log-normal forces in about 95 of 100 samples.
+    #[test]
+    fn the_interval_of_a_median_holds_it() {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        for count in [8, 16, 32, 128] {
+            let mut held = 0;
+            for _ in 0..4000 {
+                let normal = |random: &mut ChaCha8Rng| -> f64 {
+                    (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
+                };
+                let mut forces: Vec<f64> = (0..count).map(|_| (1.5 * normal(&mut random)).exp()).collect();
+                forces.sort_by(f64::total_cmp);
+                held += i32::from(median_interval(&forces).unwrap().contains(&1.0));
+            }
+            let share = f64::from(held) / 4000.0;
+            assert!((0.92..0.97).contains(&share), "{count}: {share}");
+        }
+        assert_eq!(median_interval(&[1.0; 3]), None);
+    }
+
+    #[test]
+    fn the_largest_source_is_named() {
+        let fields = [("numerics.points", "1024"), ("roughness.modes", "(1, 128)")];
+        let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let document = open("pressure-sensitive").unwrap().set_all(&fields).unwrap();
+        let outcome = run(&document).unwrap();
+        let simulation = (Simulation::default(), 1);
+        let ensemble = Ensemble::of(document.scene(), &[], 17, simulation, &|| false, &mut |_| ()).unwrap();
+        let estimate = |error| Estimate {
+            target: Target::AdhesionForce,
+            error,
+            near_step: false,
+            evidence: Evidence::ClosedForm,
+        };
+        let budget = |error, ensemble, deviation| {
+            Budget::of(&outcome, Some(&estimate(error)), ensemble, deviation).unwrap()
+        };
+        let grid = budget(0.01, None, None);
+        assert_eq!((grid.sample, grid.surface, grid.largest), (None, None, Some("grid")));
+        assert!((grid.grid.unwrap() / 0.01 - 1.0).abs() < 1e-12);
+        let all = ensemble.statistics(Quantity::AdhesionForce).unwrap();
+        let median = all.quartiles[1];
+        let sample = budget(0.01, Some(&ensemble), Some(1e-3 * median));
+        // About half of the distance of the quartiles.
+        let quartiles = 0.5 * (all.quartiles[2] - all.quartiles[0]) / median;
+        assert!((sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2, "{sample:?} {quartiles}");
+        assert!((sample.surface.unwrap() - 2e-3).abs() < 1e-12 && sample.largest == Some("sample"));
+        assert_eq!(budget(0.01, Some(&ensemble), Some(9.0 * median)).largest, Some("surface"));
+        assert_eq!(Budget::of(&outcome, None, None, None).unwrap().largest, None);
+        let apart = run(&open("jkr-sphere").unwrap().set("adhesion", "None").unwrap()).unwrap();
+        assert_eq!(Budget::of(&apart, None, None, None), None);
+    }
+}

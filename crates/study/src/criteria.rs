@@ -1,0 +1,155 @@
+//! What other theories say of the adhesion of a randomly rough body without a preload, beside this program.
+//!
+//! Each criterion has conditions of its own, and where they do not hold it says so. The criteria are no vote: they disagree,
+//! since they have different limits.
+
+use super::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR, long_ranged};
+use super::ensemble::Ensemble;
+use super::quantity::Quantity;
+use super::rough_contact::RoughContact;
+use asperity_scene::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, Outcome, Scene, VANISHING_SHARE};
+
+const TABOR: Criterion = Criterion::new(
+    "Tabor number",
+    "μ",
+    "Tabor: J. Colloid Interface Sci. 58 (1977) 2",
+    LEAST_TABOR_NUMBER_OF_JKR,
+);
+const THIS_PROGRAM: Criterion =
+    Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", VANISHING_SHARE);
+
+/// Criteria of adhesion for a computed scene, this program last: by the medians of an ensemble, or without one by the profile
+/// of the scene alone.
+///
+/// Criteria of roughness are left out for a smooth body, and all criteria for a scene without adhesion. A form does not enter
+/// the criteria of roughness.
+pub fn criteria(scene: &Scene, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
+    let governing = &outcome.governing;
+    let Some((work, adhesion)) = governing.adhesive_work().zip(scene.adhesion) else { return Vec::new() };
+    let rough = governing.amplitude.filter(|amplitude| amplitude.rms_curvature > 0.0);
+    let rough = rough.map(|amplitude| RoughContact {
+        amplitude,
+        stretch: work / governing.effective_modulus,
+        range: adhesion.range.unwrap_or(DEFAULT_RANGE),
+        spectrum: scene.spectrum(),
+        length: scene.length,
+        tabor_number: outcome.tabor_number,
+    });
+    let mut rows = rough.map_or_else(Vec::new, |rough| rough.criteria());
+    rows.push(tabor(outcome.tabor_number));
+    rows.extend(this_program(outcome, ensemble));
+    rows
+}
+
+fn tabor(tabor_number: Option<f64>) -> Criterion {
+    let reason = match tabor_number {
+        None => "the form has no radius of curvature",
+        Some(number) if number < LEAST_TABOR_NUMBER_OF_JKR => {
+            "below 1: JKR theory and this program do not apply, DMT theory does"
+        }
+        Some(number) if number < LEAST_TABOR_NUMBER => "from 1 to 5: between JKR and DMT theory",
+        Some(_) => "at least 5: JKR theory applies, as in this program",
+    };
+    Criterion { value: tabor_number, reason: Some(reason.to_owned()), ..TABOR }
+}
+
+/// Adhesion without a preload by both protocols as a share of the adhesion force of the smooth body: below
+/// [`VANISHING_SHARE`] adhesion has vanished, as in the definition of the regimes.
+fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
+    let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
+    let own = [outcome.zero_load_adhesion_force, outcome.zero_force_adhesion_force];
+    let quantities = [Quantity::ZeroLoadAdhesionForce, Quantity::ZeroForceAdhesionForce];
+    let median = |ensemble: &Ensemble, quantity| Some(ensemble.statistics(quantity)?.quartiles[1]);
+    let [zero_load, zero_force] =
+        ensemble.map_or(own, |ensemble| quantities.map(|quantity| median(ensemble, quantity)));
+    let of =
+        ensemble.map(|ensemble| format!(", median of {} profiles", ensemble.computed())).unwrap_or_default();
+    let rows = [
+        ("F_a(0)/F_smooth", "from first touch", zero_load),
+        ("F_a(F=0)/F_smooth", "after zero net force", zero_force),
+    ];
+    let refusal = long_ranged(outcome.tabor_number);
+    let row = |(symbol, protocol, force): (&'static str, &str, Option<f64>)| {
+        let share = Some(force? / smooth?).filter(|share| share.is_finite())?;
+        let reason = match &refusal {
+            Some(refusal) => format!("does not hold: {refusal}"),
+            None => format!("{protocol}{of}"),
+        };
+        let sticks = refusal.is_none().then_some(share >= VANISHING_SHARE);
+        Some(Criterion { symbol, value: Some(share), sticks, reason: Some(reason), ..THIS_PROGRAM })
+    };
+    rows.into_iter().filter_map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::{Document, Simulation, run};
+
+    fn document(fields: &str) -> Document {
+        let text = format!("(version: 1, length: 1.0e-5, numerics: (points: 4096), {fields})");
+        Document::parse(&text, "test").unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    fn rows(document: &Document, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
+        criteria(document.scene(), &run(document).unwrap(), ensemble)
+    }
+
+    /// Ruby on nanocrystalline diamond (Thimons et al. 2021): stiff, with summits of 40 nm.
+    #[test]
+    fn the_tabor_number_refuses_hard_bodies() {
+        let hard = document(
+            "material: (effective_modulus: 2.9e11), adhesion: (work: 0.05), loading: [ToForce(1.0e-6), ToSeparation], \
+             roughness: SelfAffine(hurst: 0.8, rms_gradient: 0.1, wavelengths: (1.0e-6, 1.0e-8), seed: 1)",
+        );
+        let rows = rows(&hard, None);
+        let of = |name: &str| rows.iter().filter(|row| row.name == name).collect::<Vec<_>>();
+        let tabor = of("Tabor number")[0];
+        assert!((0.01..0.1).contains(&tabor.value.unwrap()) && tabor.sticks.is_none(), "{tabor:?}");
+        assert!(tabor.reason.as_ref().unwrap().contains("JKR theory and this program do not apply"));
+        for name in ["Persson & Tosatti 2001", "Fuller & Tabor 1975", "this program"] {
+            for row in of(name) {
+                assert!(row.sticks.is_none() && row.value.is_some(), "{row:?}");
+                assert!(row.reason.as_ref().unwrap().contains(", needs at least 1"), "{row:?}");
+            }
+        }
+        // Criteria of stiff bodies hold.
+        for name in ["Pastewka & Robbins 2014", "bearing area 2018"] {
+            assert_eq!(of(name)[0].sticks, Some(false), "{:?}", of(name));
+        }
+    }
+
+    #[test]
+    fn rows_are_those_that_the_scene_calls_for() {
+        let names = |rows: &[Criterion]| rows.iter().map(|row| row.name).collect::<Vec<_>>();
+        let smooth = document(
+            "material: (effective_modulus: 1.0e6), form: Paraboloid(radius: 1.0e-5), adhesion: (work: 0.05)",
+        );
+        let found = rows(&smooth, None);
+        assert_eq!(names(&found), ["Tabor number", "this program", "this program"]);
+        assert!(found[1..].iter().all(|row| row.sticks == Some(true)), "{found:?}");
+        assert_eq!(rows(&document("material: (effective_modulus: 1.0e6)"), None), []);
+        let rough = document(
+            "material: (effective_modulus: 1.0e6), adhesion: (work: 0.05), \
+             roughness: SelfAffine(hurst: 0.3, rms_height: 1.0e-7, modes: (1, 64), seed: 1)",
+        );
+        let simulation = (Simulation::default(), 1);
+        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_| ()).unwrap();
+        let found = rows(&rough, Some(&ensemble));
+        assert_eq!(names(&found)[4..], ["Tabor number", "this program", "this program"]);
+        let smooth = run(&rough).unwrap().smooth_adhesion_force.unwrap();
+        for (row, quantity) in
+            found[5..].iter().zip([Quantity::ZeroLoadAdhesionForce, Quantity::ZeroForceAdhesionForce])
+        {
+            let mut forces: Vec<f64> = ensemble.values(quantity).into_iter().flatten().collect();
+            forces.sort_by(f64::total_cmp);
+            assert_eq!((forces.len(), row.value), (5, Some(forces[2] / smooth)));
+            assert_eq!(row.sticks, Some(forces[2] >= VANISHING_SHARE * smooth));
+        }
+        assert!(
+            found[5].words().ends_with("(from first touch, median of 5 profiles)"),
+            "{}",
+            found[5].words()
+        );
+    }
+}

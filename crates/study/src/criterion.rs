@@ -1,0 +1,73 @@
+//! One criterion of adhesion: its number, its threshold, and whether it holds.
+
+use asperity_data::{format_quantity, format_rounded};
+use serde::Serialize;
+
+/// Tabor number below which JKR theory, and with it the rule of Hess, does not apply.
+pub const LEAST_TABOR_NUMBER_OF_JKR: f64 = 1.0;
+
+/// A criterion of adhesion without a preload.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Criterion {
+    /// Name of the theory.
+    pub name: &'static str,
+    /// Symbol of its number.
+    pub symbol: &'static str,
+    /// Its publication.
+    pub reference: &'static str,
+    /// The number; `None` if the scene does not determine it.
+    pub value: Option<f64>,
+    /// The number at which the verdict changes.
+    pub threshold: f64,
+    /// Whether the bodies adhere without a preload; `None` where the criterion does not hold or does not decide.
+    pub sticks: Option<bool>,
+    /// Why there is no verdict, or the protocol and the profiles of the number.
+    pub reason: Option<String>,
+}
+
+impl Criterion {
+    /// A criterion without a number yet.
+    pub(super) const fn new(
+        name: &'static str,
+        symbol: &'static str,
+        reference: &'static str,
+        threshold: f64,
+    ) -> Criterion {
+        Criterion { name, symbol, reference, value: None, threshold, sticks: None, reason: None }
+    }
+
+    /// The number, its threshold and the verdict in words.
+    pub fn words(&self) -> String {
+        let value = self.value.map_or("not known".to_owned(), |value| format_quantity(value, "1"));
+        let number = format!("{} = {value}", self.symbol);
+        let reason = self.reason.as_deref();
+        let Some((sticks, value)) = self.sticks.zip(self.value) else {
+            return format!("{number}{}", reason.map_or_else(String::new, |reason| format!("; {reason}")));
+        };
+        let verdict = if sticks { "adheres" } else { "does not adhere" };
+        let side = if value < self.threshold { "below" } else { "at least" };
+        let threshold = format_quantity((100.0 * self.threshold).round() / 100.0, "1");
+        let reason = reason.map_or_else(String::new, |reason| format!(" ({reason})"));
+        format!("{number}, {side} {threshold}: {verdict}{reason}")
+    }
+
+    /// A criterion by which bodies adhere below the threshold, unless its conditions are violated.
+    pub(super) fn judge(self, value: f64, refusals: &[Option<String>]) -> Criterion {
+        let refusals: Vec<&str> = refusals.iter().flatten().map(String::as_str).collect();
+        let value = Some(value).filter(|value| value.is_finite());
+        let sticks = value.filter(|_| refusals.is_empty()).map(|value| value < self.threshold);
+        let reason = (!refusals.is_empty()).then(|| format!("does not hold: {}", refusals.join("; ")));
+        Criterion { value, sticks, reason, ..self }
+    }
+}
+
+/// A number of a reason, to two digits.
+pub(super) fn number(value: f64) -> String {
+    format_rounded(value, 2, "1")
+}
+
+/// Why a theory of short-ranged attraction does not hold.
+pub(super) fn long_ranged(tabor_number: Option<f64>) -> Option<String> {
+    let below = tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
+    Some(format!("μ {}, needs at least {LEAST_TABOR_NUMBER_OF_JKR}", number(below)))
+}

@@ -1,0 +1,166 @@
+//! The ensemble of a scene: its results on random profiles of one roughness, which is what the scene states whatever its seed.
+
+use super::error::StudyError;
+use super::profiles::Stop;
+use super::quantity::Quantity;
+use super::results::Results;
+use super::statistics::{RegimeCounts, Statistics};
+use asperity_scene::{Scene, Simulation, Solver};
+
+/// Results of a scene on several random profiles: the profile of its own seed and of the seeds that follow. A scene whose
+/// profile is fixed has this single profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ensemble {
+    results: Results,
+}
+
+impl Ensemble {
+    /// Usual number of random profiles.
+    pub const PROFILES: u64 = 16;
+
+    /// Sentence for a scene that has a single profile.
+    pub const FIXED: &str =
+        "The profile of this scene is fixed, so there is no scatter over random profiles.";
+
+    /// Numbers of an ensemble.
+    pub const NUMBERS: [Quantity; 5] = [
+        Quantity::AdhesionForce,
+        Quantity::AdhesionShare,
+        Quantity::ZeroLoadAdhesionForce,
+        Quantity::ZeroForceAdhesionForce,
+        Quantity::DissipatedEnergy,
+    ];
+
+    /// Usual number of profiles of a scene: [`Ensemble::PROFILES`], or 1 for a fixed profile and for the stepwise solver, whose
+    /// profiles take long.
+    pub fn profiles_of(scene: &Scene) -> u64 {
+        let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
+        if several { Ensemble::PROFILES } else { 1 }
+    }
+
+    /// Computes a checked scene on this number of profiles: the numbers of [`Ensemble::NUMBERS`], the regimes by both
+    /// protocols, and these further quantities. `jobs` threads share the profiles, the first with this simulation; no bit
+    /// depends on their number. `report` receives the profiles so far after each. A profile that cannot follow the loading has
+    /// no values.
+    ///
+    /// # Errors
+    /// Several profiles of a scene whose profile is fixed, too little memory, or `stop` returned true.
+    pub fn of(
+        scene: &Scene,
+        further: &[Quantity],
+        profiles: u64,
+        workers: (Simulation, usize),
+        stop: &Stop<'_>,
+        report: &mut dyn FnMut(&Ensemble),
+    ) -> Result<Ensemble, StudyError> {
+        let record = [&Ensemble::NUMBERS[..], &Quantity::REGIMES, further].concat();
+        let mut results = Results::begin(scene, &record, profiles, None)?;
+        let mut see = |results: &Results| report(&Ensemble { results: results.clone() });
+        results.extend_each(workers, stop, &mut see)?;
+        Ok(Ensemble { results })
+    }
+
+    /// Number of profiles when all are computed.
+    pub fn profiles(&self) -> u64 {
+        self.results.plan().lines
+    }
+
+    /// Number of profiles computed so far.
+    pub fn computed(&self) -> u64 {
+        (0..self.profiles()).filter(|line| self.results.has(0, *line)).count() as u64
+    }
+
+    /// The profiles that cannot follow the loading: seed, and reason in one line.
+    pub fn failed(&self) -> impl Iterator<Item = (u64, &str)> {
+        self.results.failed().map(|(_, line, reason)| (self.results.plan().seed_of(line), reason))
+    }
+
+    /// The profiles with their seeds, as a study of one cell.
+    pub fn results(&self) -> &Results {
+        &self.results
+    }
+
+    /// Median, quartiles, range and mean of a quantity over the computed profiles that have one; `None` without any.
+    pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
+        self.results.statistics(0, quantity)
+    }
+
+    /// Values of a quantity on all profiles, in the order of their seeds; `None` for a profile without a value.
+    pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
+        (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
+    }
+
+    /// Number of profiles in each regime, from first touch and after zero net force.
+    pub fn regimes(&self) -> [RegimeCounts; 2] {
+        self.results.regimes(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::{CheckedScene, open};
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    fn scene(name: &str) -> CheckedScene {
+        open(name).unwrap().scene().with(|scene| scene.numerics.points = 2048).unwrap()
+    }
+
+    fn ensemble(scene: &CheckedScene, profiles: u64, jobs: usize) -> Result<Ensemble, StudyError> {
+        Ensemble::of(scene, &[], profiles, (Simulation::default(), jobs), &|| false, &mut |_| ())
+    }
+
+    /// Each profile is the scene with the seed of that profile, and no bit depends on the number of threads.
+    #[test]
+    fn an_ensemble_is_the_scene_with_the_seeds_that_follow() {
+        let scene = scene("pressure-sensitive");
+        let found = ensemble(&scene, 6, 2).unwrap();
+        assert_eq!(ensemble(&scene, 6, 1).unwrap(), found);
+        let outcome = |seed| {
+            Simulation::default().run(&scene.with_seed(seed), &|| false, &mut |_, _, _| Ok(())).unwrap()
+        };
+        let outcomes: Vec<_> = (0..6).map(|line| outcome(scene.seed().unwrap() + line)).collect();
+        let of = |value: fn(&asperity_scene::Outcome) -> Option<f64>| {
+            outcomes.iter().map(value).collect::<Vec<_>>()
+        };
+        assert_eq!(found.values(Quantity::AdhesionForce), of(|one| one.figures.adhesion_force));
+        assert_eq!(found.values(Quantity::ZeroLoadAdhesionForce), of(|one| one.zero_load_adhesion_force));
+        assert_eq!(found.values(Quantity::ZeroForceAdhesionForce), of(|one| one.zero_force_adhesion_force));
+        assert_eq!(found.values(Quantity::DissipatedEnergy), of(|one| one.figures.dissipated_energy));
+        let share = of(|one| Some(one.figures.adhesion_force? / one.ideal_adhesion_force?));
+        assert_eq!(found.values(Quantity::AdhesionShare), share);
+        let mut shares: Vec<f64> = share.into_iter().flatten().collect();
+        shares.sort_by(f64::total_cmp);
+        let all = found.statistics(Quantity::AdhesionShare).unwrap();
+        assert_eq!(
+            (all.range, all.quartiles[1]),
+            ((shares[0], shares[5]), f64::midpoint(shares[2], shares[3]))
+        );
+        let regimes = RegimeCounts::of(outcomes.iter().map(|one| one.regime));
+        assert_eq!(found.regimes()[0], regimes);
+    }
+
+    #[test]
+    fn an_ensemble_reports_each_profile_and_stops() {
+        let scene = scene("rough-sphere");
+        let (mut parts, ended) = (Vec::new(), AtomicBool::new(false));
+        let mut see = |part: &Ensemble| {
+            parts.push(part.computed());
+            ended.store(part.computed() == 3, Ordering::Relaxed);
+        };
+        let stop = || ended.load(Ordering::Relaxed);
+        let stopped = Ensemble::of(&scene, &[], 400, (Simulation::default(), 1), &stop, &mut see);
+        assert!(matches!(stopped, Err(StudyError::Run { error, .. }) if error.is_interruption()));
+        assert!(parts.starts_with(&[1, 2, 3]) && parts.len() < 400, "{parts:?}");
+    }
+
+    #[test]
+    fn a_fixed_profile_is_the_only_one() {
+        let smooth = scene("jkr-sphere");
+        assert_eq!(Ensemble::profiles_of(&smooth), 1);
+        let one = ensemble(&smooth, 1, 2).unwrap();
+        assert_eq!((one.profiles(), one.computed()), (1, 1));
+        assert!(one.statistics(Quantity::AdhesionForce).is_some_and(|all| all.spread.is_none()));
+        assert!(ensemble(&smooth, 2, 1).is_err());
+    }
+}

@@ -1,0 +1,58 @@
+//! Random profiles of one plan on several threads, with results that do not depend on the number of threads.
+
+use super::error::StudyError;
+use super::plan::Plan;
+use asperity_data::{on_this_thread, on_threads};
+use asperity_scene::{RunError, Simulation};
+use std::panic::resume_unwind;
+use std::sync::mpsc::channel;
+use std::sync::{Mutex, PoisonError};
+use std::thread::Builder;
+
+/// Function that returns true once a computation is to end.
+pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+
+/// Solves profiles of a plan, given by their indices, on at most `jobs` threads: fewer where the memory does not suffice. Each
+/// thread has its own simulation, the first one this simulation. `receive` gets each result with the index of its profile, on
+/// this thread, as soon as it is known.
+///
+/// # Errors
+/// The error of the first of the profiles that fails.
+pub(super) fn on_profiles<R: Send>(
+    plan: &Plan,
+    lines: &[u64],
+    (simulation, jobs): (Simulation, usize),
+    solve: impl Fn(&mut Simulation, u64) -> Result<R, RunError> + Sync,
+    receive: &mut dyn FnMut(u64, R),
+) -> Result<(), StudyError> {
+    let most = jobs.clamp(1, lines.len().max(1));
+    let jobs = (2..=most).rev().find(|jobs| plan.memory(*jobs as u64).is_ok()).unwrap_or(1);
+    let solved = |simulation: &mut Simulation, line| {
+        solve(simulation, line).map_err(|error| StudyError::of_profile(plan, line, error))
+    };
+    if jobs == 1 {
+        let mut simulation = simulation;
+        let mut each = |line| Ok(receive(line, solved(&mut simulation, line)?));
+        return on_this_thread(|| lines.iter().try_for_each(|line| each(*line)));
+    }
+    let mut simulations: Vec<Simulation> = (1..jobs).map(|_| simulation.another()).collect();
+    simulations.push(simulation);
+    let (solved, simulations) = (&solved, &Mutex::new(simulations));
+    let (sender, receiver) = channel();
+    let worker = move || {
+        let own = simulations.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let (mut simulation, sender) = (own.unwrap_or_default(), sender.clone());
+        move |number: u64| {
+            let line = lines[number as usize];
+            // The receiver lives until all threads have ended.
+            let _ = sender.send((line, solved(&mut simulation, line)?));
+            Ok(())
+        }
+    };
+    std::thread::scope(|scope| {
+        let work = move || on_threads(lines.len() as u64, jobs, worker).map(drop);
+        let threads = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
+        receiver.iter().for_each(|(line, solved)| receive(line, solved));
+        threads.join().unwrap_or_else(|panic| resume_unwind(panic))
+    })
+}

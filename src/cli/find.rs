@@ -1,0 +1,66 @@
+//! `asperity find`: the number of a scene, or the preload, at which a quantity has a value.
+
+use super::error::CliError;
+use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
+use super::progress::ProgressLine;
+use super::scene::{ProfileArguments, SceneArguments};
+use asperity_data::parse_quantity;
+use asperity_report::{FindReport, Format};
+use asperity_scene::Simulation;
+use asperity_study::{Found, Quantity, Question, parse_condition};
+use clap::Args;
+use std::io::Write;
+
+const EXAMPLES: &str = "\
+Examples:
+  asperity find preload pressure-sensitive --where 'F_a/F_a,max = 20 %'
+  asperity find adhesion.work rough-sphere --where 'F_a = 2 uN' --lines 32
+  asperity find roughness.rms_height my-scene.ron --where 'F_a/F_n = 0.1' --from 10nm --to 1um
+  asperity find preload my-scene.ron --where 'dissipated energy = 2 pJ' --format json | jq .median
+
+Each random profile is searched for itself; the answer is median, quartiles and range. A preload
+replaces the loading of the scene, and the adhesion force over it is the exact staircase.";
+
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, mut_args(without_look))]
+pub struct FindArguments {
+    /// A number of the scene by its path, such as adhesion.work, or preload
+    pub field: String,
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
+    #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
+    pub condition: (Quantity, f64),
+    /// Smallest searched number; default: a hundredth of that of the scene
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub from: Option<String>,
+    /// Largest searched number; default: a hundred times that of the scene
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub to: Option<String>,
+    #[command(flatten)]
+    pub profiles: ProfileArguments,
+    #[command(flatten)]
+    pub output: OutputArguments,
+}
+
+pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
+    let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
+    let document = arguments.scene.open()?;
+    let (scene, profiles) = (document.scene(), arguments.profiles.count(document.scene()));
+    let failed = |error| CliError::named(document.name(), error);
+    let mut simulation = Simulation::new(document.resolve(""));
+    let question = Question::new(scene, &arguments.field, arguments.condition, profiles, &mut simulation);
+    let mut question = question.map_err(failed)?;
+    for (option, end) in [("--from", &arguments.from), ("--to", &arguments.to)] {
+        let Some(end) = end else { continue };
+        let end = parse_quantity(end, question.axis.unit).map_err(|error| CliError::named(option, error))?;
+        if option == "--from" { question.searched.0 = end } else { question.searched.1 = end }
+    }
+    let mut progress = ProgressLine::default();
+    let mut report = |done: u64| progress.show(&format!("{done} of {profiles} profiles"), None);
+    let found = Found::of(question, (simulation, arguments.profiles.threads()), &|| false, &mut report);
+    progress.clear();
+    let found = found.map_err(failed)?;
+    let report = FindReport { title: document.title(), scene, found: &found };
+    arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
+}
