@@ -1,8 +1,8 @@
 //! Arguments of the program.
 
 use super::{
-    check, completions, cost, demo, explore, find, fit, line, plan, presets, reversals, run, sensitivity,
-    surface, sweep,
+    check, completions, cost, demo, explore, find, fit, line, plan, presets, reference, reversals, run,
+    sensitivity, surface, sweep,
 };
 use clap::{Parser, Subcommand};
 
@@ -60,6 +60,8 @@ pub enum Command {
     Plan(plan::PlanArguments),
     /// Measure errors against computing time for each setting that affects accuracy
     Cost(cost::CostArguments),
+    /// Compare the line of a scene with random squares on a half-space in three dimensions
+    Reference(reference::ReferenceArguments),
     /// Compute a parameter study: many cells on many random profiles
     Sweep(sweep::SweepArguments),
     /// Check this build against closed forms, laws and numerically hard cases

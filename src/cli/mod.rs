@@ -19,6 +19,7 @@ mod output;
 mod plan;
 mod presets;
 mod progress;
+mod reference;
 mod removed;
 mod reversals;
 mod run;
@@ -157,6 +158,7 @@ fn dispatch(arguments: &Arguments, stdout: &mut dyn Write) -> Result<(), CliErro
         Some(Command::Fit(arguments)) => fit::fit(arguments, stdout),
         Some(Command::Demo(arguments)) => demo::demo(arguments, stdout),
         Some(Command::Cost(arguments)) => cost::cost(arguments, stdout),
+        Some(Command::Reference(arguments)) => reference::reference(arguments, stdout),
         Some(Command::Sweep(arguments)) => sweep::sweep(arguments, stdout),
         Some(Command::Check(arguments)) => check::check(arguments, stdout),
         Some(Command::Plan(arguments)) => plan::plan(arguments, stdout),

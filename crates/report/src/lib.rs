@@ -15,6 +15,7 @@ mod measured_face;
 mod parameters;
 mod preloads;
 mod provenance;
+mod reference;
 mod report;
 mod reversals;
 mod run;
@@ -43,6 +44,7 @@ pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, w
 pub use provenance::{
     check_measured_files, entries, files_provenance, named_from, scene_provenance, scenes_provenance,
 };
+pub use reference::ReferenceReport;
 pub use report::{Format, Json, Report, check_extension, write};
 pub use reversals::ReversalReport;
 pub use run::{PathReport, RunReport};

@@ -4,6 +4,7 @@ use super::plan::{ONE_PROFILE, Plan};
 use super::plan_text::PlanErrors;
 use asperity_data::WriteError;
 use asperity_data::{memory_size, path_name};
+use asperity_half_space::HalfSpaceError;
 use asperity_scene::RunError;
 use asperity_surface::SurfaceError;
 use std::io;
@@ -38,6 +39,9 @@ pub enum StudyError {
         /// Reason of the failure.
         error: RunError,
     },
+    /// A body in three dimensions is refused.
+    #[error(transparent)]
+    HalfSpace(#[from] HalfSpaceError),
     /// The request for a study is not allowed.
     #[error("{found}; allowed: {allowed}")]
     NotAllowed {

@@ -178,6 +178,20 @@ impl Form {
         }
     }
 
+    /// Depth f(r), m, of the body below its apex at a distance from the axis, m; `None` beside a punch, where there is no body.
+    pub fn depth(&self, radius: f64) -> Option<f64> {
+        Some(match *self {
+            Form::Paraboloid { radius: curvature } => radius * radius / (2.0 * curvature),
+            Form::Cone { angle } => radius * angle.tan(),
+            Form::Power { coefficient, exponent } => coefficient * radius.powf(exponent),
+            Form::WavySphere { radius: curvature, amplitude, wavelength } => {
+                radius * radius / (2.0 * curvature) + amplitude * (1.0 - (TAU * radius / wavelength).cos())
+            }
+            Form::Punch { radius: end } => return (radius <= end).then_some(0.0),
+            Form::Table { .. } => self.table().map_or(0.0, |table| table.depth(radius)),
+        })
+    }
+
     /// Coefficient c, m^(1−n), and exponent n of a form with the profile g(x) = c |x|ⁿ; `None` for a punch, waves and tables.
     pub fn power_law(&self) -> Option<(f64, f64)> {
         match *self {

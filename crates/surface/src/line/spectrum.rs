@@ -40,6 +40,18 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
+    /// Share of a wave of k waves per length in the mean square height of the surface whose equivalent profile has this
+    /// spectrum, over A₁²: A_k²/(4πk), since C₁D = πq C₂D. The waves of a surface lie in all directions, and k need not be
+    /// a whole number; zero half a wave beyond the first and the last mode.
+    pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
+        if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
+            return 0.0;
+        }
+        let decay = waves.max(self.roll_off_mode).powf(2.0 * self.amplitude_exponent());
+        let square = if waves < self.roll_off_mode { decay * waves / self.roll_off_mode } else { decay };
+        square / (4.0 * std::f64::consts::PI * waves)
+    }
+
     /// Root mean square of the sum of cosines with the relative amplitudes: √(Σ A_k²/2).
     pub fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()

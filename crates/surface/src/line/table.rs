@@ -112,6 +112,21 @@ impl FormTable {
         self.radii[self.radii.len() - 1]
     }
 
+    /// Depth f(r), m, at a radius, m; beyond the last row the body goes on with its last slope.
+    pub(super) fn depth(&self, radius: f64) -> f64 {
+        let along = |row: usize, distance: f64| {
+            let [a, b, c] = self.slopes[row];
+            distance * (a + distance * (b / 2.0 + distance * (c / 3.0)))
+        };
+        let last = self.slopes.len() - 1;
+        let row = self.radii.partition_point(|start| *start <= radius).clamp(1, last + 1) - 1;
+        let before: f64 = (0..row).map(|row| along(row, self.radii[row + 1] - self.radii[row])).sum();
+        let beyond = (radius - self.reach()).max(0.0);
+        let width = radius - beyond - self.radii[row];
+        let [a, b, c] = self.slopes[row];
+        before + along(row, width) + beyond * (a + width * (b + width * c))
+    }
+
     /// Curvature at the summit, 1/m; `None` for a pointed tip.
     pub(super) fn summit_curvature(&self) -> Option<f64> {
         let [slope, curvature, _] = self.slopes[0];

@@ -1,0 +1,188 @@
+//! A scene as a line and in three dimensions, as text, JSON, table and figure.
+
+use crate::report::{Json, Report};
+use crate::sheet::Sheet;
+use asperity_data::{AxisScale, Table, object};
+use asperity_data::{format_quantity, format_rounded, grouped};
+use asperity_plot::{Axis, Chart, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
+use asperity_scene::Scene;
+use asperity_study::{Compared, Loaded, Reference, Statistics};
+
+/// A comparison, with the title of its scene.
+#[derive(Clone, Copy, Debug)]
+pub struct ReferenceReport<'a> {
+    pub title: &'a str,
+    pub scene: &'a Scene,
+    pub reference: &'a Reference,
+}
+
+/// Ratio of both models with its interval: `0.84 ± 0.05`.
+fn ratio(of: &Compared) -> String {
+    let decimals =
+        |value: f64| if value < 10.0 { format!("{value:.2}") } else { format_rounded(value, 2, "1") };
+    match of.error {
+        Some(error) => format!("{} ± {}", decimals(of.ratio), decimals(error)),
+        None => decimals(of.ratio),
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", format_rounded(100.0 * share, 2, "1"))
+}
+
+impl ReferenceReport<'_> {
+    /// What is compared, in sentences.
+    fn compared(&self) -> String {
+        let Reference { options, waves, omitted, .. } = self.reference;
+        let cells = options.cells;
+        let Some((first, last)) = waves else {
+            return format!("A square of {cells} × {cells} cells and a line, both smooth.");
+        };
+        let (first, last) = (grouped(*first), grouped(*last));
+        let left_out = omitted.map_or_else(String::new, |whole| {
+            format!(
+                " The squares do not resolve the waves up to {} of the scene, which both models leave out: --grid refines the \
+                 squares.",
+                grouped(whole)
+            )
+        });
+        format!(
+            "Means over {} random squares of {cells} × {cells} cells and over {} random lines, of {first} to {last} waves over the \
+             length.{left_out}",
+            grouped(options.maps),
+            grouped(options.lines)
+        )
+    }
+
+    /// The errors of the line by their sources, the largest in words.
+    fn errors(&self) -> (Vec<(&'static str, String)>, String) {
+        let budget = &self.reference.budget;
+        let or_unknown = |share: Option<f64>| share.map_or_else(|| "not known".to_owned(), percent);
+        let rows = vec![
+            ("solver", format!("{:.0e} of the rms height", budget.solver)),
+            ("grid of the squares", or_unknown(budget.grid)),
+            ("sample", or_unknown(budget.sample)),
+            ("model", percent(budget.model)),
+        ];
+        let largest = match budget.largest {
+            "model" => {
+                format!("The largest is the model, {}: more springs do not help.", percent(budget.model))
+            }
+            "sample" => {
+                "The largest is the sample of squares and lines: --maps takes more of them.".to_owned()
+            }
+            "grid" => "The largest is the grid of the squares: --grid refines it.".to_owned(),
+            _ => "The largest is the residual of the solver.".to_owned(),
+        };
+        (rows, largest)
+    }
+}
+
+impl Report for ReferenceReport<'_> {
+    fn text(&self) -> Option<String> {
+        let reference = self.reference;
+        let mut sheet = Sheet::default();
+        sheet.paragraph(self.title);
+        sheet.heading(&self.compared());
+        let header = ["", "line", "three dimensions", "line over three dimensions"].map(String::from);
+        let row = |name: String, of: &Compared, unit: &str| {
+            let mean = |all: &Statistics| format_rounded(all.mean, 3, unit);
+            [name, mean(&of.line), mean(&of.half_space), ratio(of)]
+        };
+        let mut rows = vec![header.clone()];
+        for loaded in &reference.loading {
+            let force = format_rounded(loaded.force, 3, "N");
+            rows.push(row(format!("indentation at {force}"), &loaded.indentation, "m"));
+            rows.push(row(format!("stiffness at {force}"), &loaded.stiffness, "N/m"));
+        }
+        sheet.heading("Without adhesion, indentations from first touch");
+        sheet.table(&rows);
+        let adhesive = [
+            ("adhesion force F_a", &reference.adhesion_force, "N"),
+            ("at first touch F_a(0)", &reference.zero_load_adhesion_force, "N"),
+            ("dissipated energy", &reference.dissipated_energy, "J"),
+        ];
+        let adhesive = adhesive.into_iter().filter_map(|(name, of, unit)| {
+            let of = of.as_ref()?;
+            Some(row(name.to_owned(), of, unit))
+        });
+        let adhesive: Vec<_> = std::iter::once(header).chain(adhesive).collect();
+        if adhesive.len() > 1 {
+            sheet.heading(&format!(
+                "With adhesion, after a preload of {}",
+                format_quantity(reference.preload, "N")
+            ));
+            sheet.table(&adhesive);
+        }
+        let (rows, largest) = self.errors();
+        sheet.heading("Errors of the line by their sources");
+        rows.into_iter().for_each(|(name, words)| sheet.row(name, words));
+        sheet.paragraph(&largest);
+        let [lines, squares] = reference.seconds.map(|seconds| format_quantity(seconds, "s"));
+        sheet.heading(&format!(
+            "Time: {lines} for the lines; {squares} and {} convolutions for the squares.",
+            grouped(reference.convolutions)
+        ));
+        Some(sheet.into_text())
+    }
+
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(object! { "scene": self.scene, "reference": self.reference }))
+    }
+
+    /// A row for each force of the loading without adhesion.
+    fn table(&self) -> Option<Table<'_>> {
+        let rows = move || self.reference.loading.iter();
+        let mean = |of: &Compared| (of.line.mean, of.half_space.mean);
+        let table = Table::of(rows)
+            .real("force", |loaded| Some(loaded.force))
+            .real("indentation_line", move |loaded| Some(mean(&loaded.indentation).0))
+            .real("indentation_half_space", move |loaded| Some(mean(&loaded.indentation).1))
+            .real("indentation_ratio", |loaded| Some(loaded.indentation.ratio))
+            .real("indentation_ratio_error", |loaded| loaded.indentation.error)
+            .real("stiffness_line", move |loaded| Some(mean(&loaded.stiffness).0))
+            .real("stiffness_half_space", move |loaded| Some(mean(&loaded.stiffness).1))
+            .real("stiffness_ratio", |loaded| Some(loaded.stiffness.ratio))
+            .real("stiffness_ratio_error", |loaded| loaded.stiffness.error)
+            .real("area_half_space", |loaded| Some(loaded.area));
+        Some(table.done())
+    }
+
+    /// Force against indentation without adhesion, in both models, with the quartiles of the indentation.
+    fn figure(&self) -> Option<Figure> {
+        let loading = &self.reference.loading;
+        let force = |loaded: &Loaded| loaded.force;
+        let of = |name: &str, ink: Ink, sign: Sign, all: fn(&Loaded) -> Statistics| {
+            let points: Vec<(f64, f64)> =
+                loading.iter().map(|loaded| (force(loaded), all(loaded).mean)).collect();
+            let band = loading.iter().map(|loaded| {
+                let [low, _, high] = all(loaded).quartiles;
+                (force(loaded), low, high)
+            });
+            [
+                Layer { name: "".into(), ink, shape: Shape::Band(band.collect()) },
+                Layer {
+                    name: format!("{name}, mean and quartiles").as_str().into(),
+                    ink,
+                    shape: Shape::Curve { points, stroke: Some(Stroke::Solid), sign: Some(sign) },
+                },
+            ]
+        };
+        let layers = [
+            of("line", Ink::Series(0), Sign::Dot, |loaded| loaded.indentation.line),
+            of("three dimensions", Ink::Series(1), Sign::Diamond, |loaded| loaded.indentation.half_space),
+        ];
+        let axis = |values: &mut dyn Iterator<Item = f64>, name: &str, symbol: &str, unit: &str| {
+            let span = Span::around(values.map(|value| AxisScale::Logarithmic.coordinate(value)), 0.05);
+            Axis::new(AxisScale::Logarithmic, span, name, symbol, unit)
+        };
+        let x = axis(&mut loading.iter().map(force), "force", "F", "N");
+        let ends = loading.iter().flat_map(|loaded| {
+            let both = [loaded.indentation.line, loaded.indentation.half_space];
+            both.into_iter().flat_map(|all| [all.quartiles[0], all.quartiles[2], all.mean])
+        });
+        let y = axis(&mut { ends }, "indentation", "d", "m");
+        let chart = Chart::new(x, y, layers.into_iter().flatten().collect());
+        Some(Figure { title: self.title.to_owned(), charts: vec![chart], ..Figure::default() })
+    }
+}
