@@ -56,5 +56,5 @@ pub use spectrum_figure::Spectra;
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
-pub use trust::{error_rows, theory_rows};
+pub use trust::{error_rows, theory_rows, without_jkr};
 pub use work_precision::work_precision;

@@ -6,7 +6,7 @@ use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::{Budget, Criterion, Ensemble, LEAST_TABOR_NUMBER_OF_JKR, criteria};
 
 /// The sentence with which a summary begins where JKR theory does not apply.
-pub(crate) fn without_jkr(outcome: &Outcome) -> Option<String> {
+pub fn without_jkr(outcome: &Outcome) -> Option<String> {
     let number = outcome.tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
     let number = asperity_data::format_rounded(number, 2, "1");
     Some(format!(

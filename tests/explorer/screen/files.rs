@@ -174,7 +174,7 @@ fn every_pane_is_exported_as_a_figure() {
     // A table is that of the pane.
     let tables = [
         (computed_preloads(rough()), Pane::Preloads, "asperity run --preloads=-", "preload,adhesion_force,"),
-        (accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
+        (trust::measured(rough()), Pane::Trust, "asperity cost", "error,"),
         (computed_sensitivity(rough()), Pane::Sensitivity, "asperity sensitivity", "path,value,"),
         (map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,adhesion.kappa,lines,regime,"),
     ];

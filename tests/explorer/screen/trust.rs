@@ -3,7 +3,7 @@
 use super::*;
 use asperity::contact::Edges;
 use asperity::explorer::commands::accuracy::Choosing;
-use asperity::explorer::panes::accuracy::Costs;
+use asperity::explorer::panes::trust::Costs;
 use asperity::scene::{
     Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
 };
@@ -98,7 +98,7 @@ fn an_edit_forgets_what_was_found_out() {
     let mut driver = measured(rough());
     driver.select("roughness.hurst");
     assert_eq!(driver.press("l"), [Task::Ask]);
-    assert!(driver.app.is_shown(Pane::Accuracy));
+    assert!(driver.app.is_shown(Pane::Trust));
     assert!(driver.app.studies.value::<Estimate>().is_none());
     assert!(driver.app.studies.value::<Costs>().is_none());
     driver.states("± …");
