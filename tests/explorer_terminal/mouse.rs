@@ -49,10 +49,10 @@ fn presses_and_drags_have_their_effects() {
     terminal.settle();
     assert_eq!(terminal.text(), before);
     let indentation = |rows: &[String]| {
-        let row: Vec<String> = rows.iter().filter(|row| row.contains("manual: d ")).cloned().collect();
+        let row: Vec<String> = rows.iter().filter(|row| row.contains("manual loading")).cloned().collect();
         quantity(&row, "d", "m")
     };
-    let (column, row) = place_of(&terminal, "Force F(d)");
+    let (column, row) = place_of(&terminal, "Force F (");
     terminal.send(&(report(LEFT, column + 20, row + 8) + &report(DRAGGED, column + 20, row + 8)));
     terminal.wait("manual loading", |rows| indentation(rows).is_some());
     let start = indentation(&terminal.rows());

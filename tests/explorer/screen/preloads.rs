@@ -47,8 +47,6 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
             driver.shows_all(["F_n ", "this profile ", "median ", "quartiles ", "mean "]);
             driver.press("*");
         }
-        driver.resize((200, 40));
-        driver.shows_all([&*format!(" · {profiles} profiles: median "), "F_a of this profile "]);
     }
 }
 
