@@ -6,13 +6,8 @@ use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
 use crate::explorer::text::filled;
 use asperity_data::parallel::threads;
-<<<<<<< HEAD
 use asperity_plot::{Figure, Label};
-use asperity_report::{NOT_ALLOWED, SensitivityReport, sensitivity_chart, sensitivity_table};
-=======
-use asperity_plot::Label;
 use asperity_report::{SensitivityReport, sensitivity_chart, sensitivity_table};
->>>>>>> wt-b
 use asperity_study::Sensitivity;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
