@@ -55,7 +55,7 @@ pub struct SurfaceArguments {
     pub opposite: Option<PathBuf>,
     #[command(flatten)]
     pub measured: Measured,
-    /// Channel of a file with several by its number, surface of a container by its name
+    /// Channel by its number, or surface of a container by its name
     #[arg(long, value_name = "NUMBER|NAME")]
     pub channel: Option<String>,
     /// Distance between points where a file states none, such as 0.5um

@@ -7,7 +7,7 @@ use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
 use asperity::scene::{Outcome, Simulation};
 use asperity::study::{
     Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status,
-    StudyError, StudyMap, merge, run,
+    StudyMap, merge, run,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -211,6 +211,21 @@ fn results_that_differ_are_stated() {
     let other = format!("{start},{:?}", last.parse::<f64>().unwrap() * (1.0 + f64::EPSILON));
     let other = format!("{header}\n{:08x},{other}\n", crc32fast::hash(other.as_bytes()));
     fs::write(file.with_file_name("zz.shard"), other).unwrap();
+    let error = merge(&folder).unwrap_err().to_string();
+    let file = file.display();
+    assert!(error.starts_with("cell 0, seed 18446744073709551614 (adhesion.kappa = 0.5, "), "{error}");
+    assert!(
+        error.contains(&format!("two records differ, in {file} and ")) && error.contains("zz.shard;"),
+        "{error}"
+    );
+    assert!(!folder.path().join(RESULTS).exists());
+}
+
+#[test]
+fn what_is_missing_is_counted() {
+    let plan = plan(SMALL);
+    let (_place, folder) = study(&plan);
+    compute(&folder, 1, Shard { number: 1, count: 2 });
     let merged = merge(&folder).unwrap();
     assert_eq!((merged.records, merged.missing_cells), (48, 32));
     let [results, summary] = tables(&folder);
