@@ -33,8 +33,9 @@ fn the_terminal_is_asked_for_presses_and_drags_but_not_for_every_motion() {
     assert_eq!(count(terminal.written(), b"1003h"), 0);
     assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::None);
     // On request the mouse is left to the terminal.
-    let (program, _folder) = explorer();
-    let mut terminal = paused(program.argument("--no-mouse"));
+    let (program, folder) = explorer();
+    std::fs::write(folder.path().join("still.ron"), "(version: 1, mouse: false)").unwrap();
+    let mut terminal = paused(program.argument("--config=still.ron"));
     quit(&mut terminal);
     assert_eq!(count(terminal.written(), b"\x1b[?100"), 0);
 }

@@ -153,7 +153,7 @@ fn pictures_are_those_of_their_commands() {
     std::fs::create_dir(folder.path().join("docs")).unwrap();
     for (page, command) in [
         ("README.md", "asperity demo pressure-sensitive --at 9 --size 120x36 -o docs/explorer.svg"),
-        ("docs/reversals.md", "asperity reversals pressure-sensitive --count 64 -o docs/reversals.svg"),
+        ("docs/reversals.md", "asperity reversals pressure-sensitive -o docs/reversals.svg"),
     ] {
         assert!(read(page).contains(command), "{page} lacks: {command}");
         succeeded(folder.path(), command);

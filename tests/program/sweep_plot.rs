@@ -84,7 +84,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
 
     // Half of the cells: the others are gaps.
     asperity(at, &["sweep", "plan.ron", "-o", "half", "--shard", "1/5"]).unwrap();
-    asperity(at, &["sweep", "merge", "half", "--partial"]).unwrap();
+    asperity(at, &["sweep", "merge", "half"]).unwrap();
     let half = asperity(at, &["sweep", "plot", "half", "--at", "preload=0.1"]).unwrap();
     assert!(half.contains("Small"), "{half}");
 }

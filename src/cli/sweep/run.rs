@@ -95,7 +95,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
             return Ok(());
         }
     }
-    write_merged(&folder, &merge(&folder, false)?, stdout)
+    write_merged(&folder, &merge(&folder)?, stdout)
 }
 
 fn text_of(progress: &Progress) -> String {
