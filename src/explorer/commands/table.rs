@@ -190,7 +190,7 @@ static TABLE: &[Entry] = &[
     row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.edit.measured.is_some()),
 
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or patches", LOOK).words("contact area displacement quantity axis"),
-    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "plot in units of F_a,max and h, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
+    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "forces in units of F_a,max and indentations in units of h, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
     row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK).words("hysteresis loss work energy"),
     row("n", EXPLORE, "next-patch", Do(|app| view::go_to_patch(app, Focus::After)), "patch", "show the next contact patch", LOOK),
     row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_patch(app, Focus::Before)), "", "show the previous contact patch", LOOK),

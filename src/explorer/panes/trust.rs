@@ -6,7 +6,7 @@ use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
-use crate::explorer::text::{Part, filled, fitted, wrapped};
+use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
 use asperity_contact::Edges;
 use asperity_data::format_rounded;
@@ -100,11 +100,16 @@ fn rows(app: &App, width: u16) -> Vec<Line<'static>> {
     let theories = theory_rows(scene, outcome, ensemble);
     let names = errors.iter().chain(&theories).map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     let title = app.view.appearance.theme.style(Meaning::Title);
-    let line = |(name, words): (&str, String)| {
-        let name = Text::styled(format!("{name:names$}  "), title);
-        fitted(Line::from_iter([name, Text::raw(words)]), width)
+    let lines = |(name, words): (&str, String)| {
+        let words = wrapped(&Line::raw(words), width.saturating_sub(names as u16 + 2));
+        let name = |number| if number == 0 { name.to_owned() } else { String::new() };
+        let line = move |(number, words): (usize, Line<'static>)| {
+            let name = Text::styled(format!("{:names$}  ", name(number)), title);
+            Line::from_iter([name].into_iter().chain(words.spans))
+        };
+        words.into_iter().enumerate().map(line).collect::<Vec<_>>()
     };
-    errors.into_iter().chain(theories).map(line).collect()
+    errors.into_iter().chain(theories).flat_map(lines).collect()
 }
 
 fn nothing_yet(app: &App) -> String {
