@@ -1,6 +1,5 @@
 //! Edits of the scene. Each gives a new document and can be undone.
 
-use super::accuracy::ensemble_key;
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, Message};
 use crate::explorer::editor::Edited;
@@ -12,6 +11,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::reading;
 use crate::explorer::request::{CloseUpTarget, LineView};
 use crate::explorer::snapshot::Preview;
+use crate::explorer::studies::ensemble_key;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
 use asperity_contact::Move;

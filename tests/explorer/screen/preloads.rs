@@ -61,8 +61,8 @@ fn forces_are_shown_in_units_of_the_ideal_adhesion_force() {
     let read = |driver: &mut Driver, keys: &str| -> f64 {
         driver.press(keys);
         let text = driver.text();
-        let after = text.split("this profile ").last().unwrap().to_owned();
-        after.split_whitespace().next().unwrap().parse().unwrap()
+        let mut after = text.split("this profile ").skip(1).filter_map(|rest| rest.split_whitespace().next());
+        after.find_map(|number| number.parse().ok()).unwrap_or_else(|| panic!("{text}"))
     };
     let share = read(&mut driver, "* End");
     let force = read(&mut driver, "N");
