@@ -19,7 +19,7 @@ fn each_mistake_has_its_message() {
         ("regime,", "regimes,", "(did you mean regime?)"),
         ("regime,", "regime, regime,", "record: regime is given twice"),
         ("version: 1,\n    title", "version: 2,\n    title", "version = 2: allowed: 1"),
-        ("preloads: [0.01, 0.3]", "preloads: [0.0, 0.3]", "preload 0.0: allowed: above 0, in units of E*"),
+        ("preloads: [0.01, 0.3]", "preloads: [0.0, 0.3]", "preload 0.0: allowed: above 0"),
         (
             "\n    ],\n    preloads: [0.01, 0.3],",
             "List(path: \"preload\", values: [0.1]), List(path: \"preload\", values: [0.2])],",
