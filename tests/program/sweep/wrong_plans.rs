@@ -47,7 +47,7 @@ fn each_mistake_has_its_message() {
     }
     let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], lines: 2, record: [regime])";
     let message = wrong(smooth);
-    assert!(message.contains("this scene is smooth; allowed: an axis loading.0.0, in N"), "{message}");
+    assert!(message.contains("this scene is smooth; allowed: an axis preload_in_N"), "{message}");
     assert!(
         message.contains("lines = 2: more than one profile, and the profile of this scene is fixed; allowed: random roughness (SelfAffine"),
         "{message}"
