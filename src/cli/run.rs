@@ -16,7 +16,7 @@ use asperity_report::{ComparedScene, ScenesReport};
 use asperity_report::{Format, Report};
 use asperity_scene::{CheckedScene, Document, Scene, Simulation};
 use asperity_scene::{Choice, choose, estimate, parse_tolerance};
-use asperity_study::{Axis, Ensemble, MeasuredAdhesion, Quantity, Results, Staircase, parse_preloads};
+use asperity_study::{Axis, Ensemble, MeasuredAdhesion, Results, Staircase, parse_preloads};
 use clap::{Args, ValueEnum};
 use std::io;
 use std::io::Write;
@@ -96,15 +96,6 @@ pub struct RunArguments {
     pub output: OutputArguments,
 }
 
-/// Quantities of a table of profiles besides those of an ensemble.
-const FURTHER: &[Quantity] = &[
-    Quantity::PreloadIndentation,
-    Quantity::ContactFraction,
-    Quantity::Skewness,
-    Quantity::ExcessKurtosis,
-    Quantity::TaborNumber,
-];
-
 /// Width of messages, columns.
 const WIDTH: usize = 80;
 
@@ -171,7 +162,7 @@ impl RunArguments {
         if count < 2 || format.is_table() && self.profiles.lines.is_none() {
             return Ok(None);
         }
-        let further = if self.profiles.lines.is_some() { FURTHER } else { &[] };
+        let further = if self.profiles.lines.is_some() { &Ensemble::FURTHER[..] } else { &[] };
         let mut progress = ProgressLine::default();
         let mut report = |so_far: &Ensemble| {
             progress.show(&format!("{} of {count} random profiles", so_far.computed()), None);
