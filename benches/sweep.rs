@@ -179,7 +179,7 @@ fn study(plan: &Plan, jobs: usize) {
     let place = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
     let done = Folder::create(place.path(), plan).and_then(|folder| {
         run(&folder, Options { jobs, shard: Shard::WHOLE }, &|| false, &mut |_| ())?;
-        merge(&folder, false)
+        merge(&folder)
     });
     done.unwrap_or_else(|error| panic!("{error}"));
 }

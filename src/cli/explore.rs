@@ -52,7 +52,7 @@ pub struct ExploreArguments {
     pub reading: CurveOptions,
 }
 
-/// Colours and markers of the explorer, its mouse, and its configuration.
+/// Colours and markers of the explorer, and its configuration.
 #[derive(Args, Debug)]
 pub struct LookArguments {
     /// Colours
@@ -65,18 +65,12 @@ pub struct LookArguments {
     /// Default: braille.
     #[arg(long, value_enum)]
     pub marker: Option<Marker>,
-    /// Leave the mouse to the terminal
-    #[arg(long)]
-    pub no_mouse: bool,
-    /// Read this configuration file
+    /// Read this configuration file; none: read no file
     ///
     /// Default: asperity/config.ron in the configuration folder of the user (~/.config),
     /// if it exists.
     #[arg(long, value_name = "FILE", verbatim_doc_comment)]
     pub config: Option<PathBuf>,
-    /// Read no configuration file
-    #[arg(long, conflicts_with = "config")]
-    pub no_config: bool,
 }
 
 impl LookArguments {
@@ -88,15 +82,16 @@ impl LookArguments {
     pub(super) fn options(&self) -> Result<Options, CliError> {
         let defaults = || Config::new(bindings());
         let (config, warning) = match (&self.config, default_path()) {
+            (Some(path), _) if path == Path::new("none") => (defaults(), None),
             (Some(path), _) => (Config::read(path, true, bindings()).map_err(CliError::message)?, None),
-            (None, Some(path)) if !self.no_config => match Config::read(&path, false, bindings()) {
+            (None, Some(path)) => match Config::read(&path, false, bindings()) {
                 Ok(config) => (config, None),
                 Err(error) => (defaults(), Some(format!("{error}; defaults are used"))),
             },
             _ => (defaults(), None),
         };
-        let (theme, marker, no_mouse) = (self.theme, self.marker, self.no_mouse);
-        Ok(Options { theme, marker, no_mouse, warning, ..Options::new(config) })
+        let (theme, marker) = (self.theme, self.marker);
+        Ok(Options { theme, marker, warning, ..Options::new(config) })
     }
 }
 

@@ -15,7 +15,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity find preload pressure-sensitive --where 'F_a/F_a,max = 20 %'
   asperity find adhesion.work rough-sphere --where 'F_a = 2 uN' --lines 32
-  asperity find roughness.rms_height my-scene.ron --where 'F_a/F_n = 0.1' --from 10nm --to 1um
+  asperity find roughness.rms_height my-scene.ron --where 'F_a/F_n = 0.1' --range 10nm..1um
   asperity find preload my-scene.ron --where 'dissipated energy = 2 pJ' --format json | jq .median
 
 Each random profile is searched for itself; the answer is median, quartiles and range. A preload
@@ -31,12 +31,9 @@ pub struct FindArguments {
     /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
     #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
     pub condition: (Quantity, f64),
-    /// Smallest searched number; default: a hundredth of that of the scene
-    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
-    pub from: Option<String>,
-    /// Largest searched number; default: a hundred times that of the scene
-    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
-    pub to: Option<String>,
+    /// Searched numbers: 10nm..1um; default: 1/100 to 100 times that of the scene
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    pub range: Option<String>,
     #[command(flatten)]
     pub profiles: ProfileArguments,
     #[command(flatten)]
@@ -51,10 +48,12 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let mut simulation = Simulation::new(document.resolve(""));
     let question = Question::new(scene, &arguments.field, arguments.condition, profiles, &mut simulation);
     let mut question = question.map_err(failed)?;
-    for (option, end) in [("--from", &arguments.from), ("--to", &arguments.to)] {
-        let Some(end) = end else { continue };
-        let end = parse_quantity(end, question.axis.unit).map_err(|error| CliError::named(option, error))?;
-        if option == "--from" { question.searched.0 = end } else { question.searched.1 = end }
+    if let Some(range) = &arguments.range {
+        let refused = |error: String| CliError::named("--range", error);
+        let (from, to) = range.split_once("..").ok_or_else(|| refused("allowed: A..B".to_owned()))?;
+        let end =
+            |text: &str| parse_quantity(text, question.axis.unit).map_err(|error| refused(error.to_string()));
+        question.searched = (end(from)?, end(to)?);
     }
     let mut progress = ProgressLine::default();
     let mut report = |done: u64| progress.show(&format!("{done} of {profiles} profiles"), None);

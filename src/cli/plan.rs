@@ -3,9 +3,8 @@
 use super::error::CliError;
 use super::output::AnswerFormat;
 use super::scene::SceneArguments;
-use asperity_data::{grouped, memory_size};
-use asperity_report::Sheet;
-use asperity_scene::{PlannedStage, Scene, Workload};
+use asperity_report::stages_text;
+use asperity_scene::{Scene, Workload};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -31,7 +30,7 @@ pub struct PlanArguments {
 pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
     let (scene, plan) = (document.scene(), Workload::of(document.scene()));
-    arguments.format.write(stdout, || text(&plan), &PlanJson { scene, plan: &plan })
+    arguments.format.write(stdout, || stages_text(&plan), &PlanJson { scene, plan: &plan })
 }
 
 /// The stages of a scene, with the scene.
@@ -40,28 +39,4 @@ struct PlanJson<'a> {
     scene: &'a Scene,
     #[serde(flatten)]
     plan: &'a Workload,
-}
-
-fn text(plan: &Workload) -> String {
-    let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
-    let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };
-    for PlannedStage { stage, runs, because, passes, springs_touched, bytes } in &plan.stages {
-        let memory = if *bytes > 0 { memory_size(*bytes) } else { String::new() };
-        let passes = match *passes {
-            _ if !runs => "skipped".to_owned(),
-            None => "per stage".to_owned(),
-            Some(0) => "runs".to_owned(),
-            Some(passes) => grouped(passes),
-        };
-        let touched = springs_touched.map_or_else(String::new, count);
-        rows.push([stage.name().into(), passes, touched, memory, (*because).into()]);
-    }
-    let mut sheet = Sheet::default();
-    sheet.table(&rows);
-    let (springs, peak) = (grouped(plan.springs), memory_size(plan.resident_bytes));
-    let program = memory_size(Workload::PROGRAM);
-    sheet.heading(&format!(
-        "{springs} springs under the body; about {peak} of memory at any one time, {program} of them the program"
-    ));
-    sheet.into_text()
 }

@@ -1,7 +1,7 @@
 //! `asperity reversals`: unloads a scene from many turning points.
 
 use super::error::CliError;
-use super::output::{Origin, OutputArguments, TABLES};
+use super::output::{Origin, OutputArguments};
 use super::scene::{SceneArguments, simulation_of};
 use asperity_data::AxisScale;
 use asperity_report::Format;
@@ -14,8 +14,8 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity reversals pressure-sensitive
-  asperity reversals pressure-sensitive --preloads 1uN..20uN --count 128 -o reversals.svg
-  asperity reversals rough-sphere --map -o map.csv
+  asperity reversals pressure-sensitive --preloads 1uN..20uN:128 -o reversals.svg
+  asperity reversals rough-sphere --format json -o map.json
 
 Turning points have equal distances of indentation. The Everett function is half the decrease of the
 force since the turning point.";
@@ -25,51 +25,49 @@ force since the turning point.";
 pub struct ReversalsArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    #[command(flatten)]
-    pub options: ReversalOptions,
+    /// Turn between the indentations at two forces: 1uN..20uN
+    ///
+    /// Default: between first touch and the preload of the scene. There are 64 turning points, or
+    /// the number after a colon: 1uN..20uN:128, or :128 with the usual forces.
+    #[arg(long, value_name = "A..B", value_parser = turns, verbatim_doc_comment)]
+    pub preloads: Option<(Option<(f64, f64)>, usize)>,
     #[command(flatten)]
     pub output: OutputArguments,
 }
 
-/// Choice of the reversals of a scene.
-#[derive(Args, Debug)]
-pub struct ReversalOptions {
-    /// Number of turning points
-    #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = clap::value_parser!(u16).range(*TURNING_POINTS.start() as i64..=*TURNING_POINTS.end() as i64))]
-    pub count: u16,
-    /// Turn between the indentations at two forces: 1uN..20uN
-    ///
-    /// Default: between first touch and the preload of the scene.
-    #[arg(long, value_name = "FROM..TO", value_parser = forces)]
-    pub preloads: Option<(f64, f64)>,
-    /// Write a table of the points of the map instead of turning points
-    #[arg(long)]
-    pub map: bool,
-}
+/// Number of turning points unless one is given.
+const USUAL: usize = 64;
 
-fn forces(text: &str) -> Result<(f64, f64), String> {
-    if text.contains(':') {
-        return Err("allowed: two forces, such as 1uN..20uN; --count is the number of turning points".into());
+/// Parses two forces and, after a colon, the number of turning points; without forces they are those of the scene.
+fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
+    let (forces, count) = text.split_once(':').map_or((text, None), |(forces, count)| (forces, Some(count)));
+    let (least, most) = (TURNING_POINTS.start(), TURNING_POINTS.end());
+    let allowed = || format!("allowed: after the colon a number of turning points from {least} to {most}");
+    let count = count.map_or(Ok(USUAL), |count| count.trim().parse().map_err(|_| allowed()))?;
+    if !TURNING_POINTS.contains(&count) {
+        return Err(allowed());
     }
-    let ends = parse_range(text)?;
-    Axis::of_preloads(ends, *PRELOADS.start(), AxisScale::Linear).map(|_| ends)
+    if forces.is_empty() && text.starts_with(':') {
+        return Ok((None, count));
+    }
+    let ends = parse_range(forces)?;
+    Axis::of_preloads(ends, *PRELOADS.start(), AxisScale::Linear).map(|_| (Some(ends), count))
 }
 
 pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
-    let ReversalsArguments { options, output, .. } = arguments;
-    let (formats, usual) = if options.map { (TABLES, Format::Csv) } else { (&Format::ALL[..], Format::Text) };
-    let format = output.format(formats, usual)?;
+    let output = &arguments.output;
+    let format = output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
     let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(&document);
-    let (count, never) = (usize::from(options.count), || false);
-    let map = simulation.reversal_map(scene, options.preloads, count, &never).map_err(failed)?;
+    let ((ends, count), never) = (arguments.preloads.unwrap_or((None, USUAL)), || false);
+    let map = simulation.reversal_map(scene, ends, count, &never).map_err(failed)?;
     let (mut preloads, mut staircase) = (None, None);
-    // Tables hold the map alone.
+    // Tables hold the turning points alone.
     if !format.is_table() {
         let largest = map.reversals.iter().map(|reversal| reversal.turn.force).fold(0.0, f64::max);
-        let (from, to) = options.preloads.unwrap_or((0.0, largest));
+        let (from, to) = ends.unwrap_or((0.0, largest));
         if let Ok(asked) = Axis::of_preloads((from, to), count, AxisScale::Linear) {
             let (record, folder) = (&Results::OF_PRELOADS, document.resolve(""));
             let solved = Results::of_scene(scene, &folder, record, 1, Some(&asked), 1);
@@ -87,7 +85,6 @@ pub(super) fn reversals(arguments: &ReversalsArguments, stdout: &mut dyn Write) 
         map: &map,
         preloads: preloads.as_ref(),
         staircase: staircase.as_ref(),
-        map_table: options.map,
     };
     output.write(stdout, &report, format, Origin::Scene(&document, scene))
 }

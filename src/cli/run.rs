@@ -16,8 +16,8 @@ use asperity_report::{ComparedScene, ScenesReport};
 use asperity_report::{Format, Report};
 use asperity_scene::{CheckedScene, Document, Scene, Simulation};
 use asperity_scene::{Choice, choose, estimate, parse_tolerance};
-use asperity_study::{Axis, Ensemble, MeasuredAdhesion, Quantity, Results, Staircase, parse_preloads};
-use clap::Args;
+use asperity_study::{Axis, Ensemble, MeasuredAdhesion, Results, Staircase, parse_preloads};
+use clap::{Args, ValueEnum};
 use std::io;
 use std::io::Write;
 
@@ -31,14 +31,25 @@ Examples:
   asperity run pressure-sensitive --lines 32 --format csv     A row for each profile
   asperity run pressure-sensitive --preloads 0..20uN --lines 16
   asperity run pressure-sensitive -o loop.svg
-  asperity run pressure-sensitive --profile -o profile.svg
+  asperity run pressure-sensitive --draw profile -o profile.svg
   asperity run before.ron after.ron                  Differences, results, curves
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
-  asperity run ideal-adhesion pressure-sensitive non-adhesive --panels --width 170mm -o panels.pdf
+  asperity run ideal-adhesion pressure-sensitive non-adhesive --draw panels --width 170mm -o panels.pdf
 
 JSON is one object with scene, profile, figures, curve, contacts and work; CSV and .npy hold the
 curve, in SI units. Compression is positive, indentation is zero at first touch. CSV and .npy
 contain version, command and scene, and open as that scene.";
+
+/// What a figure shows in place of the force curves in one chart.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn {
+    /// The profile and its contact at the largest force.
+    Profile,
+    /// The contact patches over the indentation.
+    Patches,
+    /// The force curve of each scene over axes of its own.
+    Panels,
+}
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -48,15 +59,19 @@ pub struct RunArguments {
     /// More scenes beside it: a table of results and differences, force curves in one chart
     #[arg(value_name = "SCENE")]
     pub more: Vec<String>,
-    /// Draw the force curve of each scene over axes of its own
-    #[arg(long, conflicts_with_all = ["profile", "fragments", "preloads"])]
-    pub panels: bool,
-    /// Draw the profile and its contact at the largest force instead of the curve
-    #[arg(long, conflicts_with_all = ["fragments", "lines"])]
-    pub profile: bool,
-    /// Draw the contact patches over the indentation instead of the curve
-    #[arg(long, conflicts_with = "lines")]
-    pub fragments: bool,
+    /// Draw profile, patches or panels in place of the force curves
+    ///
+    /// profile: the profile and its contact at the largest force. patches: the contact patches over
+    /// the indentation. panels: the force curve of each scene over axes of its own.
+    #[arg(
+        long,
+        value_name = "WHAT",
+        value_enum,
+        hide_possible_values = true,
+        conflicts_with = "preloads",
+        verbatim_doc_comment
+    )]
+    pub draw: Option<Drawn>,
     /// Choose springs and edges for an adhesion force within T, as 1e-3 or 0.1%
     ///
     /// Doubles the springs until the error is small enough. The error is that from the closed
@@ -70,7 +85,7 @@ pub struct RunArguments {
     /// equal ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload; with
     /// --lines, median, quartiles, range and mean over the profiles. A preload below 0 N turns
     /// while the bodies are still drawn together, and is at least the force at first touch.
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true, conflicts_with_all = ["profile", "fragments"], value_parser = parse_preloads, verbatim_doc_comment)]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true, value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
     /// Write a table of the drawn curves instead of all profiles
     #[arg(long, requires = "preloads")]
@@ -80,15 +95,6 @@ pub struct RunArguments {
     #[command(flatten)]
     pub output: OutputArguments,
 }
-
-/// Quantities of a table of profiles besides those of an ensemble.
-const FURTHER: &[Quantity] = &[
-    Quantity::PreloadIndentation,
-    Quantity::ContactFraction,
-    Quantity::Skewness,
-    Quantity::ExcessKurtosis,
-    Quantity::TaborNumber,
-];
 
 /// Width of messages, columns.
 const WIDTH: usize = 80;
@@ -101,16 +107,21 @@ struct Chosen<'a> {
 }
 
 impl RunArguments {
+    /// Returns true for figures of profiles or patches.
+    fn has_sections(&self) -> bool {
+        matches!(self.draw, Some(Drawn::Profile | Drawn::Patches))
+    }
+
     fn format(&self) -> Result<Format, CliError> {
         let several = !self.more.is_empty();
-        if self.panels && !several {
+        if self.draw == Some(Drawn::Panels) && !several {
             return Err(CliError::named(
-                "--panels",
+                "--draw panels",
                 "one scene; allowed: several scenes, each over axes of its own",
             ));
         }
         let (formats, usual) = match self.preloads {
-            _ if self.profile || self.fragments => (PICTURES, Format::Svg),
+            _ if self.has_sections() => (PICTURES, Format::Svg),
             Some(_) if several => (PICTURES, Format::Svg),
             None if several => (TEXT_OR_PICTURE, Format::Text),
             _ => (&Format::ALL[..], Format::Text),
@@ -151,7 +162,7 @@ impl RunArguments {
         if count < 2 || format.is_table() && self.profiles.lines.is_none() {
             return Ok(None);
         }
-        let further = if self.profiles.lines.is_some() { FURTHER } else { &[] };
+        let further = if self.profiles.lines.is_some() { &Ensemble::FURTHER[..] } else { &[] };
         let mut progress = ProgressLine::default();
         let mut report = |so_far: &Ensemble| {
             progress.show(&format!("{} of {count} random profiles", so_far.computed()), None);
@@ -211,7 +222,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         }
     };
     match &arguments.preloads {
-        _ if arguments.profile || arguments.fragments => write(&sections(arguments, &chosen)?),
+        _ if arguments.has_sections() => write(&sections(arguments, &chosen)?),
         Some(preloads) => run_preloads(arguments, preloads, &chosen, format, &mut write),
         None => run_loadings(arguments, &chosen, format, &mut write),
     }
@@ -232,7 +243,7 @@ fn run_loadings(
             let (outcome, ensemble) = (compute(one.document, &one.scene)?, arguments.ensemble(one, format)?);
             scenes.push(ComparedScene { document: one.document, outcome, ensemble });
         }
-        return write(&ScenesReport { scenes: &scenes, panels: arguments.panels });
+        return write(&ScenesReport { scenes: &scenes, panels: arguments.draw == Some(Drawn::Panels) });
     };
     let Chosen { document, scene, choice } = one;
     let choice = choice.as_ref();
@@ -279,17 +290,17 @@ fn run_preloads(
 
 /// Figure of the profiles of the scenes with their contact, or of their contact patches.
 fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, CliError> {
-    let mut figures = Vec::new();
+    let (mut figures, has_patches) = (Vec::new(), arguments.draw == Some(Drawn::Patches));
     for Chosen { document, scene, .. } in chosen {
         let failed = |error| CliError::named(document.name(), error);
         let mut simulation = simulation_of(document);
-        let mut sets = ContactSets::new(arguments.fragments);
+        let mut sets = ContactSets::new(has_patches);
         let mut observe = |_, record: &LegRecord, leg: &Leg| {
             sets.observe(record, leg);
             Ok(())
         };
         let outcome = simulation.run(scene, &|| false, &mut observe).map_err(failed)?;
-        figures.push(match arguments.fragments {
+        figures.push(match has_patches {
             true => sets.patches_figure(document.title(), &outcome),
             false => {
                 let (line, ..) = simulation.make_line(scene).map_err(failed)?;

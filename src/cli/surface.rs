@@ -55,6 +55,9 @@ pub struct SurfaceArguments {
     pub opposite: Option<PathBuf>,
     #[command(flatten)]
     pub measured: Measured,
+    /// Channel by its number, or surface of a container by its name
+    #[arg(long, value_name = "NUMBER|NAME")]
+    pub channel: Option<String>,
     /// Distance between points where a file states none, such as 0.5um
     ///
     /// Lengths without a unit are in --unit, here and below.
@@ -126,7 +129,10 @@ impl SurfaceArguments {
         }
         let name = |file: &PathBuf| file.to_string_lossy().into_owned();
         let mut files = self.files.iter().map(name);
+        let number = self.channel.as_ref().and_then(|channel| channel.parse::<u32>().ok());
         Ok(Measured {
+            channel: number.map(u64::from),
+            surface_name: self.channel.clone().filter(|_| number.is_none()),
             file: files.next().unwrap_or_default(),
             further_files: files.collect(),
             opposite: self.opposite.as_ref().map(name),

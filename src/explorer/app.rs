@@ -12,7 +12,7 @@ use super::parameters::{Parameter, Setting};
 use super::player::Player;
 use super::player::indentations;
 use super::prompt::{Prompt, Purpose};
-use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
+use super::request::{CloseUpTarget, Drive, LineView, ManualMove, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
 use super::studies::Findings;
 use super::text_line::TextLine;
@@ -27,18 +27,6 @@ use asperity_scene::{Document, ron_float};
 use asperity_scene::{Governing, marks};
 use asperity_study::{Axis, Ensemble, Grid, Place, Quantity};
 use std::sync::Arc;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CloseUpTarget {
-    pub focus: Focus,
-    /// Number of springs; `None`: as many as show the whole patch.
-    pub springs: Option<usize>,
-}
-
-impl CloseUpTarget {
-    /// The patch at first touch as a whole.
-    pub const WHOLE: CloseUpTarget = CloseUpTarget { focus: Focus::Summit, springs: None };
-}
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualState {
@@ -318,6 +306,7 @@ impl App {
     /// The selectable panes, the most important first.
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
+            Some(Pane::Trust) => vec![Pane::Trust, Pane::Parameters],
             Some(large) => vec![Pane::Force, large, Pane::Parameters],
             None => vec![Pane::Force, Pane::Profile, Pane::Parameters, Pane::CloseUp],
         }
@@ -405,7 +394,8 @@ impl App {
         self.view.curve.normalised && self.ideal_adhesion_force().is_some()
     }
 
-    fn ideal_adhesion_force(&self) -> Option<f64> {
+    /// F_a,max of the shown scene, N; `None` if that is not above zero.
+    pub fn ideal_adhesion_force(&self) -> Option<f64> {
         self.solved.as_ref()?.outcome.ideal_adhesion_force.filter(|force| *force > 0.0)
     }
 

@@ -23,6 +23,8 @@ pub struct Config {
     pub speed: f64,
     /// True if the animation begins again at its end.
     pub repeat: bool,
+    /// False to leave the mouse to the terminal.
+    pub mouse: bool,
     /// Name of the scene that opens if none is given.
     pub scene: String,
     keys: Vec<KeySetting>,
@@ -47,6 +49,7 @@ impl Default for Config {
             frame_rate: 30,
             speed: 1.0,
             repeat: false,
+            mouse: true,
             scene: DEFAULT.to_owned(),
             keys: Vec::new(),
             bindings: Bindings::default(),

@@ -104,7 +104,9 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     let list = (u32::from(body.width) * 35 / 100).clamp(LIST.0.into(), LIST.1.into()) as u16;
     let left = Rect { width: body.width - list, ..body };
     let list = (Pane::Parameters, Rect { x: left.right(), width: list, ..body });
-    if body.height < WITH_LOWER {
+    // All that it states needs the height of the window.
+    let is_alone = main == Pane::Trust && selected != Pane::Force;
+    if body.height < WITH_LOWER || is_alone {
         return vec![(only, left), list];
     }
     let upper = Rect { height: (u32::from(body.height) * 62 / 100) as u16, ..left };

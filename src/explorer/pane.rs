@@ -7,8 +7,8 @@ pub enum Pane {
     Force,
     Profile,
     CloseUp,
-    /// Cost of accuracy, and computing stages of the scene.
-    Accuracy,
+    /// Cost of accuracy, errors by their sources, and other theories.
+    Trust,
     Spectrum,
     Preloads,
     /// Changes of the results with each number of the scene.
@@ -33,7 +33,7 @@ impl Pane {
             Self::Force | Self::Parameters => "force",
             Self::Profile => "profile",
             Self::CloseUp => "patch",
-            Self::Accuracy => "accuracy",
+            Self::Trust => "trust",
             Self::Spectrum => "spectrum",
             Self::Preloads => "preloads",
             Self::Sensitivity => "sensitivity",

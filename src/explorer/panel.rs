@@ -31,6 +31,8 @@ pub enum Body {
     Text(String),
 }
 
+/// Share of an axis below which a distance is one of rounding.
+const HAIR: f64 = 1e-9;
 /// Width of a pane, columns, below which its title has as many readings as there is room for.
 const NARROW: u16 = 40;
 /// Smallest number of rows of a chart with both scales; only the remaining rows are for lines above and below.
@@ -62,8 +64,11 @@ impl Panel {
             let read = |points: &[(f64, f64)]| {
                 let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), point.1);
                 let mut between = points.windows(2).map(|pair| (place(&pair[0]), place(&pair[1])));
-                let (from, to) =
-                    between.find(|(from, to)| (from.0 - at) * (to.0 - at) <= 0.0 && from.0 != to.0)?;
+                let (from, to) = between.find(|(from, to)| {
+                    // Also at an end that is rounded.
+                    let far = HAIR * across.span.width() * (to.0 - from.0).abs();
+                    (from.0 - at) * (to.0 - at) <= far && from.0 != to.0
+                })?;
                 let [low, high] = [from.1, to.1].map(|y| up.scale.coordinate(y));
                 // The ends themselves where there is nothing between them, or no coordinate.
                 let share = (at - from.0) / (to.0 - from.0);

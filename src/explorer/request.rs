@@ -70,6 +70,18 @@ impl LineView {
     pub const WHOLE: LineView = LineView { centre: 0.5, share: 1.0 };
 }
 
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloseUpTarget {
+    pub focus: Focus,
+    /// Number of springs; `None`: as many as show the whole patch.
+    pub springs: Option<usize>,
+}
+
+impl CloseUpTarget {
+    /// The patch at first touch as a whole.
+    pub const WHOLE: CloseUpTarget = CloseUpTarget { focus: Focus::Summit, springs: None };
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Focus {
     Summit,

@@ -43,7 +43,6 @@ pub struct Options {
     pub theme: Option<Theme>,
     /// Marker of plots; `None` to choose it by the environment.
     pub marker: Option<Marker>,
-    pub no_mouse: bool,
     /// Unsaved changes of another session; the opened scene is the first of them.
     pub restored: Option<Kept>,
     /// Configuration; the options here have precedence over it.
@@ -56,15 +55,7 @@ pub struct Options {
 impl Options {
     /// Options of a session with this configuration.
     pub fn new(config: Config) -> Self {
-        Options {
-            theme: None,
-            marker: None,
-            no_mouse: false,
-            restored: None,
-            config,
-            warning: None,
-            unsaved: None,
-        }
+        Options { theme: None, marker: None, restored: None, config, warning: None, unsaved: None }
     }
 }
 
@@ -94,7 +85,7 @@ pub fn open(
     draw: Draw,
 ) -> io::Result<SessionEnd> {
     let size = terminal::window()?;
-    let guard = TerminalGuard::take(!options.no_mouse)?;
+    let guard = TerminalGuard::take(options.config.mouse)?;
     let (sender, inbox) = channel();
     let sender = || sender.clone();
     let to = sender();

@@ -2,7 +2,7 @@
 //! value. The explorer holds one value of each type, with a key for what it was computed from. A thread of its own performs
 //! the newest order of studies; a newer order ends it.
 
-use asperity_scene::Simulation;
+use asperity_scene::{Scene, Simulation};
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -69,6 +69,12 @@ impl Study {
             }
         }
     }
+}
+
+/// Key of the random profiles of a scene, which do not depend on its texts.
+pub fn ensemble_key(scene: &Scene) -> String {
+    let scene = Scene { title: String::new(), notice: String::new(), observe: Vec::new(), ..scene.clone() };
+    format!("ensemble of {scene:?}")
 }
 
 /// Part of a value, or the end of a study.

@@ -27,7 +27,7 @@ pub const PLAN: &str = r#"(
 pub fn merged(folder: &Path, plan: &str) {
     let study = begun(folder, plan);
     run(&study, Options { jobs: 2, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
-    merge(&study, false).unwrap();
+    merge(&study).unwrap();
 }
 
 /// Creates the study of a plan in a folder, without results.

@@ -1,6 +1,5 @@
 //! The screen of the explorer after each key, in large windows and small ones, with colours and without.
 
-mod accuracy;
 mod chrome;
 mod compare;
 mod crosshair;
@@ -28,6 +27,8 @@ mod spectrum;
 mod stages;
 mod studies;
 mod study;
+mod target;
+mod trust;
 mod typing;
 
 use super::common;
@@ -87,7 +88,7 @@ fn everywhere() -> Vec<Driver> {
                 Q;Q z;% 1;y;m;m z;i;*;* Tab Right;* v Right;i z";
     let mut all: Vec<Driver> = keys.split(';').map(pressed).collect();
     all.push(Driver::open(rough()));
-    all.push(accuracy::measured(rough()));
+    all.push(trust::measured(rough()));
     all.push(computed_sensitivity(rough()));
     all.extend(["", "V", "V V", "z"].map(|keys| {
         let mut driver = map::mapped(rough());

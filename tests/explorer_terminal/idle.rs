@@ -42,10 +42,10 @@ fn nothing_happens_while_nothing_happens() {
     terminal.wait_without("What you see");
     // With manual loading.
     terminal.send("}}}");
-    terminal.wait_for("manual: d ");
+    terminal.wait_for("manual loading");
     assert_idle(&mut terminal);
     terminal.send("d");
-    terminal.wait_without("manual: d ");
+    terminal.wait_without("manual loading");
     // While a scene is chosen, with its curve beside.
     terminal.send("o");
     terminal.wait_for("built-in");

@@ -90,7 +90,7 @@ fn a_configuration_is_read() {
     terminal.wait_for("_ quit");
     terminal.send("_");
     assert!(terminal.wait_end().success());
-    let mut terminal = paused(again(home, "--no-config"));
+    let mut terminal = paused(again(home, "--config=none"));
     assert!(!terminal.rows()[0].starts_with("Rough line"), "{}", terminal.text());
     quit(&mut terminal);
     let run = |arguments: &[&str]| {
@@ -105,7 +105,7 @@ fn a_configuration_is_read() {
         "{message}"
     );
     // The user's own file does not keep the explorer from opening.
-    let mut terminal = again(home, "--no-mouse").start();
+    let mut terminal = again(home, "--marker=braille").start();
     terminal.wait_for("config.ron:1:21: theme = Pink");
     quit(&mut terminal);
     assert_eq!(fs::read_to_string(&file).unwrap(), "(version: 1, theme: Pink)");

@@ -33,8 +33,9 @@ fn the_terminal_is_asked_for_presses_and_drags_but_not_for_every_motion() {
     assert_eq!(count(terminal.written(), b"1003h"), 0);
     assert_eq!(terminal.screen().mouse_protocol_mode(), MouseProtocolMode::None);
     // On request the mouse is left to the terminal.
-    let (program, _folder) = explorer();
-    let mut terminal = paused(program.argument("--no-mouse"));
+    let (program, folder) = explorer();
+    std::fs::write(folder.path().join("still.ron"), "(version: 1, mouse: false)").unwrap();
+    let mut terminal = paused(program.argument("--config=still.ron"));
     quit(&mut terminal);
     assert_eq!(count(terminal.written(), b"\x1b[?100"), 0);
 }
@@ -49,10 +50,10 @@ fn presses_and_drags_have_their_effects() {
     terminal.settle();
     assert_eq!(terminal.text(), before);
     let indentation = |rows: &[String]| {
-        let row: Vec<String> = rows.iter().filter(|row| row.contains("manual: d ")).cloned().collect();
+        let row: Vec<String> = rows.iter().filter(|row| row.contains("manual loading")).cloned().collect();
         quantity(&row, "d", "m")
     };
-    let (column, row) = place_of(&terminal, "Force F(d)");
+    let (column, row) = place_of(&terminal, "Force F (");
     terminal.send(&(report(LEFT, column + 20, row + 8) + &report(DRAGGED, column + 20, row + 8)));
     terminal.wait("manual loading", |rows| indentation(rows).is_some());
     let start = indentation(&terminal.rows());

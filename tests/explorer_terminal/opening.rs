@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 fn the_first_frame_has_all_panes_and_the_next_the_curve() {
     // Without a scene the explorer opens a built-in one.
     let mut terminal = Program::new(ASPERITY).start();
-    for pane in ["Force", "Profile", "Contact patches", "Parameters", "work of adhesion", "q quit"] {
+    for pane in ["Force", "Profile", "Patch", "Parameters", "work of adhesion", "q quit"] {
         terminal.wait_for(pane);
     }
     assert!(terminal.screen().alternate_screen() && terminal.screen().hide_cursor());

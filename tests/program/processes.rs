@@ -2,6 +2,7 @@
 
 use super::common::deadline::within;
 use super::program::{program, text};
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
@@ -56,10 +57,13 @@ fn commands(help: &str) -> impl Iterator<Item = &str> {
     names.filter(|name| !name.is_empty() && *name != "help")
 }
 
+/// Largest number of options of all commands together: a new one takes the place of another, or serves several commands.
+const MOST_OPTIONS: usize = 65;
+
 #[test]
 fn help_is_for_reading() {
     let mut left: Vec<Vec<String>> = vec![Vec::new()];
-    let mut seen = 0;
+    let (mut seen, mut options) = (0, BTreeSet::new());
     while let Some(command) = left.pop() {
         seen += 1;
         for flag in ["-h", "--help"] {
@@ -70,12 +74,17 @@ fn help_is_for_reading() {
                 "{help}"
             );
             assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+            let listed = help.lines().map(str::trim_start).filter(|line| line.starts_with('-'));
+            let names = listed.filter_map(|line| line.split(' ').find(|word| word.starts_with("--")));
+            options.extend(names.map(str::to_owned));
             if flag == "-h" {
                 left.extend(commands(&help).map(|name| [&command[..], &[name.to_owned()]].concat()));
             }
         }
     }
     assert!(seen >= 20, "{seen} commands");
+    options.retain(|name| name != "--help" && name != "--version");
+    assert!((40..=MOST_OPTIONS).contains(&options.len()), "{} options: {options:?}", options.len());
 }
 
 #[test]
@@ -85,7 +94,7 @@ fn a_demo_is_text_in_a_pipe() {
         let frames = demo(&["--size", "100x30"]);
         let heads: Vec<&str> = frames.lines().filter(|line| line.starts_with("== ")).collect();
         assert_eq!((heads.len(), heads[0], heads[12]), (13, "== 0.00 s ==", "== 12.00 s =="));
-        assert!(!frames.contains(['\u{1b}', '\r']) && frames.contains("Force F(d)") && frames.contains('⠒'));
+        assert!(!frames.contains(['\u{1b}', '\r']) && frames.contains("Force F (") && frames.contains('⠒'));
         assert!(frames.lines().count() == 13 * 31 && frames.lines().all(|line| line.chars().count() <= 100));
         assert_eq!(frames, demo(&["--size", "100x30"]), "the same every time");
         let ascii = demo(&["--size", "100x30", "--marker", "ascii"]);

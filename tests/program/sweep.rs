@@ -7,7 +7,7 @@ use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
 use asperity::scene::{Outcome, Simulation};
 use asperity::study::{
     Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status,
-    StudyError, StudyMap, merge, run,
+    StudyMap, merge, run,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -68,7 +68,7 @@ fn compute(folder: &Folder, jobs: usize, shard: Shard) {
 fn computed(plan: &Plan) -> (TempDir, Folder) {
     let (place, folder) = study(plan);
     compute(&folder, 2, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    merge(&folder).unwrap();
     (place, folder)
 }
 
@@ -84,7 +84,7 @@ fn shard_files(folder: &Folder) -> Vec<PathBuf> {
 fn undisturbed(plan: &Plan) -> [String; 2] {
     let (_place, folder) = study(plan);
     compute(&folder, 1, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    merge(&folder).unwrap();
     tables(&folder)
 }
 
@@ -146,7 +146,7 @@ fn no_bit_depends_on_who_computes() {
     for jobs in [2, 7] {
         let (_place, folder) = study(&plan);
         compute(&folder, jobs, Shard::WHOLE);
-        merge(&folder, false).unwrap();
+        merge(&folder).unwrap();
         assert_eq!(tables(&folder), expected, "{jobs} jobs");
     }
     let (_place, folder) = study(&plan);
@@ -157,7 +157,7 @@ fn no_bit_depends_on_who_computes() {
     // A shard with all its records present makes no file.
     compute(&folder, 2, Shard { number: 1, count: 3 });
     assert_eq!(shard_files(&folder).len(), 3);
-    let merged = merge(&folder, false).unwrap();
+    let merged = merge(&folder).unwrap();
     assert_eq!((merged.records, merged.duplicates, merged.files), (96, 0, 3));
     assert_eq!(tables(&folder), expected, "three shards");
 }
@@ -177,7 +177,7 @@ fn cells_that_cannot_be_computed_have_a_reason() {
     plan.axes[1].values[1] = 512.0;
     let (_place, folder) = study(&plan);
     compute(&folder, 2, Shard::WHOLE);
-    let merged = merge(&folder, false).unwrap();
+    let merged = merge(&folder).unwrap();
     assert_eq!((merged.records, merged.total, merged.failed), (8, 8, 6));
     assert_eq!(Status::of(&folder).unwrap().failed, 6);
     let [rows, summary] = tables(&folder);
@@ -211,7 +211,7 @@ fn results_that_differ_are_stated() {
     let other = format!("{start},{:?}", last.parse::<f64>().unwrap() * (1.0 + f64::EPSILON));
     let other = format!("{header}\n{:08x},{other}\n", crc32fast::hash(other.as_bytes()));
     fs::write(file.with_file_name("zz.shard"), other).unwrap();
-    let error = merge(&folder, false).unwrap_err().to_string();
+    let error = merge(&folder).unwrap_err().to_string();
     let file = file.display();
     assert!(error.starts_with("cell 0, seed 18446744073709551614 (adhesion.kappa = 0.5, "), "{error}");
     assert!(
@@ -222,19 +222,11 @@ fn results_that_differ_are_stated() {
 }
 
 #[test]
-fn what_is_missing_is_named() {
+fn what_is_missing_is_counted() {
     let plan = plan(SMALL);
     let (_place, folder) = study(&plan);
     compute(&folder, 1, Shard { number: 1, count: 2 });
-    let error = merge(&folder, false).unwrap_err().to_string();
-    assert!(
-        error.starts_with("48 of 96 records are missing, in 32 cells: cell 0 (adhesion.kappa = 0.5, "),
-        "{error}"
-    );
-    assert!(error.contains("preload = 0.01)") && error.ends_with("--partial"), "{error}");
-    assert!(!folder.path().join(RESULTS).exists());
-    assert!(matches!(Results::open(folder.path()), Err(StudyError::Folder { .. })));
-    let merged = merge(&folder, true).unwrap();
+    let merged = merge(&folder).unwrap();
     assert_eq!((merged.records, merged.missing_cells), (48, 32));
     let [results, summary] = tables(&folder);
     assert_eq!(results.lines().count(), 49);
@@ -242,7 +234,7 @@ fn what_is_missing_is_named() {
     assert!(results.lines().all(|row| whole[0].lines().any(|one| one == row)));
     assert!(summary.lines().count() <= 33);
     compute(&folder, 1, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    merge(&folder).unwrap();
     assert_eq!(tables(&folder), whole);
 }
 
@@ -301,7 +293,7 @@ fn another_plan_is_refused() {
     compute(&other, 1, Shard { number: 1, count: 8 });
     let stray = &shard_files(&other)[0];
     fs::copy(stray, folder.path().join("shards").join(stray.file_name().unwrap())).unwrap();
-    assert!(merge(&folder, true).unwrap_err().to_string().contains("belongs to another plan"));
+    assert!(merge(&folder).unwrap_err().to_string().contains("belongs to another plan"));
 }
 
 proptest! {
@@ -320,7 +312,7 @@ proptest! {
         fs::write(file, &bytes).unwrap();
         // Continued, the study is whole again.
         compute(&folder, 1, Shard::WHOLE);
-        merge(&folder, false).unwrap();
+        merge(&folder).unwrap();
         prop_assert_eq!(tables(&folder), whole);
     }
 }

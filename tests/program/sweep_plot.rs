@@ -41,7 +41,11 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     assert!(plot(&[]).unwrap_err().contains("has not been merged yet"));
     asperity(at, &["sweep", "plan.ron", "-o", "study"]).unwrap();
 
-    let error = plot(&[]).unwrap_err();
+    // Of preloads the first is shown.
+    assert_eq!(plot(&[]), plot(&["--at", "preload=0.01"]));
+    let note = asperity_in(at, &["sweep", "plot", "study"]).stderr;
+    assert!(note.contains("is the first of 3 preloads; --at preload=VALUE selects another"), "{note}");
+    let error = plot(&["--x", "preload"]).unwrap_err();
     assert!(error.starts_with("too many axes are free for a figure: roughness.hurst (0.1, "), "{error}");
     assert!(error.trim_end().ends_with("such as --at roughness.hurst=0.1"), "{error}");
     for (arguments, expected) in [
@@ -84,7 +88,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
 
     // Half of the cells: the others are gaps.
     asperity(at, &["sweep", "plan.ron", "-o", "half", "--shard", "1/5"]).unwrap();
-    asperity(at, &["sweep", "merge", "half", "--partial"]).unwrap();
+    asperity(at, &["sweep", "merge", "half"]).unwrap();
     let half = asperity(at, &["sweep", "plot", "half", "--at", "preload=0.1"]).unwrap();
     assert!(half.contains("Small"), "{half}");
 }

@@ -68,6 +68,13 @@ impl Axis {
         (10_f64.powi(power), format!("{} {unit}", Label::power_of_ten(power)).trim_end().to_owned())
     }
 
+    /// The axis with its numbers divided by a unit with this symbol.
+    pub(super) fn over(&self, unit: f64, symbol: &str) -> Axis {
+        let end = |at: f64| self.scale.coordinate(self.scale.number(at) / unit);
+        let span = Span { low: end(self.span.low), high: end(self.span.high) };
+        Axis { span, symbol: format!("{}/{symbol}", self.symbol), unit: "1".to_owned(), ..self.clone() }
+    }
+
     /// Label of the axis: name and symbol, with the prefixed unit in brackets.
     pub fn label_with_unit(&self) -> Label {
         self.with_unit(Label::quantity(&self.name, &self.symbol))
@@ -185,5 +192,18 @@ mod tests {
         assert_eq!(labels.iter().map(Label::to_string).collect::<Vec<_>>(), ["-3", "-2", "-1", "0", "1"]);
         let hurst = Axis::new(AxisScale::Linear, Span { low: 0.075, high: 0.925 }, "", "H", "1");
         assert_eq!(hurst.ticks(3).into_iter().filter(|tick| tick.label.is_some()).count(), 4);
+    }
+
+    #[test]
+    fn an_axis_over_a_unit_keeps_the_places_of_its_numbers() {
+        let ends = Span { low: -3.0, high: 1.0 };
+        for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
+            let axis = Axis::new(scale, ends, "force", "F", "N");
+            let over = axis.over(0.5, "F_a,max");
+            assert_eq!(over.label_with_unit().to_string(), "force F/F_a,max");
+            for number in [0.01, 0.7, 2.0] {
+                assert!((over.share(number / 0.5) - axis.share(number)).abs() < 1e-12, "{scale:?} {number}");
+            }
+        }
     }
 }

@@ -112,6 +112,39 @@ impl Chart {
         self
     }
 
+    /// The chart with the numbers on its axes divided by units, each with its symbol; `None` for an axis that stays.
+    pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
+        for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
+            *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
+        }
+        let [x, y] = [x, y].map(|unit| unit.map_or(1.0, |(unit, _)| unit));
+        for layer in &mut self.layers {
+            match &mut layer.shape {
+                Shape::Curve { points, .. } | Shape::Inside(points) => {
+                    points.iter_mut().for_each(|point| *point = (point.0 / x, point.1 / y));
+                }
+                Shape::Band(points) => {
+                    points.iter_mut().for_each(|point| *point = (point.0 / x, point.1 / y, point.2 / y));
+                }
+                Shape::Envelope { x: ends, columns } => {
+                    *ends = (ends.0 / x, ends.1 / x);
+                    columns.iter_mut().flatten().for_each(|ends| *ends = (ends.0 / y, ends.1 / y));
+                }
+                Shape::Boxes(boxes) => {
+                    let divided = |ends: &mut (f64, f64), unit: f64| *ends = (ends.0 / unit, ends.1 / unit);
+                    boxes.iter_mut().for_each(|(across, up)| {
+                        divided(across, x);
+                        divided(up, y);
+                    });
+                }
+                Shape::Upright(at) => *at /= x,
+                Shape::Level(at) => *at /= y,
+                Shape::Map(_) => {}
+            }
+        }
+        self
+    }
+
     /// Returns the first map of the chart.
     pub fn map(&self) -> Option<&HeatMap> {
         self.layers.iter().find_map(|layer| match &layer.shape {

@@ -25,8 +25,6 @@ pub struct ReversalReport<'a> {
     pub preloads: Option<&'a Results>,
     /// Adhesion force against preload with the exact position of each step, for the figure.
     pub staircase: Option<&'a Staircase>,
-    /// True for a table with a row for each point of the map, false for a row for each turning point.
-    pub map_table: bool,
 }
 
 impl Report for ReversalReport<'_> {
@@ -74,7 +72,7 @@ impl Report for ReversalReport<'_> {
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        Some(if self.map_table { points(self.map) } else { turning_points(self.map) })
+        Some(turning_points(self.map))
     }
 
     /// The adhesion force against preload, and a map of the Everett function.
@@ -96,20 +94,6 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
         .real("pull_off_indentation", |one| one.smallest.indentation)
         .real("separation", |one| one.separation)
         .real("dissipated_energy", |one| one.dissipated_energy)
-        .done()
-}
-
-/// Table with one row for each turning point and each indentation up to it.
-fn points(map: &ReversalMap) -> Table<'_> {
-    let points = || {
-        let turns = 0..map.turns().len();
-        turns.flat_map(|turn| (0..=map.below + turn).map(move |point| (turn, point)))
-    };
-    Table::of(points)
-        .real("turning_indentation", |&(turn, _)| map.turns()[turn])
-        .real("indentation", |&(_, point)| map.points[point])
-        .real("force", |&(turn, point)| map.force(turn, point))
-        .real("everett", |&(turn, point)| map.everett(turn, point))
         .done()
 }
 

@@ -6,7 +6,7 @@ use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::{Budget, Criterion, Ensemble, LEAST_TABOR_NUMBER_OF_JKR, criteria};
 
 /// The sentence with which a summary begins where JKR theory does not apply.
-pub(crate) fn without_jkr(outcome: &Outcome) -> Option<String> {
+pub fn without_jkr(outcome: &Outcome) -> Option<String> {
     let number = outcome.tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
     let number = asperity_data::format_rounded(number, 2, "1");
     Some(format!(
@@ -62,7 +62,10 @@ pub fn error_rows(
     budget: &Budget,
     ensemble: Option<&Ensemble>,
 ) -> Vec<(&'static str, String)> {
-    let share = |share: Option<f64>| share.map(|share| format!("± {}", per_cent(share)));
+    let words = |share: f64| {
+        if share > 1.0 { "more than ± 100 %".to_owned() } else { format!("± {}", per_cent(share)) }
+    };
+    let share = |share: Option<f64>| share.map(words);
     let grid = match share(budget.grid) {
         Some(grid) if estimate.is_some_and(|estimate| estimate.near_step) => {
             format!("{grid}, near a step of F_a(F_n)")

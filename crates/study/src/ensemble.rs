@@ -31,6 +31,15 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
+    /// Further quantities of a table of profiles.
+    pub const FURTHER: [Quantity; 5] = [
+        Quantity::PreloadIndentation,
+        Quantity::ContactFraction,
+        Quantity::Skewness,
+        Quantity::ExcessKurtosis,
+        Quantity::TaborNumber,
+    ];
+
     /// Usual number of profiles of a scene: [`Ensemble::PROFILES`], or 1 for a fixed profile and for the stepwise solver, whose
     /// profiles take long.
     pub fn profiles_of(scene: &Scene) -> u64 {

@@ -58,20 +58,6 @@ pub enum StudyError {
         /// Reason, and what is allowed, in words.
         why: String,
     },
-    /// Records are missing, and a partial table was not requested.
-    #[error(
-        "{missing} of {total} records are missing, in {cells} cells: {first}; run the study to its end, or merge with --partial"
-    )]
-    Missing {
-        /// Number of missing records.
-        missing: u64,
-        /// Number of all records.
-        total: u64,
-        /// Number of cells with missing records.
-        cells: u64,
-        /// The first of these cells with their coordinates, in words.
-        first: String,
-    },
     /// Two records of the same cell and profile differ.
     #[error(
         "{place}: two records differ, in {} and {}; remove the one that is wrong",

@@ -242,7 +242,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
         run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
-        merge(&folder, false).unwrap();
+        merge(&folder).unwrap();
         let study = StudyMap::open(folder.path()).unwrap().grid(0);
         let (live, mut disagreeing) = (live.grid(), 0);
         for (row, &kappa) in up.iter().enumerate() {

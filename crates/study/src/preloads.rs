@@ -207,9 +207,13 @@ impl Results {
 
 #[cfg(test)]
 mod tests {
+    use super::super::cells::Streak;
     use super::super::error::FIXED_PROFILE;
+    use super::super::plan::Plan;
+    use super::super::plan_text::Changes;
+    use super::super::recorder::Recorder;
     use super::*;
-    use asperity_scene::{Document, open};
+    use asperity_scene::{Document, Figures, open};
 
     fn preloads(ends: (f64, f64), count: usize) -> Axis {
         Axis::of_preloads(ends, count, AxisScale::Linear).unwrap()
@@ -257,6 +261,30 @@ mod tests {
         let error = solved(&stepwise, &preloads, 1, 1).unwrap_err();
         assert!(error.starts_with("numerics.solver = Stepwise: reversals need the exact solver"), "{error}");
     }
+
+    /// Preloads in N are those of runs of their own, also of a smooth body, and a plan keeps their unit.
+    #[test]
+    fn preloads_of_a_plan_may_be_in_newtons() {
+        for base in ["jkr-sphere", "pressure-sensitive"] {
+            let text = format!(
+                "(version: 1, base: \"{base}\", set: {{\"numerics.points\": \"2048\"}}, axes: [List(path: \"preload_in_N\", \
+                 values: [2e-6, 1e-5])], record: [adhesion_force, dissipated_energy])"
+            );
+            let plan = Plan::parse(&text, base, &Changes::default()).unwrap();
+            assert_eq!(Plan::parse(&plan.to_ron(), base, &Changes::default()).as_ref(), Ok(&plan));
+            let streak = Streak { cells: 0..2, line: 0 };
+            let records = Recorder::new(&plan, Simulation::default(), &|| false).record(&streak).unwrap();
+            for (force, record) in [2e-6, 1e-5].into_iter().zip(records) {
+                let loading = vec![Move::ToForce(force), Move::ToSeparation];
+                let scene = plan.scene_of(0).unwrap().with(|scene| scene.loading = loading).unwrap();
+                let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+                let Figures { adhesion_force, dissipated_energy, .. } = outcome.figures;
+                let record: Vec<_> = record.into_iter().map(Some).collect();
+                assert_eq!(record, [adhesion_force, dissipated_energy], "{base} {force}");
+            }
+        }
+    }
+
     /// Each step of the staircase lies where a fine grid of preloads shows it; preloads below zero turn while the bodies
     /// are drawn together.
     #[test]

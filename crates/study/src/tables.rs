@@ -31,25 +31,14 @@ const LONGEST_SIDECAR: usize = 1 << 26;
 /// Name of the file that describes the columns.
 pub const SIDECAR: &str = "results.json";
 
-/// Merges the shard files of a study and writes its tables, each completely or not at all. With `partial`, the tables hold
-/// the existing records only.
+/// Merges the shard files of a study and writes its tables, each completely or not at all. Of a study that is not complete
+/// the tables hold the existing records, and [`Merged`] counts the missing cells.
 ///
 /// # Errors
-/// Records are missing and `partial` is not set, or two records of the same cell and profile differ.
-pub fn merge(folder: &Folder, partial: bool) -> Result<Merged, StudyError> {
+/// Two records of the same cell and profile differ, or a file cannot be read or written.
+pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     let plan = results.plan();
-    if merged.records < merged.total && !partial {
-        let named = |&cell: &u64| format!("cell {cell} ({})", plan.coordinates(cell));
-        let named: Vec<String> = merged.first_missing.iter().map(named).collect();
-        let more = if merged.missing_cells > named.len() as u64 { ", …" } else { "" };
-        return Err(StudyError::Missing {
-            missing: merged.total - merged.records,
-            total: merged.total,
-            cells: merged.missing_cells,
-            first: named.join(", ") + more,
-        });
-    }
     let path = |name| folder.path().join(name);
     write_new_file(&path(RESULTS), true, |out| results.table().write_csv(out, ""))?;
     write_new_file(&path(SUMMARY), true, |out| results.summary().write_csv(out, ""))?;

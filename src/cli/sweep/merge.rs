@@ -10,8 +10,8 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "\
 Examples:
   asperity sweep merge study
-  asperity sweep merge study --partial               What there is so far
 
+Of a study that is not complete the finished records are merged, and the missing cells are counted.
 results.csv has one row for each cell and line, summary.csv one for each cell: mean, standard
 deviation and 95 % confidence interval of the mean over the lines. results.json says what the
 columns mean. SI units.";
@@ -22,14 +22,11 @@ pub struct MergeArguments {
     /// Folder of the study
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Publish the finished cells, even if others are missing
-    #[arg(long)]
-    pub partial: bool,
 }
 
 pub(super) fn merge(arguments: &MergeArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let folder = Folder::open(&arguments.folder)?;
-    let merged = merge_records(&folder, arguments.partial)?;
+    let merged = merge_records(&folder)?;
     write_merged(&folder, &merged, stdout)
 }
 

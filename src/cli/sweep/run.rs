@@ -5,7 +5,8 @@ use crate::cli::error::CliError;
 use crate::cli::progress::ProgressLine;
 use crate::cli::scene::{Overrides, threads};
 use asperity_data::memory_size;
-use asperity_study::{Changes, Folder, Options, Plan, Progress, Shard, Status, merge, run as compute};
+use asperity_report::progress_text;
+use asperity_study::{Changes, Folder, Options, Plan, Shard, Status, merge, run as compute};
 use clap::Args;
 use std::io;
 use std::io::Write;
@@ -71,7 +72,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let options = Options { jobs: jobs as usize, shard: arguments.shard.unwrap_or(Shard::WHOLE) };
     let signal = || stop.load(Ordering::SeqCst);
     let ended = compute(&folder, options, &|| signal() != 0, &mut |progress| {
-        let text = text_of(progress);
+        let text = progress_text(progress);
         let is_due = progress.is_complete() || last.is_none_or(|last| last.elapsed() >= BETWEEN);
         if is_due {
             last = Some(Instant::now());
@@ -95,34 +96,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
             return Ok(());
         }
     }
-    write_merged(&folder, &merge(&folder, false)?, stdout)
-}
-
-fn text_of(progress: &Progress) -> String {
-    let Progress { done, before, total, elapsed: _ } = *progress;
-    let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };
-    let mut text = format!("{done} of {total} records, {share:.1} %");
-    if let Some(rate) = progress.rate().filter(|_| done > before) {
-        let decimals = if rate >= 100.0 { 0 } else { 2 };
-        text.push_str(&format!(", {rate:.decimals$} per second"));
-        if let Some(left) = progress.left().filter(|_| done < total) {
-            text.push_str(&format!(", {} left", duration(left)));
-        }
-    } else if before > 0 {
-        text.push_str(" were there before");
-    }
-    text
-}
-
-fn duration(time: Duration) -> String {
-    let seconds = time.as_secs();
-    let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
-    match (hours, minutes) {
-        (0, 0) => format!("{seconds} s"),
-        (0, _) => format!("{minutes} min {} s", seconds % 60),
-        (48.., _) => format!("{} d {} h", hours / 24, hours % 24),
-        _ => format!("{hours} h {minutes} min"),
-    }
+    write_merged(&folder, &merge(&folder)?, stdout)
 }
 
 /// Returns the number of the first signal that asks the process to end, 0 until then; a second signal ends it at once.
@@ -138,22 +112,4 @@ fn stop_by_signal() -> Result<Arc<AtomicUsize>, CliError> {
         }
     }
     Ok(first)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn progress_is_one_line() {
-        let at = |done, before, seconds| {
-            let elapsed = Duration::from_secs(seconds);
-            text_of(&Progress { done, before, total: 4000, elapsed })
-        };
-        assert_eq!(at(0, 0, 0), "0 of 4000 records, 0.0 %");
-        assert_eq!(at(1000, 1000, 0), "1000 of 4000 records, 25.0 % were there before");
-        assert_eq!(at(2000, 1000, 10), "2000 of 4000 records, 50.0 %, 100 per second, 20 s left");
-        assert_eq!(at(1001, 1000, 10), "1001 of 4000 records, 25.0 %, 0.10 per second, 8 h 19 min left");
-        assert_eq!(at(4000, 0, 10), "4000 of 4000 records, 100.0 %, 400 per second");
-    }
 }

@@ -8,11 +8,10 @@ use crate::explorer::editor::scene_of;
 use crate::explorer::panes;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
-use crate::explorer::studies::Study;
+use crate::explorer::studies::{Study, ensemble_key};
 use asperity_contact::Move;
 use asperity_data::parallel::threads;
 use asperity_scene::RunError;
-use asperity_scene::Scene;
 use asperity_scene::out_of_reach;
 use asperity_scene::{CheckedScene, Document};
 use asperity_scene::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
@@ -82,12 +81,6 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
             found.map_err(|error| error.to_string())
         })
     })
-}
-
-/// Key of the random profiles of a scene, which do not depend on its texts.
-pub fn ensemble_key(scene: &Scene) -> String {
-    let scene = Scene { title: String::new(), notice: String::new(), observe: Vec::new(), ..scene.clone() };
-    format!("ensemble of {scene:?}")
 }
 
 /// Searches the smallest number of springs of a scene for a tolerance.

@@ -1,8 +1,7 @@
 //! Edits of the scene. Each gives a new document and can be undone.
 
-use super::accuracy::ensemble_key;
 use crate::explorer::action::Task;
-use crate::explorer::app::{App, CloseUpTarget, Message};
+use crate::explorer::app::{App, Message};
 use crate::explorer::editor::Edited;
 use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
@@ -10,8 +9,9 @@ use crate::explorer::parameters::{Parameter, Setting, replaced_by, text_of};
 use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::reading;
-use crate::explorer::request::LineView;
+use crate::explorer::request::{CloseUpTarget, LineView};
 use crate::explorer::snapshot::Preview;
+use crate::explorer::studies::ensemble_key;
 use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
 use asperity_contact::Move;

@@ -1,6 +1,5 @@
 //! The table of panes, one row each. A pane is one file, with one function that makes its panel from the state.
 
-pub mod accuracy;
 mod close_up;
 pub mod force;
 mod map;
@@ -11,6 +10,7 @@ pub mod row;
 mod section;
 mod sensitivity;
 mod spectrum;
+pub mod trust;
 
 use self::row::PaneRow;
 use crate::explorer::app::App;
@@ -30,7 +30,7 @@ pub fn row(pane: Pane) -> &'static PaneRow {
         Pane::Force => &force::ROW,
         Pane::Profile => &profile::ROW,
         Pane::CloseUp => &close_up::ROW,
-        Pane::Accuracy => &accuracy::ROW,
+        Pane::Trust => &trust::ROW,
         Pane::Spectrum => &spectrum::ROW,
         Pane::Preloads => &preloads::ROW,
         Pane::Sensitivity => &sensitivity::ROW,

@@ -89,7 +89,8 @@ fn panel(app: &App, size: Size) -> Panel {
 /// The curves with the preload of the scene, and the distribution over the profiles at the crosshair or at the preload of
 /// the scene.
 fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
-    let mut chart = preload_chart(&curve.staircase, &curve.results.spread_of_adhesion(), true);
+    let ideal = app.ideal_adhesion_force().filter(|_| app.is_normalised());
+    let mut chart = preload_chart(&curve.staircase, &curve.results.spread_of_adhesion(), ideal.is_none());
     let figures = app.current().map(|one| one.outcome.figures);
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
@@ -98,8 +99,10 @@ fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
         chart.layers.push(Layer::new("present preload".into(), Ink::Cursor, shape));
     }
     let x = &chart.x;
+    // At the same place whatever the unit.
     let crosshair = app.view.crosshair.map(|share| x.scale.number(x.span.low + share * x.span.width()));
     let read = crosshair.or(present.map(|(preload, _)| preload));
     let beside = read.and_then(|preload| distribution(&curve.results, preload, Some(&chart.y)));
-    (chart, beside)
+    let unit = ideal.map(|ideal| (ideal, "F_a,max"));
+    (chart.over(unit, unit), beside.map(|beside| beside.over(None, unit)))
 }

@@ -152,10 +152,10 @@ fn is_exported_as_json(driver: &mut Driver) {
 fn every_pane_is_exported_as_a_figure() {
     for (keys, pane, expected) in [
         ("", Pane::Parameters, ["loading", "unloading", "preload", "pull-off"].as_slice()),
-        ("", Pane::Profile, &["surface", "profile", "contact", " (nm)"]),
+        ("", Pane::Profile, &["surface", "profile", "contact", "(nm)"]),
         ("", Pane::CloseUp, &["surface", "patch end"]),
         ("Q", Pane::Spectrum, &["wave number"]),
-        ("c L", Pane::Force, &["A: ", "loading"]),
+        ("c L", Pane::Force, &["H 0.7", "loading"]),
     ] {
         let mut driver = pressed(keys);
         driver.app.view.pane = pane;
@@ -174,7 +174,7 @@ fn every_pane_is_exported_as_a_figure() {
     // A table is that of the pane.
     let tables = [
         (computed_preloads(rough()), Pane::Preloads, "asperity run --preloads=-", "preload,adhesion_force,"),
-        (accuracy::measured(rough()), Pane::Accuracy, "asperity cost", "error,"),
+        (trust::measured(rough()), Pane::Trust, "asperity cost", "error,"),
         (computed_sensitivity(rough()), Pane::Sensitivity, "asperity sensitivity", "path,value,"),
         (map::mapped(rough()), Pane::Map, "asperity", "roughness.hurst,adhesion.kappa,lines,regime,"),
     ];

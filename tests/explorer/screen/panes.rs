@@ -28,7 +28,7 @@ fn each_pane() {
         sphere("c z"),
         sphere("Tab Tab Tab z"),
         with(computed_sensitivity(rough()), "z"),
-        with(accuracy::measured(rough()), "z"),
+        with(trust::measured(rough()), "z"),
     ] {
         let pane = driver.app.view.pane;
         screens += &format!("── {pane:?} ──\n{}", text(&driver.screen()));

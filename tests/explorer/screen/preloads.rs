@@ -47,9 +47,27 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
             driver.shows_all(["F_n ", "this profile ", "median ", "quartiles ", "mean "]);
             driver.press("*");
         }
-        driver.resize((200, 40));
-        driver.shows_all([&*format!(" · {profiles} profiles: median "), "F_a of this profile "]);
     }
+}
+
+#[test]
+fn forces_are_shown_in_units_of_the_ideal_adhesion_force() {
+    let mut driver = shown(rough(), 3);
+    driver.shows_all(["Adhesion force F_a (", "F_n (", "nN, from first touch"]);
+    driver.press("N");
+    driver.shows_all(["Adhesion force F_a/F_a,max", "F_n/F_a,max", "Force F/F_a,max", "d/h"]);
+    driver.hides("nN, from first touch");
+    // The crosshair reads the same place in the other unit.
+    let read = |driver: &mut Driver, keys: &str| -> f64 {
+        driver.press(keys);
+        let text = driver.text();
+        let mut after = text.split("this profile ").skip(1).filter_map(|rest| rest.split_whitespace().next());
+        after.find_map(|number| number.parse().ok()).unwrap_or_else(|| panic!("{text}"))
+    };
+    let share = read(&mut driver, "* End");
+    let force = read(&mut driver, "N");
+    let ideal = driver.outcome().ideal_adhesion_force.unwrap() * 1e6;
+    assert!((force / ideal / share - 1.0).abs() < 0.01, "{force} µN of {ideal} µN, {share}");
 }
 
 #[test]

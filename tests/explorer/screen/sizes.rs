@@ -116,7 +116,7 @@ fn messages_are_whole_or_end_in_an_ellipsis() {
 fn zoomed(pane: Pane, size: (u16, u16)) -> Driver {
     let mut driver = match pane {
         Pane::Map => map::mapped(rough()),
-        Pane::Accuracy => accuracy::measured(rough()),
+        Pane::Trust => trust::measured(rough()),
         Pane::Preloads => computed_preloads(rough()),
         Pane::Spectrum => pressed("Q"),
         _ => pressed(""),
@@ -137,7 +137,7 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
             (Pane::CloseUp, "x (", "z ("),
             (Pane::Spectrum, "q (", "C ("),
             (Pane::Preloads, "F_n (", "F_a ("),
-            (Pane::Accuracy, "t (", "error"),
+            (Pane::Trust, "t (", "error"),
             (Pane::Map, " H", "κ"),
         ] {
             let driver = zoomed(pane, size);
@@ -159,7 +159,7 @@ fn a_key_of_a_pane_shows_the_pane() {
         for (keys, pane) in [
             ("Q", Pane::Spectrum),
             ("i", Pane::Preloads),
-            ("A", Pane::Accuracy),
+            ("A", Pane::Trust),
             ("Y", Pane::Sensitivity),
             ("m", Pane::Map),
         ] {

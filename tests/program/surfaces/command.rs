@@ -143,7 +143,7 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
         "map.txt --row 7",
         "map.txt map.txt --column 3 --opposite map.txt",
         "map.txt --align-rows --robust",
-        "container.zip --surface-name plate",
+        "container.zip --channel plate",
     ]
     .into_iter()
     .enumerate()

@@ -67,8 +67,7 @@ fn a_header_that_no_program_wrote_is_an_error() {
         let other = header.replace(from, to);
         assert_ne!(other, header);
         fs::write(&stray, sealed(&other)).unwrap();
-        for message in
-            [Status::of(&folder).unwrap_err().to_string(), merge(&folder, true).unwrap_err().to_string()]
+        for message in [Status::of(&folder).unwrap_err().to_string(), merge(&folder).unwrap_err().to_string()]
         {
             assert!(message.contains("stray.shard: ") && message.contains(expected), "{message}");
         }
@@ -96,7 +95,7 @@ fn records_that_do_not_belong_to_the_plan_are_left_out_and_computed_again() {
         let status = Status::of(&folder).unwrap();
         assert_eq!((status.missing, status.damaged), (1, 1), "{other}");
         compute(&folder, 1, Shard::WHOLE);
-        let merged = merge(&folder, false).unwrap();
+        let merged = merge(&folder).unwrap();
         assert_eq!((merged.records, merged.damaged), (96, 1), "{other}");
         assert_eq!(tables(&folder), whole, "{other}");
         for file in &shard_files(&folder)[..] {
@@ -136,7 +135,7 @@ fn pipes_and_devices_are_refused_at_once() {
             refused(&["sweep", "merge", path], &expected);
         }
         fs::remove_file(&table).unwrap();
-        merge(&folder, false).unwrap();
+        merge(&folder).unwrap();
     }
     // A line without an end.
     let table = fs::canonicalize(folder.path().join("results.csv")).unwrap();

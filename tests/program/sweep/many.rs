@@ -69,7 +69,7 @@ fn rows_that_no_merge_wrote_are_refused() {
     compute(&folder, 2, Shard::WHOLE);
     let refusal = || Results::open(folder.path()).unwrap_err().to_string();
     assert!(refusal().contains("has not been merged yet"), "{}", refusal());
-    merge(&folder, false).unwrap();
+    merge(&folder).unwrap();
     let [text, _] = tables(&folder);
     let results = folder.path().join(RESULTS);
     for (changed, expected) in [
@@ -93,6 +93,6 @@ fn rows_that_no_merge_wrote_are_refused() {
     // A folder in place of a table is not removed.
     fs::remove_file(&results).unwrap();
     fs::create_dir(&results).unwrap();
-    let message = merge(&folder, false).unwrap_err().to_string();
+    let message = merge(&folder).unwrap_err().to_string();
     assert!(message.contains("results.csv: this is not the name of a file"), "{message}");
 }

@@ -49,7 +49,7 @@ fn the_hash_of_the_content_is_in_the_plan() {
     let (place, plan) = place();
     let folder = begin(place.path(), &plan).unwrap();
     compute(&folder, 2, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    merge(&folder).unwrap();
     let text = fs::read_to_string(folder.path().join("plan.ron")).unwrap();
     let sidecar = fs::read_to_string(folder.path().join("results.json")).unwrap();
     let hash = hash_of(&place.path().join("line.csv"));
@@ -85,7 +85,7 @@ fn a_file_that_has_changed_is_refused() {
     // With the file restored, the study continues.
     fs::write(&line, profile(1e-7)).unwrap();
     compute(&begin(place.path(), &plan).unwrap(), 1, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    merge(&folder).unwrap();
     // A plan that requires other content is refused before it creates a folder.
     let other = Plan { measured_sha256: Some(found), ..plan };
     let refused = Folder::create(&place.path().join("new"), &other).unwrap_err();
@@ -98,7 +98,7 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
     let (place, plan) = place();
     let folder = begin(place.path(), &plan).unwrap();
     compute(&folder, 1, Shard::WHOLE);
-    merge(&folder, false).unwrap();
+    merge(&folder).unwrap();
     let whole = tables(&folder);
     let line = place.path().join("line.csv");
     let other = Folder::create(&place.path().join("other"), &plan).unwrap();
@@ -112,7 +112,7 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
     };
     let ended = run(&other, Options { jobs: 1, shard: Shard::WHOLE }, &change, &mut |_| ()).unwrap();
     assert!(ended.is_complete() && asked.into_inner() > 2);
-    merge(&other, false).unwrap();
+    merge(&other).unwrap();
     assert_eq!(tables(&other), whole);
 }
 

@@ -19,7 +19,7 @@ fn each_mistake_has_its_message() {
         ("regime,", "regimes,", "(did you mean regime?)"),
         ("regime,", "regime, regime,", "record: regime is given twice"),
         ("version: 1,\n    title", "version: 2,\n    title", "version = 2: allowed: 1"),
-        ("preloads: [0.01, 0.3]", "preloads: [0.0, 0.3]", "preload 0.0: allowed: above 0, in units of E*"),
+        ("preloads: [0.01, 0.3]", "preloads: [0.0, 0.3]", "preload 0.0: allowed: above 0"),
         (
             "\n    ],\n    preloads: [0.01, 0.3],",
             "List(path: \"preload\", values: [0.1]), List(path: \"preload\", values: [0.2])],",
@@ -47,7 +47,7 @@ fn each_mistake_has_its_message() {
     }
     let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], lines: 2, record: [regime])";
     let message = wrong(smooth);
-    assert!(message.contains("this scene is smooth; allowed: an axis loading.0.0, in N"), "{message}");
+    assert!(message.contains("this scene is smooth; allowed: an axis preload_in_N"), "{message}");
     assert!(
         message.contains("lines = 2: more than one profile, and the profile of this scene is fixed; allowed: random roughness (SelfAffine"),
         "{message}"

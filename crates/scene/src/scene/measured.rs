@@ -59,12 +59,12 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub robust: bool,
-    /// Name of a surface or measurement in a container of several
-    #[cfg_attr(feature = "clap", arg(long, value_name = "NAME"))]
+    /// Name of a surface or measurement in a container of several.
+    #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_name: Option<String>,
-    /// Channel of files with several, by its number
-    #[cfg_attr(feature = "clap", arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u64).range(..1 << 32)))]
+    /// Channel of files with several, by its number.
+    #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub channel: Option<u64>,
     /// Row of maps to use as the profile, from 1

@@ -97,7 +97,7 @@ pub(super) fn measurements(
     let names = names.collect::<Vec<_>>().join(", ");
     let which = |fault: String| {
         let allowed =
-            "--surface-name with one of them or of their measurements, in a scene roughness.surface_name";
+            "--channel with one of them or of their measurements, in a scene roughness.surface_name";
         refused(Place::File, format!("{fault} in the container: {names}"), allowed)
     };
     let found = match (name, surfaces.iter().position(|surface| Some(surface.name.as_str()) == name)) {
@@ -269,12 +269,7 @@ mod tests {
             read(("meta.yml", &YAML.replacen(from, to, 1)), name).unwrap_err()
         };
         for (from, to, name, expected) in [
-            (
-                "",
-                "",
-                None,
-                "2 surfaces in the container: \"first: \u{e9}\", \"second\"; allowed: --surface-name",
-            ),
+            ("", "", None, "2 surfaces in the container: \"first: \u{e9}\", \"second\"; allowed: --channel"),
             ("", "", Some("third"), "no surface \"third\" in the container: \"first"),
             ("map.txt", "none.txt", Some(first), "no file none.txt in the archive"),
             ("nm", "V", Some(first), "topography map: \"V\" is not a unit of length; allowed: "),
@@ -295,7 +290,7 @@ mod tests {
             ("profile.txt", PROFILE.as_bytes()),
         ];
         let error = parse(&archive(&files), &both).unwrap_err().to_string();
-        assert!(error.starts_with("2 measurements of a surface; allowed: one: --surface-name"), "{error}");
+        assert!(error.starts_with("2 measurements of a surface; allowed: one: --channel"), "{error}");
         // Aliases of aliases expand to nothing large.
         let level =
             |i: u32| format!("a{i}: &a{i} [*a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}]\n", i - 1);

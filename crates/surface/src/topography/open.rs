@@ -48,7 +48,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
         (Some(surface), 0) => Ok(surface),
         (_, others) => {
             let fault = format!("{} measurements of a surface", others + 1);
-            let allowed = "one: --surface-name with its name, in a scene roughness.surface_name";
+            let allowed = "one: --channel with its name, in a scene roughness.surface_name";
             Err(refused(Place::File, fault, allowed))
         }
     }
@@ -58,7 +58,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
     let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {
-        let allowed = "a container of surfaces, or no --surface-name, in a scene roughness.surface_name";
+        let allowed = "a container of surfaces, or no --channel, in a scene roughness.surface_name";
         return Err(refused(Place::File, "a file of one surface, without a name", allowed));
     }
     if !is_archive {

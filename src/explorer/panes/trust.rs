@@ -1,24 +1,24 @@
-//! Cost of accuracy: errors over computing times, both logarithmic, what a good accuracy requires, and the computing stages
-//! of the scene.
+//! How far the adhesion force can be trusted: what accuracy costs, as errors over computing times, the errors by their sources,
+//! and what other theories say of the same surface.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
-use crate::explorer::text::{Part, filled};
+use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
 use asperity_contact::Edges;
 use asperity_data::format_rounded;
 use asperity_data::{grouped, per_cent};
 use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
-use asperity_report::CostReport;
 use asperity_report::work_precision;
+use asperity_report::{CostReport, error_rows, theory_rows, without_jkr};
 use asperity_scene::{CostTable, Estimate, Knob, Progress, measure};
 use asperity_scene::{Numerics, Solver};
-use asperity_scene::{Stage, Workload};
+use asperity_study::{Budget, Ensemble, MeasuredAdhesion};
 use ratatui::layout::Size;
-use ratatui::text::Span as Text;
+use ratatui::text::{Line, Span as Text};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -28,10 +28,11 @@ pub static ROW: PaneRow = PaneRow {
     report,
     studies: |_, computed| vec![study(computed)],
     help: &[(
-        "Accuracy",
-        "A: relative error against the time of a run, with springs and edges between them or at them, and with steps of \
-         the stepwise solver; ◆ is the scene. Below it error and time of the scene, the cost of 1 % and 0.1 %, and the \
-         computing stages",
+        "Trust",
+        "A: what accuracy costs, as the relative error by the number of springs against the time of a run, with edges between \
+         springs or at them, and with steps of the stepwise solver; ◆ is the scene. Below it error and time of the scene, the \
+         cost of 1 % and 0.1 %, the errors of the adhesion force by their sources with the largest named, and what other theories \
+         say of adhesion without a preload",
     )],
     ..PaneRow::EMPTY
 };
@@ -73,15 +74,42 @@ const TARGETS: [f64; 2] = [0.01, 0.001];
 const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
-    let title = "Accuracy: relative error over time, log–log".to_owned();
+    let title = "Trust: relative error over time, log–log".to_owned();
     let table = app.studies.value::<Costs>().and_then(|costs| costs.table.as_ref());
-    let parts = std::iter::once(sentence(app, table)).chain(stages(app));
-    let foot = parts.flat_map(|parts| filled(parts, "  ", size.width.into())).collect();
+    let mut foot = filled(sentence(app, table), "  ", size.width.into());
+    foot.extend(rows(app, size.width));
+    let warning = app.current().and_then(|computed| without_jkr(&computed.outcome)).unwrap_or_default();
+    let head = wrapped(&Line::styled(warning, app.view.appearance.theme.style(Meaning::Error)), size.width);
     let chart = table.and_then(|table| Some((table, work_precision("", table).charts.pop()?)));
     let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
-        return Panel { foot, ..Panel::of_text(title, &nothing_yet(app)) };
+        return Panel { head, foot, ..Panel::of_text(title, &nothing_yet(app)) };
     };
-    Panel { foot, ..Panel::of_chart(title, with_scene(with_orders(chart, table), app, table)) }
+    Panel { head, foot, ..Panel::of_chart(title, with_scene(with_orders(chart, table), app, table)) }
+}
+
+/// Errors of the adhesion force by their sources, the largest of them first, and the criteria of other theories.
+fn rows(app: &App, width: u16) -> Vec<Line<'static>> {
+    let Some(computed) = app.current() else { return Vec::new() };
+    let (scene, outcome) = (&computed.scene, &computed.outcome);
+    let (estimate, ensemble) = (app.studies.value::<Estimate>(), app.studies.value::<Ensemble>());
+    let deviation = app.studies.value::<MeasuredAdhesion>().and_then(MeasuredAdhesion::fit_deviation);
+    let mut errors = Budget::of(outcome, estimate, ensemble, deviation)
+        .map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble));
+    let first = errors.len().min(1);
+    errors.rotate_right(first);
+    let theories = theory_rows(scene, outcome, ensemble);
+    let names = errors.iter().chain(&theories).map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let title = app.view.appearance.theme.style(Meaning::Title);
+    let lines = |(name, words): (&str, String)| {
+        let words = wrapped(&Line::raw(words), width.saturating_sub(names as u16 + 2));
+        let name = |number| if number == 0 { name.to_owned() } else { String::new() };
+        let line = move |(number, words): (usize, Line<'static>)| {
+            let name = Text::styled(format!("{:names$}  ", name(number)), title);
+            Line::from_iter([name].into_iter().chain(words.spans))
+        };
+        words.into_iter().enumerate().map(line).collect::<Vec<_>>()
+    };
+    errors.into_iter().chain(theories).flat_map(lines).collect()
 }
 
 fn nothing_yet(app: &App) -> String {
@@ -206,30 +234,4 @@ fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
         }
         None => is_finished.then(|| "not reached".to_owned()),
     }
-}
-
-/// Names and times of the computing stages of the scene. Profile and curve are always computed.
-fn stages(app: &App) -> Option<Vec<Part>> {
-    let computed = app.current()?;
-    let (plan, timings, theme) =
-        (Workload::of(&computed.scene), &computed.outcome.timings, app.view.appearance.theme);
-    let runs = |stages: &[Stage]| stages.iter().any(|stage| plan.runs(*stage));
-    let is_stepwise = runs(&[Stage::Relaxation]);
-    let passes = runs(&[Stage::LoadingPass, Stage::UnloadingPass, Stage::Relaxation]);
-    let all = [
-        ("ran", true, timings.total()),
-        ("profile", true, timings.line),
-        ("tree", runs(&[Stage::Tree]), timings.tree),
-        (if is_stepwise { "steps" } else { "passes" }, passes, timings.passes),
-        ("curve", true, timings.curve),
-        ("F_a(0)", runs(&[Stage::ZeroLoadAdhesion]), timings.zero_load),
-    ];
-    let part = |(name, ran, seconds): (&'static str, bool, f64)| match ran {
-        true if app.view.shows_times => {
-            vec![Text::raw(format!("{name} ")), Text::styled(time_of(seconds), theme.style(Meaning::Title))]
-        }
-        true => vec![Text::raw(name)],
-        false => vec![Text::styled(format!("{name} skipped"), theme.style(Meaning::Quiet))],
-    };
-    Some(all.map(part).to_vec())
 }

@@ -3,7 +3,7 @@
 use super::*;
 use asperity::contact::Edges;
 use asperity::explorer::commands::accuracy::Choosing;
-use asperity::explorer::panes::accuracy::Costs;
+use asperity::explorer::panes::trust::Costs;
 use asperity::scene::{
     Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
 };
@@ -85,7 +85,6 @@ fn a_scene_with_nothing_to_show_says_so() {
     for size in [(120, 40), (80, 24)] {
         driver.resize(size);
         driver.shows("nothing to show");
-        driver.shows("F_a(0) skipped");
     }
     let short = "the budget of 10 s is spent".to_owned();
     let mut driver = driver_with(rough(), None, Err(short));
@@ -98,7 +97,7 @@ fn an_edit_forgets_what_was_found_out() {
     let mut driver = measured(rough());
     driver.select("roughness.hurst");
     assert_eq!(driver.press("l"), [Task::Ask]);
-    assert!(driver.app.is_shown(Pane::Accuracy));
+    assert!(driver.app.is_shown(Pane::Trust));
     assert!(driver.app.studies.value::<Estimate>().is_none());
     assert!(driver.app.studies.value::<Costs>().is_none());
     driver.states("± …");
@@ -115,20 +114,20 @@ fn the_headline_has_its_error() {
     let mut driver = stated(Some(0.0042));
     for size in [(120, 40), (80, 24), (60, 20)] {
         driver.resize(size);
-        driver.states("N (grid ± 0.4 %)");
+        driver.states("N, grid ± 0.4 %");
     }
     // Reproducible pictures wait for nothing.
     driver.app.studies.forget::<Estimate>();
     driver.states("± …");
     driver.app.view.shows_times = false;
     assert!(!driver.status().contains('±'), "{}", driver.status());
-    assert!(stated(None).status().contains("N (error unknown)"), "{}", stated(None).status());
+    assert!(stated(None).status().contains("N, error unknown"), "{}", stated(None).status());
     let near_step = stated(Some(1.4));
-    near_step.states("N (near a step of F_a(F_n))");
+    near_step.states("N, near a step of F_a(F_n)");
     // Without a pulling force: the largest force, and the error of its curve.
     let curve = Estimate { target: Target::Curve, ..estimate(0.02).unwrap() };
     let driver = driver_with(without_adhesion(), Some(curve), Ok(table()));
-    assert!(driver.status().starts_with("F_max 20 µN (grid ± 2 % of the curve)"), "{}", driver.status());
+    assert!(driver.status().starts_with("F_max 20 µN, grid ± 2 % of the curve"), "{}", driver.status());
 }
 
 /// Types a tolerance.
