@@ -4,10 +4,9 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
-use asperity_data::parse_quantity;
 use asperity_report::{FindReport, Format};
 use asperity_scene::Simulation;
-use asperity_study::{Found, Quantity, Question, parse_condition};
+use asperity_study::{Found, Quantity, Question, parse_condition, parse_range};
 use clap::Args;
 use std::io::Write;
 
@@ -15,7 +14,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity find preload pressure-sensitive --where 'F_a/F_a,max = 20 %'
   asperity find adhesion.work rough-sphere --where 'F_a = 2 uN' --lines 32
-  asperity find roughness.rms_height my-scene.ron --where 'F_a/F_n = 0.1' --from 10nm --to 1um
+  asperity find roughness.rms_height my-scene.ron --where 'F_a/F_n = 0.1' --range 10nm..1um
   asperity find preload my-scene.ron --where 'dissipated energy = 2 pJ' --format json | jq .median
 
 Each random profile is searched for itself; the answer is median, quartiles and range. A preload
@@ -31,12 +30,9 @@ pub struct FindArguments {
     /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
     #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
     pub condition: (Quantity, f64),
-    /// Smallest searched number; default: a hundredth of that of the scene
-    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
-    pub from: Option<String>,
-    /// Largest searched number; default: a hundred times that of the scene
-    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
-    pub to: Option<String>,
+    /// Searched range: 10nm..1um; default: a hundredth to a hundred times the number of the scene
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    pub range: Option<String>,
     #[command(flatten)]
     pub profiles: ProfileArguments,
     #[command(flatten)]
@@ -51,10 +47,9 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let mut simulation = Simulation::new(document.resolve(""));
     let question = Question::new(scene, &arguments.field, arguments.condition, profiles, &mut simulation);
     let mut question = question.map_err(failed)?;
-    for (option, end) in [("--from", &arguments.from), ("--to", &arguments.to)] {
-        let Some(end) = end else { continue };
-        let end = parse_quantity(end, question.axis.unit).map_err(|error| CliError::named(option, error))?;
-        if option == "--from" { question.searched.0 = end } else { question.searched.1 = end }
+    if let Some(range) = &arguments.range {
+        let range = parse_range(range, question.axis.unit);
+        question.searched = range.map_err(|error| CliError::named("--range", error))?;
     }
     let mut progress = ProgressLine::default();
     let mut report = |done: u64| progress.show(&format!("{done} of {profiles} profiles"), None);

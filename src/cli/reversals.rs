@@ -51,7 +51,7 @@ fn forces(text: &str) -> Result<(f64, f64), String> {
     if text.contains(':') {
         return Err("allowed: two forces, such as 1uN..20uN; --count is the number of turning points".into());
     }
-    let ends = parse_range(text)?;
+    let ends = parse_range(text, "N")?;
     Axis::of_preloads(ends, *PRELOADS.start(), AxisScale::Linear).map(|_| ends)
 }
 
