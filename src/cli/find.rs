@@ -4,10 +4,9 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
-use asperity_data::parse_quantity;
 use asperity_report::{FindReport, Format};
 use asperity_scene::Simulation;
-use asperity_study::{Found, Quantity, Question, parse_condition};
+use asperity_study::{Found, Quantity, Question, parse_condition, parse_range};
 use clap::Args;
 use std::io::Write;
 
@@ -31,7 +30,7 @@ pub struct FindArguments {
     /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
     #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
     pub condition: (Quantity, f64),
-    /// Searched numbers: 10nm..1um; default: 1/100 to 100 times that of the scene
+    /// Searched range: 10nm..1um; default: a hundredth to a hundred times the number of the scene
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub range: Option<String>,
     #[command(flatten)]
@@ -49,11 +48,8 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let question = Question::new(scene, &arguments.field, arguments.condition, profiles, &mut simulation);
     let mut question = question.map_err(failed)?;
     if let Some(range) = &arguments.range {
-        let refused = |error: String| CliError::named("--range", error);
-        let (from, to) = range.split_once("..").ok_or_else(|| refused("allowed: A..B".to_owned()))?;
-        let end =
-            |text: &str| parse_quantity(text, question.axis.unit).map_err(|error| refused(error.to_string()));
-        question.searched = (end(from)?, end(to)?);
+        let range = parse_range(range, question.axis.unit);
+        question.searched = range.map_err(|error| CliError::named("--range", error))?;
     }
     let mut progress = ProgressLine::default();
     let mut report = |done: u64| progress.show(&format!("{done} of {profiles} profiles"), None);

@@ -31,7 +31,6 @@ const NARROW: f64 = 2.0;
 const MARGIN: f64 = 0.01;
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
-const ENDS: &str = "allowed: --from and --to, the first below the second";
 /// Relative change of a quantity over the whole searched range up to which the number does not act on it: the error by the number
 /// of springs changes with the scene.
 const STILL: f64 = 1e-3;
@@ -158,8 +157,12 @@ impl Question {
         if from < to && (to - from).is_finite() {
             return Ok(());
         }
-        let [from, to] = [from, to].map(|end| format_quantity(end, self.axis.unit));
-        let why = format!("searched from {from} to {to}; {ENDS}");
+        let [first, last] = [from, to].map(|end| format_quantity(end, self.axis.unit));
+        let why = if from.is_nan() {
+            "there is no usual range around a number that is not above 0; allowed: --range A..B".to_owned()
+        } else {
+            format!("range {first} to {last}; allowed: two finite numbers, the first below the second")
+        };
         Err(StudyError::Question { place: self.axis.path.clone(), why })
     }
 
@@ -526,7 +529,7 @@ mod tests {
         }
         assert!(asked(&sphere, "form.radius", "F_a = 30 uN", 2, None, 1).is_err());
         let empty = asked(&sphere, "form.radius", "F_a = 30 uN", 1, Some((2e-4, 1e-4)), 1).unwrap_err();
-        assert!(empty.contains("searched from 200 µm to 100 µm; allowed: --from and --to"), "{empty}");
+        assert!(empty.contains("range 200 µm to 100 µm; allowed: two finite numbers"), "{empty}");
     }
 
     /// Each preload is where a run of its own shows the step, to the stated precision; no dense grid shows a smaller one.
