@@ -159,7 +159,8 @@ impl RunArguments {
     fn ensemble(&self, chosen: &Chosen<'_>, format: Format) -> Result<Option<Ensemble>, CliError> {
         let Chosen { document, scene, .. } = chosen;
         let count = self.profiles.count(scene);
-        if count < 2 || format.is_table() && self.profiles.lines.is_none() {
+        let is_curve = format.is_table() && self.profiles.lines.is_none();
+        if count < 2 || is_curve || format.is_picture() && !self.more.is_empty() {
             return Ok(None);
         }
         let further = if self.profiles.lines.is_some() { &Ensemble::FURTHER[..] } else { &[] };

@@ -157,6 +157,8 @@ impl Report for FindReport<'_> {
             let more = several.len().saturating_sub(MOST_LISTED);
             sheet.row_of("and more", (more > 0).then(|| format!("{} profiles", grouped(more as u64))));
         }
+        let refused =
+            found.refused.as_ref().map(|why| format!(" Not all of these numbers are allowed: {why}."));
         let searched =
             format!("Searched: {} from {}.", axis.name, format_range(question.searched, 4, axis.unit));
         let profiles = match found.answers.first().and_then(|answer| answer.seed) {
@@ -172,7 +174,7 @@ impl Report for FindReport<'_> {
         } else {
             others_stay(self.scene)
         };
-        sheet.heading(&format!("{searched} {others} {profiles}"));
+        sheet.heading(&format!("{searched}{} {others} {profiles}", refused.unwrap_or_default()));
         Some(sheet.into_text())
     }
 
