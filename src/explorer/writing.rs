@@ -33,7 +33,7 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
         let path = folder.join(&file.path);
         // The folder of the user's own scenes comes with the first of them.
         if let Some(own) = own_folder().filter(|own| path.parent() == Some(own)) {
-            create_dir_all(&own).map_err(|reason| WriteError::Failed { path: own.clone().into(), reason })?;
+            create_dir_all(&own).map_err(|reason| WriteError::Failed { path: own.clone(), reason })?;
         }
         write_new_file(&path, file.overwrite, |out| write_content(out, app, &file.path, file.content))
     };

@@ -38,7 +38,6 @@ pub static ROW: PaneRow = PaneRow {
          or larger, a whole number by 1 at least, the largest change at the top, and the range over the profiles; beside \
          them, where there is room, the changes of F_a, F_a(0) and the dissipated energy ΔW",
     )],
-    ..PaneRow::EMPTY
 };
 
 fn report(app: &App) -> Exported<'_> {
