@@ -31,7 +31,7 @@ pub struct FindArguments {
     /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
     #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
     pub condition: (Quantity, f64),
-    /// Searched numbers: 10nm..1um; default: 1/100 to 100 times that of the scene
+    /// Searched numbers: 10nm..1um; default: 1/100 to 100 times the present
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub range: Option<String>,
     #[command(flatten)]

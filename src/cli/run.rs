@@ -34,7 +34,7 @@ Examples:
   asperity run pressure-sensitive --draw profile -o profile.svg
   asperity run before.ron after.ron                  Differences, results, curves
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
-  asperity run ideal-adhesion pressure-sensitive non-adhesive --draw panels --width 170mm -o panels.pdf
+  asperity run ideal-adhesion pressure-sensitive non-adhesive --draw panels --width 170mm -o p.pdf
 
 JSON is one object with scene, profile, figures, curve, contacts and work; CSV and .npy hold the
 curve, in SI units. Compression is positive, indentation is zero at first touch. CSV and .npy

@@ -153,10 +153,10 @@ fn is_exported_as_json(driver: &mut Driver) {
 fn every_pane_is_exported_as_a_figure() {
     for (keys, pane, expected) in [
         ("", Pane::Parameters, ["loading", "unloading", "preload", "pull-off"].as_slice()),
-        ("", Pane::Profile, &["surface", "profile", "contact", " (nm)"]),
+        ("", Pane::Profile, &["surface", "profile", "contact", "\u{a0}(nm)"]),
         ("", Pane::CloseUp, &["surface", "patch end"]),
         ("Q", Pane::Spectrum, &["wave number"]),
-        ("c L", Pane::Force, &["A: ", "loading"]),
+        ("c L", Pane::Force, &["the same scene", "loading"]),
     ] {
         let mut driver = pressed(keys);
         driver.app.view.pane = pane;

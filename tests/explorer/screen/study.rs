@@ -45,7 +45,7 @@ fn glyphs_show_all_that_was_recorded() {
     for (quantity, text) in [
         (Quantity::ZeroLoadAdhesionShare, "F_a(0)/F_a,max over H, κ"),
         (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
-        (Quantity::AdhesionForce, "F_a (mN) "),
+        (Quantity::AdhesionForce, "F_a (µN) "),
     ] {
         driver.press("V");
         assert_eq!(driver.app.mapped(), quantity);
@@ -53,8 +53,8 @@ fn glyphs_show_all_that_was_recorded() {
     }
     // The map computed here does not have this quantity, and shows its own.
     driver.press("W");
-    driver.hides("F_a (mN) ");
-    driver.sees("W", "F_a (mN) ");
+    driver.hides("F_a (µN) ");
+    driver.sees("W", "F_a (µN) ");
     driver.press("V");
     assert_eq!(driver.app.mapped(), Quantity::Regime);
     driver.shows_all(["█ pressure-insensitive", "· non-adhesive", "▓ ░ profiles disagree", "(12 of 12"]);
