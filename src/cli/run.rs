@@ -105,7 +105,12 @@ impl RunArguments {
             None if several => (TEXT_OR_PICTURE, Format::Text),
             _ => (&Format::ALL[..], Format::Text),
         };
-        self.output.format(formats, usual)
+        let format = self.output.format(formats, usual)?;
+        if several && format.is_picture() && self.profiles.lines.is_some() && self.preloads.is_none() {
+            let allowed = "allowed: one scene, text, or --preloads";
+            return Err(CliError::named("--lines", format!("a figure of several scenes; {allowed}")));
+        }
+        Ok(format)
     }
 
     fn documents(&self) -> Result<Vec<Document>, CliError> {
