@@ -4,10 +4,9 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
-use asperity_data::parse_quantity;
 use asperity_report::{FindReport, Format};
 use asperity_scene::Simulation;
-use asperity_study::{Found, Quantity, Question, parse_condition};
+use asperity_study::{Found, Quantity, Question, parse_condition, parse_range};
 use clap::Args;
 use std::io::Write;
 
@@ -31,8 +30,11 @@ pub struct FindArguments {
     /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
     #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
     pub condition: (Quantity, f64),
-    /// Searched numbers: 10nm..1um; default: 1/100 to 100 times that of the scene
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    /// Searched range, as 10nm..1um; default: two decades down and up
+    ///
+    /// Preloads are searched from 0 N up to a hundred times the largest force of the loading.
+    /// Numbers of a narrow allowed range, such as H, are searched in the whole of it.
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true, verbatim_doc_comment)]
     pub range: Option<String>,
     #[command(flatten)]
     pub profiles: ProfileArguments,
@@ -49,11 +51,8 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     let question = Question::new(scene, &arguments.field, arguments.condition, profiles, &mut simulation);
     let mut question = question.map_err(failed)?;
     if let Some(range) = &arguments.range {
-        let refused = |error: String| CliError::named("--range", error);
-        let (from, to) = range.split_once("..").ok_or_else(|| refused("allowed: A..B".to_owned()))?;
-        let end =
-            |text: &str| parse_quantity(text, question.axis.unit).map_err(|error| refused(error.to_string()));
-        question.searched = (end(from)?, end(to)?);
+        let range = parse_range(range, question.axis.unit);
+        question.searched = range.map_err(|error| CliError::named("--range", error))?;
     }
     let mut progress = ProgressLine::default();
     let mut report = |done: u64| progress.show(&format!("{done} of {profiles} profiles"), None);

@@ -50,7 +50,7 @@ fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     if forces.is_empty() && text.starts_with(':') {
         return Ok((None, count));
     }
-    let ends = parse_range(forces)?;
+    let ends = parse_range(forces, "N")?;
     Axis::of_preloads(ends, *PRELOADS.start(), AxisScale::Linear).map(|_| (Some(ends), count))
 }
 

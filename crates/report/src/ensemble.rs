@@ -74,10 +74,9 @@ pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
     let [lower, median, upper] = all.quartiles;
     let median = format_rounded(median, 3, force.unit());
     let quartiles = format_range((lower, upper), 2, force.unit());
-    let profiles = grouped(ensemble.profiles());
-    let text = format!(
-        ": median {median} of {profiles} random profiles, quartiles {quartiles}; curve: this profile"
-    );
+    let (profiles, seed) = (grouped(ensemble.profiles()), ensemble.results().plan().seed);
+    let text =
+        format!(": median {median} of {profiles} random profiles, quartiles {quartiles}; curve: seed {seed}");
     Some(Label::symbol(force.symbol()).then(&text))
 }
 

@@ -23,60 +23,62 @@ pub struct FindReport<'a> {
 /// The answer in one sentence: the median with quartiles, `at any preload`, or `never` with the values within reach.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
-    let unit = question.axis.unit;
-    let target = target_in_words(found);
-    let name = question.axis.symbol_or_name();
-    let count = found.answers.len();
-    let searched = format_range(question.searched, 4, unit);
+    let (axis, count) = (&question.axis, found.answers.len());
+    let (name, quantity) = (axis.symbol_or_name(), question.quantity.symbol_or_name());
+    let (target, searched) = (target_in_words(found), format_range(question.searched, 4, axis.unit));
     let reachable = found.reachable().map_or_else(String::new, |ends| values_in_words(found, ends));
-    let is_reached = |answer: &&Answer| answer.reached == [true; 2] && answer.crossings.is_empty();
-    let reached = found.answers.iter().filter(is_reached).count();
+    let numbers = |ends: (f64, f64)| format_range(ends, 3, axis.unit);
+    let everywhere = |answer: &&Answer| answer.crossings.is_empty() && answer.reached == [true; 2];
+    let reached = found.answers.iter().filter(everywhere).count();
     let met = found.values().iter().flatten().count();
-    let quantity = question.quantity.symbol_or_name();
-    let profiles = |met: usize| match count {
-        1 => String::new(),
-        _ if met == count => format!(" on all {count} profiles"),
-        _ => format!(" on {met} of {count} profiles"),
-    };
     if reached == count {
-        let any =
-            if question.is_of_preload() { "at any preload".to_owned() } else { format!("at any {name}") };
-        let touch = found.answers.iter().filter(|answer| answer.at_touch).count();
-        let touch = match touch {
-            0 => String::new(),
-            _ if touch == count => ", already after a turn at first touch".to_owned(),
-            _ => format!(", on {touch} of {count} profiles already after a turn at first touch"),
-        };
-        return format!("{target} is reached {any} from {searched}{touch}: {quantity} is {reachable}.");
+        let any = if question.is_of_preload() { "preload" } else { name };
+        let touch = at_touch_in_words(found);
+        return format!(
+            "{target} is reached at any {any} from {searched}{touch}: {quantity} is {reachable}."
+        );
     }
     if met + reached == 0 {
         return format!("{target} is never reached with {name} from {searched}: {quantity} is {reachable}.");
     }
-    let Some(median) = found.quantile(0.5) else {
-        let range =
-            found.range().map_or_else(String::new, |range| format!(": {}", format_range(range, 3, unit)));
-        return format!(
-            "{target} has no median {name} from {searched}; it is crossed{}{range}. {quantity} is {reachable}.",
-            profiles(met)
-        );
-    };
-    let median = format_quantity(median, unit);
-    if count == 1 {
-        return format!("{name} = {median} for {target}.");
+    match [0.25, 0.5, 0.75].map(|share| found.quantile(share)) {
+        [_, Some(median), _] if count == 1 => {
+            format!("{name} = {} for {target}.", format_quantity(median, axis.unit))
+        }
+        [low, Some(median), high] => {
+            let quartile = |end: Option<f64>| end.map(|end| numbers((end, end)));
+            let quartiles = match (low.zip(high), quartile(low), quartile(high)) {
+                (Some(both), ..) => format!("quartiles {}", numbers(both)),
+                (None, Some(low), _) => {
+                    format!("lower quartile {low}, the upper one beyond the searched range")
+                }
+                (None, _, Some(high)) => {
+                    format!("upper quartile {high}, the lower one beyond the searched range")
+                }
+                (None, None, None) => "both quartiles beyond the searched range".to_owned(),
+            };
+            let median = format_quantity(median, axis.unit);
+            format!("{name} = {median} for {target}: median of {count} profiles, {quartiles}.")
+        }
+        [_, None, _] => {
+            let range = found.range().map_or_else(String::new, |ends| format!(", at {}", numbers(ends)));
+            format!(
+                "{target} is reached on {met} of {count} profiles with {name} from {searched}{range}, which is too few for a \
+                 median: {quantity} is {reachable}."
+            )
+        }
     }
-    let quartiles = match [0.25, 0.75].map(|share| found.quantile(share)) {
-        [Some(low), Some(high)] => format!("quartiles {}", format_range((low, high), 3, unit)),
-        [Some(low), None] => format!(
-            "lower quartile {}, upper quartile beyond the searched range",
-            format_rounded(low, 3, unit)
-        ),
-        [None, Some(high)] => format!(
-            "lower quartile beyond the searched range, upper quartile {}",
-            format_rounded(high, 3, unit)
-        ),
-        [None, None] => "quartiles beyond the searched range".to_owned(),
-    };
-    format!("{name} = {median} for {target}: median of {count} profiles, {quartiles}.")
+}
+
+/// Words on the profiles that reach the target without a preload.
+fn at_touch_in_words(found: &Found) -> String {
+    match found.answers.iter().filter(|answer| answer.at_touch).count() {
+        0 => String::new(),
+        touch if touch == found.answers.len() => ", already after a turn at first touch".to_owned(),
+        touch => {
+            format!(", on {touch} of {} profiles already after a turn at first touch", found.answers.len())
+        }
+    }
 }
 
 /// The target in words: `F_a/F_a,max = 80 %`.
@@ -94,33 +96,34 @@ impl FindReport<'_> {
     /// Sentences on the profiles that do not count with a single number.
     fn exceptions(&self) -> Vec<String> {
         let (found, question) = (self.found, &self.found.question);
-        let name = question.axis.symbol_or_name();
-        let count = |is: &dyn Fn(&Answer) -> bool| found.answers.iter().filter(|answer| is(answer)).count();
-        let mut sentences = Vec::new();
-        let mut say = |count: usize, words: String| {
-            if count > 0 && found.answers.len() > 1 {
-                sentences.push(format!("{count} of {} {words}", found.answers.len()));
-            }
+        let (name, quantity) = (question.axis.symbol_or_name(), question.quantity.symbol_or_name());
+        let all = found.answers.len();
+        let of_profiles = |is: &dyn Fn(&Answer) -> bool| {
+            let count = found.answers.iter().filter(|answer| is(answer)).count();
+            (count > 0 && all > 1).then(|| format!("On {count} of {all} profiles"))
         };
+        let is_free = |answer: &Answer| answer.crossings.is_empty();
+        let mut sentences = Vec::new();
+        if found.answers.iter().all(is_free) {
+            // The answer itself says so.
+            return sentences;
+        }
         if question.is_of_preload() {
             let least = format_quantity(question.searched.0, question.axis.unit);
-            say(
-                count(&|answer| answer.reached[0]),
-                format!("need no preload above {least}, and count with {least}."),
-            );
-            say(count(&|answer| answer.at_touch), "reach it already after a turn at first touch.".to_owned());
+            let enough = of_profiles(&|answer| answer.reached[0]);
+            sentences.extend(enough.map(|on| format!("{on} {least} is enough, and counts.")));
+            let touch = of_profiles(&|answer| answer.at_touch);
+            sentences.extend(touch.map(|on| format!("{on} a turn at first touch is enough.")));
         } else {
-            let whole = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [true; 2];
-            say(count(&whole), format!("have more at any {name} of the searched range."));
+            let larger = of_profiles(&|answer| is_free(answer) && answer.reached == [true; 2]);
+            sentences
+                .extend(larger.map(|on| format!("{on} {quantity} is larger at any {name} of the range.")));
         }
-        let never = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [false; 2];
+        let never = |answer: &Answer| is_free(answer) && answer.reached == [false; 2];
         let most = found.answers.iter().filter(|answer| never(answer)).filter_map(|answer| answer.reachable);
-        if let Some(most) = most.map(|ends| ends.1).reduce(f64::max) {
+        if let (Some(on), Some(most)) = (of_profiles(&never), most.map(|ends| ends.1).reduce(f64::max)) {
             let most = values_in_words(found, (most, most));
-            say(
-                count(&never),
-                format!("never reach it in the searched range; there they have at most {most}."),
-            );
+            sentences.push(format!("{on} {quantity} never reaches that value: it is at most {most}."));
         }
         sentences
     }
@@ -154,6 +157,8 @@ impl Report for FindReport<'_> {
             let more = several.len().saturating_sub(MOST_LISTED);
             sheet.row_of("and more", (more > 0).then(|| format!("{} profiles", grouped(more as u64))));
         }
+        let refused =
+            found.refused.as_ref().map(|why| format!(" Not all of these numbers are allowed: {why}."));
         let searched =
             format!("Searched: {} from {}.", axis.name, format_range(question.searched, 4, axis.unit));
         let profiles = match found.answers.first().and_then(|answer| answer.seed) {
@@ -169,7 +174,7 @@ impl Report for FindReport<'_> {
         } else {
             others_stay(self.scene)
         };
-        sheet.heading(&format!("{searched} {others} {profiles}"));
+        sheet.heading(&format!("{searched}{} {others} {profiles}", refused.unwrap_or_default()));
         Some(sheet.into_text())
     }
 

@@ -1,7 +1,7 @@
 //! Several computed scenes: differences and results in one table, force curves in one figure.
 
-use crate::ensemble::NAMES;
-use crate::loop_chart::{force_figure, force_panels};
+use crate::ensemble::{NAMES, rounded};
+use crate::loop_chart::{LoopUnits, force_figure, force_panels};
 use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
 use asperity_data::{format_quantity, format_range};
@@ -50,14 +50,14 @@ fn letter(number: usize) -> String {
 }
 
 /// A row of a table: a name, and values with their ratios to the first one; `None` without values.
-fn row(name: &str, unit: &str, values: &[Option<f64>]) -> Option<Vec<String>> {
+fn row(name: &str, shown: impl Fn(f64) -> String, values: &[Option<f64>]) -> Option<Vec<String>> {
     // A position may lie on either side of first touch, where a ratio means nothing.
     let first = values.first()?.filter(|first| *first > 0.0);
     let cell = |(number, value): (usize, &Option<f64>)| {
         let Some(value) = value else { return "-".to_owned() };
         let ratio =
             first.filter(|_| number > 0 && *value > 0.0).map(|first| format_quantity(value / first, "1"));
-        format_quantity(*value, unit) + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
+        shown(*value) + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
     };
     let cells = || values.iter().enumerate().map(cell);
     values.iter().any(Option::is_some).then(|| std::iter::once(name.to_owned()).chain(cells()).collect())
@@ -73,7 +73,7 @@ impl ScenesReport<'_> {
         let titles: Vec<String> = self.scenes.iter().enumerate().map(title).collect();
         let scenes: Vec<_> =
             titles.iter().zip(self.scenes).map(|(title, scene)| (title.as_str(), &scene.outcome)).collect();
-        if self.panels { force_panels(&scenes) } else { force_figure(&scenes) }
+        if self.panels { force_panels(&scenes) } else { force_figure(&scenes, LoopUnits::default()) }
     }
 
     /// Rows of the medians over random profiles, with the quartiles of the adhesion force; none if no scene has several.
@@ -85,7 +85,8 @@ impl ScenesReport<'_> {
         let median = |quantity| move |ensemble: &Ensemble| Some(ensemble.statistics(quantity)?.quartiles[1]);
         let medians = |quantity| ensembles().map(|one| one.and_then(median(quantity))).collect::<Vec<_>>();
         let numbers = NAMES.iter().zip(Ensemble::NUMBERS);
-        let mut rows: Vec<_> = numbers.filter_map(|(name, of)| row(name, of.unit(), &medians(of))).collect();
+        let mut rows: Vec<_> =
+            numbers.filter_map(|(name, of)| row(name, |value| rounded(of, value, 4), &medians(of))).collect();
         let quartiles = |ensemble: Option<&Ensemble>| {
             let all = ensemble.and_then(|ensemble| ensemble.statistics(Quantity::AdhesionForce));
             all.map_or_else(
@@ -131,7 +132,11 @@ impl Report for ScenesReport<'_> {
             self.scenes.iter().map(|scene| of(&scene.outcome)).collect::<Vec<_>>()
         };
         let mut table = vec![head];
-        table.extend(ROWS.iter().filter_map(|(name, unit, of)| row(name, unit, &of_scenes(*of))));
+        table.extend(
+            ROWS.iter().filter_map(|(name, unit, of)| {
+                row(name, |value| format_quantity(value, unit), &of_scenes(*of))
+            }),
+        );
         let regime = |scene: &ComparedScene<'_>| scene.outcome.regime.map_or("-", Regime::name).to_owned();
         table.push(std::iter::once("regime".to_owned()).chain(self.scenes.iter().map(regime)).collect());
         sheet.heading(&heading);

@@ -13,7 +13,7 @@ use super::quantity::Quantity;
 use super::recorder::{Recorded, with_recorder};
 use asperity_contact::Move;
 use asperity_data::{AxisScale, between, format_quantity, format_range, parse_quantity};
-use asperity_scene::{CheckedScene, RunError, Scene, Simulation};
+use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
 use std::mem::replace;
 
 /// Relative distance of the ends of a bracket at which its search ends.
@@ -31,7 +31,6 @@ const NARROW: f64 = 2.0;
 const MARGIN: f64 = 0.01;
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
-const ENDS: &str = "allowed: --from and --to, the first below the second";
 /// Relative change of a quantity over the whole searched range up to which the number does not act on it: the error by the number
 /// of springs changes with the scene.
 const STILL: f64 = 1e-3;
@@ -76,6 +75,8 @@ pub struct Found {
     pub question: Question,
     /// Answers of the profiles, in the order of their seeds.
     pub answers: Vec<Answer>,
+    /// Reason why the scene does not allow some number of the range; `None` if all searched numbers are allowed.
+    pub refused: Option<String>,
 }
 
 /// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`: a quantity by its symbol or by its name in
@@ -121,6 +122,9 @@ impl Question {
         let failed = |error| StudyError::Run { place: String::new(), error };
         let mut base = Scene::clone(scene);
         let (axis, (scale, usual)) = if path == PRELOAD {
+            if scene.numerics.solver != Solver::Exact {
+                return Err(failed(RunError::NeedsExactSolver));
+            }
             let reach = simulation.reach(scene).map_err(failed)?;
             let force = |stage: &Move| if let Move::ToForce(force) = stage { Some(*force) } else { None };
             let own = scene.loading.iter().filter_map(force).fold(0.0, f64::max);
@@ -158,8 +162,12 @@ impl Question {
         if from < to && (to - from).is_finite() {
             return Ok(());
         }
-        let [from, to] = [from, to].map(|end| format_quantity(end, self.axis.unit));
-        let why = format!("searched from {from} to {to}; {ENDS}");
+        let [first, last] = [from, to].map(|end| format_quantity(end, self.axis.unit));
+        let why = if from.is_nan() {
+            "there is no usual range around a number that is not above 0; allowed: --range A..B".to_owned()
+        } else {
+            format!("range {first} to {last}; allowed: two finite numbers, the first below the second")
+        };
         Err(StudyError::Question { place: self.axis.path.clone(), why })
     }
 
@@ -346,26 +354,31 @@ impl Found {
         let plan = &question.plan;
         let lines: Vec<u64> = (0..plan.lines).collect();
         let solve = |simulation: &mut Simulation, line| question.answer(simulation, line, stop);
-        let (mut answers, mut refused, mut done) = (vec![Answer::default(); lines.len()], None, 0);
-        on_profiles(plan, &lines, (simulation, jobs), solve, &mut |line, (answer, reason)| {
-            answers[line as usize] = answer;
-            refused = refused.take().or(reason);
+        let (mut each, mut done) = (vec![(Answer::default(), None); lines.len()], 0);
+        on_profiles(plan, &lines, (simulation, jobs), solve, &mut |line, answered| {
+            each[line as usize] = answered;
             done += 1;
             report(done);
         })?;
-        let found = Found { question, answers };
-        found.check(refused)?;
+        let (answers, reasons): (Vec<Answer>, Vec<Option<String>>) = each.into_iter().unzip();
+        let refused = reasons.into_iter().flatten().next();
+        let found = Found { question, answers, refused };
+        found.check()?;
         Ok(found)
     }
 
-    /// Returns an error if no profile has the quantity, or if the number does not change it.
-    fn check(&self, reason: Option<String>) -> Result<(), StudyError> {
+    /// Returns an error if no profile has the quantity, if a preload is out of reach, or if the number does not change the
+    /// quantity.
+    fn check(&self) -> Result<(), StudyError> {
         let Question { axis, quantity, searched, .. } = &self.question;
         let name = quantity.symbol_or_name();
         let range = format!("from {}", format_range(*searched, 4, axis.unit));
         let refused = |why| Err(StudyError::Question { place: axis.path.clone(), why });
+        if let Some(why) = self.refused.as_ref().filter(|_| self.question.is_of_preload()) {
+            return refused(why.clone());
+        }
         let Some((least, most)) = self.reachable() else {
-            let why = reason.map_or_else(String::new, |reason| format!(": {reason}"));
+            let why = self.refused.as_ref().map_or_else(String::new, |reason| format!(": {reason}"));
             return refused(format!("the scene has no {name} {range}{why}"));
         };
         let is_same = |answer: &Answer| {
@@ -428,7 +441,7 @@ impl Found {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::open;
+    use asperity_scene::{Adhesion, open};
     use std::f64::consts::PI;
 
     fn scene(name: &str, points: u64) -> CheckedScene {
@@ -520,13 +533,16 @@ mod tests {
             ("roughness.hurst", "F_a = 30 uN", "the scene has no such number"),
             ("form.radios", "F_a = 30 uN", "did you mean form.radius?"),
             ("form.radius", "κ = 2", "the scene has no κ"),
+            ("loading.1.0", "F_a = 30 uN", "the scene has no such number"),
         ] {
             let error = asked(&sphere, path, condition, 1, None, 1).unwrap_err();
             assert!(error.contains(said), "{path}: {error}");
         }
         assert!(asked(&sphere, "form.radius", "F_a = 30 uN", 2, None, 1).is_err());
         let empty = asked(&sphere, "form.radius", "F_a = 30 uN", 1, Some((2e-4, 1e-4)), 1).unwrap_err();
-        assert!(empty.contains("searched from 200 µm to 100 µm; allowed: --from and --to"), "{empty}");
+        let far = asked(&sphere, "preload", "F_a = 30 uN", 1, Some((0.0, 1.0)), 1).unwrap_err();
+        assert!(far.contains("preload: 1 N is far beyond full contact"), "{far}");
+        assert!(empty.contains("range 200 µm to 100 µm; allowed: two finite numbers"), "{empty}");
     }
 
     /// Each preload is where a run of its own shows the step, to the stated precision; no dense grid shows a smaller one.
@@ -583,6 +599,15 @@ mod tests {
         let mut values: Vec<f64> = work(&all).into_iter().flatten().collect();
         values.sort_by(f64::total_cmp);
         assert_eq!((values.len(), all.quantile(0.5)), (5, Some(values[2])));
+        for (answer, value) in all.answers.iter().zip(work(&all)) {
+            let reached = |factor: f64| {
+                let work = factor * value.unwrap();
+                let scene = rough.with(|scene| scene.adhesion = Some(Adhesion::by_work(work))).unwrap();
+                let force = alone(&scene, answer.seed.unwrap(), Move::ToForce(1e-5), Quantity::AdhesionForce);
+                force >= 10e-6
+            };
+            assert_eq!([1.0 - 1e-7, 1.0].map(reached), [false, true], "{answer:?}");
+        }
         // F_a rises with the work of adhesion: two profiles cross within this range, and three above.
         let range = (values[0] / 2.0, f64::midpoint(values[1], values[2]));
         let part = asked(&rough, scale, "F_a = 10 uN", 5, Some(range), 1).unwrap();

@@ -26,7 +26,8 @@ const ALLOWED: &str = "allowed: two forces, and after colons the number of prelo
 /// What is wrong with the text, and what is allowed.
 pub fn parse_preloads(text: &str) -> Result<Axis, String> {
     let mut parts = text.split(':').map(str::trim);
-    let ends = parse_range(parts.next().unwrap_or_default())?;
+    let ends = parse_range(parts.next().unwrap_or_default(), "N");
+    let ends = ends.map_err(|error| format!("{error}; {ALLOWED}"))?;
     let (mut count, mut scale) = (USUAL, AxisScale::Linear);
     for part in parts {
         match part.parse() {
@@ -38,14 +39,14 @@ pub fn parse_preloads(text: &str) -> Result<Axis, String> {
     Axis::of_preloads(ends, count, scale)
 }
 
-/// Reads a range of two forces, N: `1uN..20uN`.
+/// Reads a range of two numbers with this SI unit: `1uN..20uN`.
 ///
 /// # Errors
-/// As for [`parse_preloads`].
-pub fn parse_range(text: &str) -> Result<(f64, f64), String> {
-    let (from, to) = text.split_once("..").ok_or(ALLOWED)?;
-    let force = |text: &str| parse_quantity(text, "N").map_err(|error| format!("{error}; {ALLOWED}"));
-    Ok((force(from)?, force(to)?))
+/// What is wrong with the text, and what is allowed.
+pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
+    let (from, to) = text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;
+    let number = |text: &str| parse_quantity(text, unit).map_err(|error| error.to_string());
+    Ok((number(from)?, number(to)?))
 }
 
 /// Share of the axis of preloads within which each step of a staircase is located: less than the width of a line in a figure.

@@ -32,7 +32,7 @@ pub(super) fn on_profiles<R: Send>(
     };
     if jobs == 1 {
         let mut simulation = simulation;
-        let mut each = |line| Ok(receive(line, solved(&mut simulation, line)?));
+        let mut each = |line| solved(&mut simulation, line).map(|solved| receive(line, solved));
         return on_this_thread(|| lines.iter().try_for_each(|line| each(*line)));
     }
     let mut simulations: Vec<Simulation> = (1..jobs).map(|_| simulation.another()).collect();
