@@ -30,8 +30,11 @@ pub struct FindArguments {
     /// A quantity by its symbol or name, and its value: 'F_a/F_a,max = 80 %'
     #[arg(long = "where", value_name = "CONDITION", value_parser = parse_condition)]
     pub condition: (Quantity, f64),
-    /// Searched range: 10nm..1um; default: a hundredth to a hundred times the number of the scene
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    /// Searched range, as 10nm..1um; default: two decades down and up
+    ///
+    /// Preloads are searched from 0 N up to a hundred times the largest force of the loading.
+    /// Numbers of a narrow allowed range, such as H, are searched in the whole of it.
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true, verbatim_doc_comment)]
     pub range: Option<String>,
     #[command(flatten)]
     pub profiles: ProfileArguments,

@@ -34,7 +34,7 @@ Examples:
   asperity run pressure-sensitive --draw profile -o profile.svg
   asperity run before.ron after.ron                  Differences, results, curves
   asperity run ideal-adhesion pressure-sensitive non-adhesive -o loops.svg
-  asperity run ideal-adhesion pressure-sensitive non-adhesive --draw panels --width 170mm -o panels.pdf
+  asperity run ideal-adhesion pressure-sensitive non-adhesive --draw panels --width 170mm -o p.pdf
 
 JSON is one object with scene, profile, figures, curve, contacts and work; CSV and .npy hold the
 curve, in SI units. Compression is positive, indentation is zero at first touch. CSV and .npy
@@ -126,7 +126,12 @@ impl RunArguments {
             None if several => (TEXT_OR_PICTURE, Format::Text),
             _ => (&Format::ALL[..], Format::Text),
         };
-        self.output.format(formats, usual)
+        let format = self.output.format(formats, usual)?;
+        if several && format.is_picture() && self.profiles.lines.is_some() && self.preloads.is_none() {
+            let allowed = "allowed: one scene, text, or --preloads";
+            return Err(CliError::named("--lines", format!("a figure of several scenes; {allowed}")));
+        }
+        Ok(format)
     }
 
     fn documents(&self) -> Result<Vec<Document>, CliError> {

@@ -207,7 +207,9 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
         Body::Chart(plot) => drop(in_theme(look, |style| plot.draw(body, style, buffer))),
     }
     if has_title(area) {
-        let line = title_line(&panel.title, edge, area.width - 1, is_selected, look);
+        // A blank column is between two panes.
+        let width = area.width - u16::from(area.right() < buffer.area.right());
+        let line = title_line(&panel.title, edge, width, is_selected, look);
         draw_lines(&[line], area, buffer);
     }
 }

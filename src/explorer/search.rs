@@ -30,6 +30,9 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
 /// A query with the nearest word of the candidates in place of each word that none of them has; `None` for a query without
 /// such a word, or if no word is near.
 pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Option<String> {
+    if query.len() > LONGEST_QUERY {
+        return None;
+    }
     let texts: Vec<String> = candidates.into_iter().flatten().collect();
     let is_known = |word: &str| texts.iter().any(|text| rank(text, word).is_some());
     let known = || texts.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric()));

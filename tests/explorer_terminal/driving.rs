@@ -58,11 +58,13 @@ pub fn row_with(terminal: &Terminal, text: &str) -> String {
         .unwrap_or_else(|| panic!("no {text}:\n{}", terminal.text()))
 }
 
-/// The adhesion force as on the screen: a number and its unit.
+/// The adhesion force of the shown profile as on the screen: a number and its unit.
 pub fn headline(rows: &[String]) -> Option<String> {
-    let after = rows.iter().rev().find_map(|row| row.split_once("F_a "))?.1;
+    let of_profile = |row: &'_ String| row.split_once("this profile ").map(|(_, after)| after.to_owned());
+    let alone = |row: &'_ String| row.split_once("F_a ").map(|(_, after)| after.to_owned());
+    let after = rows.iter().rev().find_map(of_profile).or_else(|| rows.iter().rev().find_map(alone))?;
     let words: Vec<&str> = after.split_whitespace().take(2).collect();
-    Some(words.join(" "))
+    Some(words.join(" ").trim_end_matches(',').to_owned())
 }
 
 /// Waits for another adhesion force than this one, and returns it.

@@ -2,7 +2,8 @@
 
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{
-    ASPERITY, answer, explorer, headline, last_place, paused, quit, row_with, select, wait_for_another,
+    ASPERITY, ESCAPE, answer, explorer, headline, last_place, paused, quit, row_with, select,
+    wait_for_another,
 };
 use std::fs;
 use std::path::Path;
@@ -59,4 +60,27 @@ fn the_command_that_is_copied_gives_the_same_curve() {
     assert!(arguments.contains("--set adhesion.kappa="), "{command}");
     let curve = shell(folder.path(), &format!("asperity run {arguments} --format csv"));
     assert_eq!(fs::read(folder.path().join("curve.csv")).unwrap(), curve);
+}
+
+/// The folder of one's own scenes need not exist before the first of them.
+#[test]
+fn the_first_own_scene_makes_its_folder() {
+    let home = tempfile::tempdir().unwrap();
+    let program = Program::new(ASPERITY).argument("jkr-sphere").env("HOME", home.path().to_str().unwrap());
+    let mut terminal = paused(program);
+    terminal.send("s");
+    let own = home.path().join(".config/asperity/presets/mine.ron");
+    answer(&mut terminal, "Save as: ", &own.display().to_string());
+    terminal.wait_for("saved to ");
+    assert!(own.is_file());
+    terminal.send("o");
+    terminal.wait_for(" of 15");
+    terminal.wait_for("mine  own");
+    terminal.send(ESCAPE);
+    terminal.wait_without("Search:");
+    // Any other folder is still the user's affair.
+    terminal.send("s");
+    let other = home.path().join("other/mine.ron").display().to_string();
+    answer(&mut terminal, "Save as: ", &other);
+    terminal.wait_for("there is no folder");
 }

@@ -80,7 +80,7 @@ fn suspended_and_continued_it_is_as_it_was() {
             terminal.send("fg\r");
             let edge = usize::from(columns) - 1;
             terminal
-                .wait("frame at the edge", |rows| rows.iter().any(|row| row.chars().nth(edge) == Some('┐')));
+                .wait("title at the edge", |rows| rows.iter().any(|row| row.chars().nth(edge) == Some('─')));
             terminal.settle();
             assert!(columns == 90 || without_times(&terminal) == before, "{}", terminal.text());
             assert!(terminal.screen().alternate_screen() && terminal.screen().hide_cursor());

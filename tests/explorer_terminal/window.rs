@@ -37,7 +37,7 @@ fn keys_and_changes_of_the_window_that_come_together_all_count() {
         terminal.send(if round / 10 % 2 == 0 { "j" } else { "k" });
         terminal.wait("other row selected", |rows| marked(rows).is_some_and(|row| !row.contains(&name)));
         let right = 99 + usize::from(round % 2);
-        terminal.wait("frame at the edge", |rows| rows.iter().any(|row| row.chars().nth(right) == Some('┐')));
+        terminal.wait("title at the edge", |rows| rows.iter().any(|row| row.chars().nth(right) == Some('─')));
     }
     quit(&mut terminal);
 }

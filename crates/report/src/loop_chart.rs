@@ -257,8 +257,7 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 
 /// Figure of the force curves of computed scenes with titles. Loading and unloading of a single scene have two colours; of
 /// several scenes each has a colour and a stroke, and the legend explains loading and marks once for all.
-pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
-    let units = LoopUnits::default();
+pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         return Figure::of_chart(title, loop_chart(&[ForceLoop::new(&outcome.history.legs)], units));
     }
@@ -270,7 +269,9 @@ pub fn force_figure(scenes: &[(&str, &Outcome)]) -> Figure {
     });
     let loops: Vec<ForceLoop<'_>> = loops.collect();
     let mut chart = loop_chart(&loops, units);
-    let is_marked = |mark: &Mark| loops.iter().flat_map(|one| &one.marks).any(|(other, _)| other == mark);
+    let is_marked = |mark: &Mark| {
+        units.shows(*mark) && loops.iter().flat_map(|one| &one.marks).any(|(other, _)| other == mark)
+    };
     let signs = [Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut].into_iter().filter(is_marked);
     let explained = signs.map(|mark| (mark.name(), Shape::signs(Vec::new(), sign(mark))));
     let loading = ("loading", Shape::line(Vec::new(), Stroke::Dotted));
@@ -318,7 +319,7 @@ mod tests {
     fn a_force_curve_has_its_marks_where_the_figures_are() {
         let document = open("jkr-sphere").unwrap();
         let outcome = asperity_scene::run(&document).unwrap();
-        let figure = force_figure(&[("Rough <&>", &outcome)]);
+        let figure = force_figure(&[("Rough <&>", &outcome)], LoopUnits::default());
         let named: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(named[..2], ["loading", "unloading"]);
         assert!(named.iter().any(|name| name.starts_with("preload F_n = ")), "{named:?}");

@@ -1,7 +1,7 @@
 //! A computed scene as JSON, and its force curve as a table and a figure; and the table of a profile.
 
 use crate::ensemble::{caption, ensemble_value};
-use crate::loop_chart::force_figure;
+use crate::loop_chart::{LoopUnits, force_figure};
 use crate::report::{Json, Report};
 use crate::summary::{summary, warning};
 use asperity_contact::CurvePoint;
@@ -108,7 +108,7 @@ impl Report for RunReport<'_> {
     }
 
     fn figure(&self) -> Option<Figure> {
-        let figure = force_figure(&[(self.title, self.outcome)]);
+        let figure = force_figure(&[(self.title, self.outcome)], LoopUnits::default());
         Some(Figure { notes: self.ensemble.and_then(caption).into_iter().collect(), ..figure })
     }
 }

@@ -1,7 +1,7 @@
 //! Several computed scenes: differences and results in one table, force curves in one figure.
 
 use crate::ensemble::{NAMES, rounded};
-use crate::loop_chart::{force_figure, force_panels};
+use crate::loop_chart::{LoopUnits, force_figure, force_panels};
 use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
 use asperity_data::{format_quantity, format_range};
@@ -73,7 +73,7 @@ impl ScenesReport<'_> {
         let titles: Vec<String> = self.scenes.iter().enumerate().map(title).collect();
         let scenes: Vec<_> =
             titles.iter().zip(self.scenes).map(|(title, scene)| (title.as_str(), &scene.outcome)).collect();
-        if self.panels { force_panels(&scenes) } else { force_figure(&scenes) }
+        if self.panels { force_panels(&scenes) } else { force_figure(&scenes, LoopUnits::default()) }
     }
 
     /// Rows of the medians over random profiles, with the quartiles of the adhesion force; none if no scene has several.

@@ -91,8 +91,13 @@ pub fn answer(app: &App) -> Option<String> {
         (Err(why), _) => why,
         (Ok(_), None) => "finding the value on all profiles…".to_owned(),
         (Ok(_), Some(Ok(found))) => {
-            let takes = if value(found).is_some() { " Enter takes the median." } else { "" };
-            found_in_words(found) + takes
+            let any =
+                found.question.is_of_preload() && found.quantile(0.5) == Some(found.question.searched.0);
+            match value(found) {
+                Some(_) => found_in_words(found) + " Enter takes the median.",
+                None if any => format!("At any preload on most profiles. {}", found_in_words(found)),
+                None => found_in_words(found),
+            }
         }
         (Ok(_), Some(Err(why))) => why.clone(),
     })

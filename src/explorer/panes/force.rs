@@ -50,7 +50,7 @@ fn compared(app: &App) -> Option<Figure> {
     };
     let names: Vec<String> = app.ghosts.iter().map(name).chain([present.to_owned()]).collect();
     let outcomes = app.ghosts.iter().map(|ghost| &*ghost.outcome).chain([&app.current()?.outcome]);
-    Some(force_figure(&names.iter().map(String::as_str).zip(outcomes).collect::<Vec<_>>()))
+    Some(force_figure(&names.iter().map(String::as_str).zip(outcomes).collect::<Vec<_>>(), units(app)))
 }
 
 /// The report of the measured curve, with the command that computes the fit.

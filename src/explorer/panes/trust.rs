@@ -70,6 +70,9 @@ fn report(app: &App) -> Exported<'_> {
 /// Relative errors that are drawn as lines, and whose requirements are stated.
 const TARGETS: [f64; 2] = [0.01, 0.001];
 
+/// Smallest number of rows of the chart.
+const LEAST_CHART: usize = 6;
+
 /// Lower end of the error axis; smaller errors are drawn in the lowest row.
 const LOWEST: f64 = 1e-8;
 
@@ -80,6 +83,12 @@ fn panel(app: &App, size: Size) -> Panel {
     foot.extend(rows(app, size.width));
     let warning = app.current().and_then(|computed| without_jkr(&computed.outcome)).unwrap_or_default();
     let head = wrapped(&Line::styled(warning, app.view.appearance.theme.style(Meaning::Error)), size.width);
+    // Where there is no room for both, the words are more than the chart.
+    let has_room =
+        usize::from(size.height) >= foot.len() + head.len() + LEAST_CHART || foot.len() < LEAST_CHART;
+    if !has_room {
+        return Panel { head, foot, ..Panel::of_text(title, "") };
+    }
     let chart = table.and_then(|table| Some((table, work_precision("", table).charts.pop()?)));
     let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
         return Panel { head, foot, ..Panel::of_text(title, &nothing_yet(app)) };

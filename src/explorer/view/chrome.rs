@@ -118,9 +118,8 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     }
 }
 
-/// Smallest width, columns, of a status line with the error of F_a; and of one with the full names of regimes.
+/// Smallest width, columns, of a status line with the error of F_a.
 const WITH_ERROR: usize = 48;
-const WITH_NAMES: usize = 100;
 
 /// As many facts about the loop as there is room for.
 fn headline(app: &App, width: usize) -> Line<'static> {
@@ -128,9 +127,15 @@ fn headline(app: &App, width: usize) -> Line<'static> {
         return Line::raw("computing…");
     }
     let theme = app.view.appearance.theme;
-    let facts = facts(app, width).into_iter();
-    let parts = facts.map(|(text, meaning)| vec![Span::styled(text, theme.style(meaning))]).collect();
-    filled(parts, " · ", width).into_iter().next().unwrap_or_default()
+    let line = |is_short: bool| {
+        let short = |text: String| if is_short { text.replace("pressure-", "") } else { text };
+        let facts = facts(app, width).into_iter();
+        let part = |(text, meaning)| vec![Span::styled(short(text), theme.style(meaning))];
+        filled(facts.map(part).collect(), " · ", width).into_iter().next().unwrap_or_default()
+    };
+    // Short names of regimes leave room for further facts.
+    let (full, short) = (line(false), line(true));
+    if short.spans.len() > full.spans.len() { short } else { full }
 }
 
 /// Facts about the loop for a line of this width, the most important first.
@@ -138,11 +143,8 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
     let is_wide = width >= WITH_ERROR;
     let Some(outcome) = app.solved.as_ref().map(|solved| &solved.outcome) else { return Vec::new() };
     let figures = &outcome.figures;
-    let regime = outcome.regime.map(|regime| {
-        let regimes = regime.by_protocols(outcome.regime_after_zero_force);
-        let regimes = if width < WITH_NAMES { regimes.replace("pressure-", "") } else { regimes };
-        (regimes, Meaning::Title)
-    });
+    let regime =
+        outcome.regime.map(|regime| (regime.by_protocols(outcome.regime_after_zero_force), Meaning::Title));
     let force = |value| format_quantity(value, "N");
     let error = error(app).filter(|_| is_wide);
     let mut facts = Vec::new();

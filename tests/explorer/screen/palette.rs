@@ -43,6 +43,45 @@ fn a_command_is_found_by_words_and_runs_as_its_key_does() {
 }
 
 #[test]
+fn everyday_words_find_commands_parameters_and_scenes() {
+    for (typed, found) in [
+        ("theme", "change the colours"),
+        ("spectrum", "show spectra"),
+        ("spread", "show adhesion against preload"),
+        ("minor loop", "begin manual loading"),
+        ("hysteresis", "shade the area"),
+        ("roughness", "rms height"),
+        ("work of adhesion", "work of adhesion"),
+        ("title", "title"),
+        ("normalised", "forces in units of F_a,max"),
+        ("normalize", "forces in units of F_a,max"),
+        ("accuracy", "how far F_a can be trusted"),
+        ("young", "Young's modulus"),
+        ("kappa", "roughness-adhesion parameter"),
+        ("jkr-sphere", "Johnson, Kendall and Roberts"),
+        ("which preload", "for a target"),
+    ] {
+        let mut driver = pressed("");
+        query(&mut driver, typed);
+        driver.shows(found);
+    }
+    // An entry for a parameter goes to the parameter, one for a scene opens the scene.
+    let mut driver = pressed("");
+    query(&mut driver, "hurst");
+    driver.press("Enter");
+    assert_eq!(driver.app.edit.parameter().unwrap().path, "roughness.hurst");
+    assert_eq!(driver.app.view.pane, Pane::Parameters);
+    query(&mut driver, "jkr-sphere");
+    driver.press("Enter");
+    assert_eq!(driver.document().name(), "jkr-sphere");
+    // A misspelt word is answered with the nearest one.
+    query(&mut driver, "hysterisis");
+    driver.shows_all(["for hysteresis", "shade the area"]);
+    driver.press("Ctrl+u `qqqqqq`");
+    driver.shows("nothing fits");
+}
+
+#[test]
 fn a_path_is_completed() {
     let folder = tempfile::tempdir().unwrap();
     for file in ["alpha-one.ron", "alpha-two.ron", "beta.ron"] {

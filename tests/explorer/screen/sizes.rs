@@ -142,7 +142,8 @@ fn axes_have_numbers_quantities_and_units_in_every_pane() {
         ] {
             let driver = zoomed(pane, size);
             let area = Layout::of(&driver.app).pane(pane).unwrap();
-            if !has_title(area) {
+            // A low window has the words of trust and not the chart.
+            if !has_title(area) || pane == Pane::Trust && area.height < 30 {
                 continue;
             }
             let rows = driver.rows()[usize::from(area.y)..usize::from(area.bottom())].join("\n");
