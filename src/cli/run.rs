@@ -61,8 +61,8 @@ pub struct RunArguments {
     pub more: Vec<String>,
     /// Draw profile, patches or panels in place of the force curves
     ///
-    /// profile: the profile and its contact at the largest force. patches: the contact patches over
-    /// the indentation. panels: the force curve of each scene over axes of its own.
+    /// profile: the profile and its contact at the largest force. patches: the contact patches
+    /// over the indentation. panels: the force curve of each scene over axes of its own.
     #[arg(
         long,
         value_name = "WHAT",

@@ -12,13 +12,12 @@ use super::parameters::{Parameter, Setting};
 use super::player::Player;
 use super::player::indentations;
 use super::prompt::{Prompt, Purpose};
-use super::request::{CloseUpTarget, Drive, LineView, ManualMove, SnapshotRequest};
-use super::snapshot::{ContactSnapshot, Preview, SolvedScene};
+use super::request::{CloseUpTarget, Drive, LineView, SnapshotRequest};
+use super::snapshot::{ContactSnapshot, ManualState, Preview, SolvedScene};
 use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::Appearance;
-use asperity_contact::Move;
-use asperity_contact::{CurvePoint, LegRecord};
+use asperity_contact::LegRecord;
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::LoopQuantities;
 use asperity_report::Section;
@@ -27,22 +26,6 @@ use asperity_scene::{Document, ron_float};
 use asperity_scene::{Governing, marks};
 use asperity_study::{Axis, Ensemble, Grid, Place, Quantity};
 use std::sync::Arc;
-
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ManualState {
-    /// Points of the path so far, the newest last.
-    pub path: Vec<CurvePoint>,
-    /// Index of the loading stage of each point of the path.
-    pub stages: Vec<usize>,
-    pub loading: Vec<Move>,
-    /// Number of springs that attached or detached in the last move.
-    pub changed: u64,
-    /// Elastic energy released since manual loading began, J.
-    pub released_energy: f64,
-    pub moves: Vec<ManualMove>,
-    /// The text of the force typed last, which the solver may refuse.
-    pub typed: String,
-}
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
@@ -407,13 +390,16 @@ impl App {
         }
     }
 
-    /// F_a/F_a,max in words: the median over random profiles, or of a scene without them its own.
+    /// F_a/F_a,max of the shown profile in words.
     pub fn adhesion_share_in_words(&self) -> Option<String> {
-        let of_profiles = || self.studies.value::<Ensemble>()?.statistics(Quantity::AdhesionShare);
-        let own =
-            || Some(self.solved.as_ref()?.outcome.figures.adhesion_force? / self.ideal_adhesion_force()?);
-        let share = of_profiles().map(|all| all.quartiles[1]).or_else(own)?;
-        Some(format!("F_a/F_a,max {} %", format_rounded(100.0 * share, 2, "1")))
+        let force = self.solved.as_ref()?.outcome.figures.adhesion_force?;
+        Some(share_in_words(force / self.ideal_adhesion_force()?))
+    }
+
+    /// The median of F_a/F_a,max over random profiles in words.
+    pub fn median_share_in_words(&self) -> Option<String> {
+        let all = self.studies.value::<Ensemble>()?.statistics(Quantity::AdhesionShare)?;
+        Some(format!("median {}", share_in_words(all.quartiles[1])))
     }
 
     /// Value of a parameter in the notation of the scene; for a value that follows from others the computed one, if known.
@@ -445,4 +431,8 @@ impl App {
     pub fn indentation(&self) -> f64 {
         self.play.indentation(self.legs())
     }
+}
+
+fn share_in_words(share: f64) -> String {
+    format!("F_a/F_a,max {} %", format_rounded(100.0 * share, 2, "1"))
 }

@@ -31,6 +31,8 @@ pub enum Body {
     Text(String),
 }
 
+/// Largest number of divisions of a pane between its legend and its chart that are tried.
+const MOST_ROUNDS: usize = 4;
 /// Share of an axis below which a distance is one of rounding.
 const HAIR: f64 = 1e-9;
 /// Width of a pane, columns, below which its title has as many readings as there is room for.
@@ -218,15 +220,26 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
 /// them on the right of the title, with the texts that are there.
 fn legend_of(panel: &Panel, area: Rect, look: Appearance) -> (Vec<Line<'static>>, Vec<Part>) {
     let Body::Chart(plot) = &panel.body else { return (Vec::new(), panel.edge.clone()) };
-    let body = Places::within(panel, 0, inside(area)).body;
-    let left_out = in_theme(look, |style| plot.draw(body, style, &mut Buffer::empty(body)));
-    let all: Vec<Part> = left_out.iter().chain(&panel.edge).cloned().collect();
-    let width = |part: &Part| part.iter().map(Span::width).sum::<usize>() + 1;
-    let taken = panel.title.chars().count() + 8 + all.iter().map(width).sum::<usize>();
-    if taken <= usize::from(area.width) || !has_title(area) {
-        return (Vec::new(), all);
+    let inner = inside(area);
+    let (mut kept, mut legend): (Vec<Part>, _) = (Vec::new(), Vec::new());
+    // Rows of the legend leave less room for names beside the curves.
+    for _ in 0..MOST_ROUNDS {
+        let body = Places::within(panel, legend.len(), inner).body;
+        let left_out = in_theme(look, |style| plot.draw(body, style, &mut Buffer::empty(body)));
+        let before = kept.len();
+        kept.extend(left_out.into_iter().filter(|entry| !kept.contains(entry)).collect::<Vec<_>>());
+        let all: Vec<Part> = kept.iter().chain(&panel.edge).cloned().collect();
+        let width = |part: &Part| part.iter().map(Span::width).sum::<usize>() + 1;
+        let taken = panel.title.chars().count() + 8 + all.iter().map(width).sum::<usize>();
+        if legend.is_empty() && (taken <= usize::from(area.width) || !has_title(area)) {
+            return (Vec::new(), all);
+        }
+        if kept.len() == before {
+            break;
+        }
+        legend = filled(kept.clone(), "  ", inner.width.into());
     }
-    (filled(left_out, "  ", inside(area).width.into()), panel.edge.clone())
+    (legend, panel.edge.clone())
 }
 
 /// The title of a pane on a line across it, with texts on the right as far as there is room.

@@ -106,8 +106,10 @@ impl Runtime {
             Task::Ask => {
                 let request = request(app);
                 if request.generation != *asked {
-                    // Estimates of the former scene are of no use, and take time from this one.
-                    (engine.perform)(Vec::new());
+                    if *asked > 0 {
+                        // Estimates of the former scene are of no use, and take time from this one.
+                        (engine.perform)(Vec::new());
+                    }
                     *asked = request.generation;
                 }
                 return (engine.solve)(request);

@@ -1,7 +1,7 @@
 //! Results of the solver: immutable, stamped with the generation of their scene, and already reduced to the resolution of a
 //! pane.
 
-use super::request::{Drive, Focus, LineView, SnapshotRequest};
+use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use asperity_contact::Move;
 use asperity_contact::{CurvePoint, Patch, PatchState, Springs};
 use asperity_report::Section;
@@ -111,6 +111,23 @@ pub struct ManualPath {
     pub released_energy: f64,
     /// Reason why the body was not moved, if it was refused.
     pub refused: Option<String>,
+}
+
+/// Manual loading so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ManualState {
+    /// Points of the path so far, the newest last.
+    pub path: Vec<CurvePoint>,
+    /// Index of the loading stage of each point of the path.
+    pub stages: Vec<usize>,
+    pub loading: Vec<Move>,
+    /// Number of springs that attached or detached in the last move.
+    pub changed: u64,
+    /// Elastic energy released since manual loading began, J.
+    pub released_energy: f64,
+    pub moves: Vec<ManualMove>,
+    /// The text of the force typed last, which the solver may refuse.
+    pub typed: String,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]

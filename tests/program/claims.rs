@@ -42,7 +42,7 @@ fn summary(folder: &Path, plan: &str) -> Table {
 
 /// Boundaries of a study in κ or in e_el/γ, for half and a tenth of F_a,max.
 fn boundaries(folder: &Path, study: &str, over: &str) -> String {
-    let levels = ["--level", "0.5", "--level", "0.1"];
+    let levels = ["--where", "0.5", "--where", "0.1"];
     let command = [&["sweep", "boundary", study, "--x", over, "--format", "csv"], &levels[..]].concat();
     asperity_in(folder, &command).succeeded()
 }
@@ -241,7 +241,7 @@ fn check_claims(folder: &Path) {
         (
             "the boundary is κ ≈ 0.6 (15)",
             "does not hold",
-            format!("half of F_a,max at κ = {low:.1} to {high:.1}: `asperity sweep boundary figure-5a --level 0.5`"),
+            format!("half of F_a,max at κ = {low:.1} to {high:.1}: `asperity sweep boundary figure-5a --where 0.5`"),
         ),
         (
             "H has only slight influence (Fig. 5a)",

@@ -28,7 +28,7 @@ fn a_boundary_in_kappa_is_one_in_elastic_energy() {
     let study = place.path().join("study").to_str().unwrap().to_owned();
     // H and the boundary at each place and protocol.
     let boundaries = |over: &str| -> Vec<[f64; 2]> {
-        let of = ["sweep", "boundary", &study, "--format", "json", "--level", "0.1", "--x", over];
+        let of = ["sweep", "boundary", &study, "--format", "json", "--where", "0.1", "--x", over];
         let number = |one: &serde_json::Value, name: &str| one[name].as_f64().unwrap();
         let all = json(&of)["boundaries"].as_array().unwrap().clone();
         all.iter().map(|one| [number(one, "H"), number(one, over)]).collect()

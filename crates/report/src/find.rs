@@ -60,10 +60,15 @@ pub fn found_in_words(found: &Found) -> String {
             let median = format_quantity(median, axis.unit);
             format!("{name} = {median} for {target}: median of {count} profiles, {quartiles}.")
         }
+        [_, None, _] if met == 0 => {
+            format!(
+                "{target} is crossed on no profile with {name} from {searched}: {quantity} is {reachable}."
+            )
+        }
         [_, None, _] => {
             let range = found.range().map_or_else(String::new, |ends| format!(", at {}", numbers(ends)));
             format!(
-                "{target} is reached on {met} of {count} profiles with {name} from {searched}{range}, which is too few for a \
+                "{target} is crossed on {met} of {count} profiles with {name} from {searched}{range}, which is too few for a \
                  median: {quantity} is {reachable}."
             )
         }
@@ -104,7 +109,8 @@ impl FindReport<'_> {
         };
         let is_free = |answer: &Answer| answer.crossings.is_empty();
         let mut sentences = Vec::new();
-        if found.answers.iter().all(is_free) {
+        let alike = |answer: &Answer| is_free(answer) && answer.reached == found.answers[0].reached;
+        if found.answers.iter().all(alike) {
             // The answer itself says so.
             return sentences;
         }
@@ -172,7 +178,7 @@ impl Report for FindReport<'_> {
         let others = if question.is_of_preload() {
             "The preload replaces the loading of the scene.".to_owned()
         } else {
-            others_stay(self.scene)
+            others_stay(self.scene.adhesion.filter(|_| !axis.path.starts_with("adhesion.")))
         };
         sheet.heading(&format!("{searched}{} {others} {profiles}", refused.unwrap_or_default()));
         Some(sheet.into_text())

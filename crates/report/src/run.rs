@@ -69,6 +69,7 @@ impl Report for RunReport<'_> {
             "adhesion_force_error": estimate.and_then(|estimate| estimate.of_adhesion_force(outcome)),
             "curve_error"?: estimate.and_then(Estimate::of_curve),
             "adhesion_force_near_step": estimate.map(|estimate| estimate.near_step),
+            "adhesion_share": outcome.adhesion_share(),
             "adhesion_coefficient": figures.adhesion_coefficient,
             "pull_off_indentation": figures.pull_off_indentation,
             "dissipated_energy": figures.dissipated_energy,

@@ -7,7 +7,7 @@ use asperity_data::grouped;
 use asperity_data::{Kind, Table, object};
 use asperity_data::{format_quantity, format_rounded, one_unit};
 use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span};
-use asperity_scene::Scene;
+use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, STEP, Sensitivity, Values};
 
 /// Relative change from which on a change is stated as a factor.
@@ -159,13 +159,13 @@ impl SensitivityReport<'_> {
             ),
             None => Ensemble::FIXED.to_owned(),
         };
-        format!("{} {profiles}", others_stay(self.scene))
+        format!("{} {profiles}", others_stay(self.scene.adhesion))
     }
 }
 
-/// Sentence on the numbers of a scene that stay while one of them changes.
-pub(crate) fn others_stay(scene: &Scene) -> String {
-    let by_parameter = scene.adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
+/// Sentence on the numbers of a scene with this adhesion that stay while one of them changes.
+pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
+    let by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
     let follows = if by_parameter { ", and the work of adhesion follows from them" } else { "" };
     format!("All other numbers of the scene stay{follows}.")
 }

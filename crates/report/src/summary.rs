@@ -1,6 +1,6 @@
 //! Summary of a computed scene for a reader.
 
-use crate::ensemble::headline;
+use crate::ensemble::{headline, rounded};
 use crate::measured_face::steep;
 use crate::sheet::Sheet;
 use crate::trust::{trust, without_jkr};
@@ -14,7 +14,7 @@ use asperity_scene::{
 };
 use asperity_scene::{Outcome, Timings};
 use asperity_scene::{Scene, loading_text};
-use asperity_study::Ensemble;
+use asperity_study::{Ensemble, Quantity};
 use asperity_surface::Form;
 
 /// Number of loading stages, or of repeated groups of them, that are listed; further ones are counted.
@@ -127,6 +127,8 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.row("adhesion force F_a", adhesion_force(outcome) + &error);
     sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
     sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
+    let share = outcome.adhesion_share().map(|share| rounded(Quantity::AdhesionShare, share, 4));
+    sheet.row_of("share F_a/F_a,max", share);
     sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
     sheet.quantity("at zero force F_a(F=0)", outcome.zero_force_adhesion_force, "N");
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");

@@ -11,7 +11,7 @@ pub fn without_jkr(outcome: &Outcome) -> Option<String> {
     let number = asperity_data::format_rounded(number, 2, "1");
     Some(format!(
         "JKR theory and the rule of Hess do not apply: the Tabor number {number} is below {LEAST_TABOR_NUMBER_OF_JKR}, so \
-         that the attraction reaches beyond the contact. DMT theory applies; the adhesion below is too large."
+         that the attraction reaches beyond the contact. DMT theory applies, by which a loop dissipates next to nothing."
     ))
 }
 

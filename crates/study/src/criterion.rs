@@ -38,16 +38,15 @@ impl Criterion {
 
     /// The number, its threshold and the verdict in words.
     pub fn words(&self) -> String {
-        let value = self.value.map_or("not known".to_owned(), |value| format_quantity(value, "1"));
-        let number = format!("{} = {value}", self.symbol);
-        let reason = self.reason.as_deref();
-        let Some((sticks, value)) = self.sticks.zip(self.value) else {
-            return format!("{number}{}", reason.map_or_else(String::new, |reason| format!("; {reason}")));
-        };
+        let behind =
+            |sign: &str| self.reason.as_ref().map_or_else(String::new, |one| format!("{sign} {one}"));
+        let Some(value) = self.value else { return format!("{} is not known{}", self.symbol, behind(":")) };
+        let number = format!("{} = {}", self.symbol, format_quantity(value, "1"));
+        let Some(sticks) = self.sticks else { return number + &behind(";") };
         let verdict = if sticks { "adheres" } else { "does not adhere" };
         let side = if value < self.threshold { "below" } else { "at least" };
         let threshold = format_quantity((100.0 * self.threshold).round() / 100.0, "1");
-        let reason = reason.map_or_else(String::new, |reason| format!(" ({reason})"));
+        let reason = self.reason.as_ref().map_or_else(String::new, |reason| format!(" ({reason})"));
         format!("{number}, {side} {threshold}: {verdict}{reason}")
     }
 

@@ -379,7 +379,7 @@ impl Found {
         }
         let Some((least, most)) = self.reachable() else {
             let why = self.refused.as_ref().map_or_else(String::new, |reason| format!(": {reason}"));
-            return refused(format!("the scene has no {name} {range}{why}"));
+            return refused(format!("the scene has no {name}{why}"));
         };
         let is_same = |answer: &Answer| {
             answer.reachable.is_none_or(|(least, most)| most - least <= STILL * most.abs().max(least.abs()))

@@ -244,8 +244,10 @@ impl Quantity {
             [one] => Ok(one),
             [] => {
                 let words = Quantity::ALL.into_iter().flat_map(|one| [one.name(), one.symbol()]);
-                let near = did_you_mean(&name, words.filter(|word| !word.is_empty()));
-                Err(format!("{text:?} is no quantity{near} (quantities: {})", names(&Quantity::ALL)))
+                // A letter or two is near to anything.
+                let near = did_you_mean(&name, words.filter(|word| word.chars().count() > 2));
+                let all = format!(" (quantities: {})", names(&Quantity::ALL));
+                Err(format!("{text:?} is no quantity{}", if near.is_empty() { all } else { near }))
             }
             ref several => Err(format!("{text:?} has several meanings; allowed: {}", names(several))),
         }

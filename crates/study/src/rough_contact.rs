@@ -94,7 +94,7 @@ impl RoughContact {
     /// published as 0.6; Ciavarella (2018).
     fn bearing_area(&self) -> Criterion {
         let Some(SelfAffine { hurst, first, roll_off_mode, .. }) = self.spectrum else {
-            let reason = "does not hold: needs a self-affine spectrum of H near 0.8".to_owned();
+            let reason = "needs a self-affine spectrum of H near 0.8".to_owned();
             return Criterion { reason: Some(reason), ..BEARING_AREA };
         };
         let soft = self.tabor_number.filter(|number| *number >= LEAST_TABOR_NUMBER);

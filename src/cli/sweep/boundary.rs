@@ -12,7 +12,7 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "\
 Examples:
   asperity sweep equation-15 -o edge && asperity sweep boundary edge
-  asperity sweep boundary edge --level 0.05 --format csv
+  asperity sweep boundary edge --where 0.05 --format csv
   asperity sweep boundary edge --x elastic_energy_ratio
 
 F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
@@ -26,8 +26,8 @@ pub struct BoundaryArguments {
     /// Folder of a merged study with an axis adhesion.kappa or adhesion.elastic_energy_ratio
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Threshold, as a share of F_a,max (repeatable)
-    #[arg(long = "level", value_name = "SHARE", value_parser = level)]
+    /// Where F_a(0) falls below this share of F_a,max: 0.05 (repeatable)
+    #[arg(long = "where", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
     /// Parameter of boundaries: kappa or elastic_energy_ratio
     #[arg(long, value_enum, value_name = "PARAMETER", default_value = "kappa", hide_possible_values = true)]

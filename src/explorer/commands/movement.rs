@@ -1,10 +1,10 @@
 //! Movement of the body: the animation of the scene's loading, or manual loading.
 
-use crate::explorer::app::{App, ManualState};
+use crate::explorer::app::App;
 use crate::explorer::player::{At, Player};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
-use crate::explorer::snapshot::ContactSnapshot;
+use crate::explorer::snapshot::{ContactSnapshot, ManualState};
 use crate::explorer::typed::unit_of_force;
 use asperity_data::{in_unit, parse_quantity};
 use std::sync::Arc;

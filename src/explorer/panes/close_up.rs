@@ -27,6 +27,9 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
+/// Smallest width of the pane with the names of its lines, columns.
+const WITH_NAMES: u16 = 40;
+
 fn panel(app: &App, size: Size) -> Panel {
     let Some(snapshot) = app.snapshot.as_deref() else {
         return Panel::of_text("Contact patch".to_owned(), "");
@@ -42,6 +45,10 @@ fn panel(app: &App, size: Size) -> Panel {
         panel.edge.extend(describe(app, patch).map(|text| vec![Text::raw(text)]));
     }
     if let Body::Chart(plot) = &mut panel.body {
+        if size.width < WITH_NAMES {
+            // The profile beside it has the same colours.
+            plot.chart.layers.iter_mut().for_each(|layer| layer.name = Label::default());
+        }
         plot.chart.layers.push(Layer { name: Label::default(), ..ends(snapshot) });
     }
     panel

@@ -41,8 +41,8 @@ pub static ROW: PaneRow = PaneRow {
     help: &[(
         "Preloads",
         "i: adhesion force over preload, of this profile as the staircase that it is, and over random profiles median, \
-         quartiles, mean and range; ◇ after a turn at first touch, ○ where the force is back at zero; the line and ◆ are \
-         the present preload. On the right the share of profiles up to each force, at the crosshair or the present \
+         quartiles and range as shaded bands, and mean; ◇ after a turn at first touch, ○ where the force is back at zero, \
+         ◆ the present preload. On the right the share of profiles up to each force, at the crosshair or the present \
          preload. X changes the scale",
     )],
 };
@@ -94,7 +94,6 @@ fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
     let figures = app.current().map(|one| one.outcome.figures);
     let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
     if let Some((preload, force)) = present {
-        chart.layers.push(Layer::unnamed(Ink::Cursor, Shape::Upright(preload)));
         let shape = Shape::signs(vec![(preload, force)], Sign::Diamond);
         chart.layers.push(Layer::new("present preload".into(), Ink::Cursor, shape));
     }

@@ -1,8 +1,8 @@
 //! The properties of a pane, as one row of the table of panes.
 
-use crate::explorer::app::{App, ManualState};
+use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
-use crate::explorer::snapshot::SolvedScene;
+use crate::explorer::snapshot::{ManualState, SolvedScene};
 use crate::explorer::studies::Study;
 use asperity_plot::Figure;
 use asperity_report::Report;

@@ -47,7 +47,7 @@ fn report(app: &App) -> Exported<'_> {
 }
 
 fn panel(app: &App, size: Size) -> Panel {
-    let title = "Sensitivity: each number ±10 %, a whole one at least ±1".to_owned();
+    let title = "Sensitivity: each number ±10 %".to_owned();
     let Some(found) = app.studies.value::<Sensitivity>() else {
         return Panel::of_text(title, app.studies.failure::<Sensitivity>().unwrap_or("computing …"));
     };

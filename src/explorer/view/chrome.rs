@@ -188,7 +188,8 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         let warning = format!("λ²/AR {ratio:.2} < {least}: JKR pulls {jkr_factor:.2} × the smooth sphere");
         facts.push((warning, Meaning::Error));
     }
-    facts.extend(app.adhesion_share_in_words().map(|share| (share, Meaning::Title)));
+    let share = app.median_share_in_words().or_else(|| app.adhesion_share_in_words());
+    facts.extend(share.map(|share| (share, Meaning::Title)));
     if let Some(coefficient) = figures.adhesion_coefficient {
         facts.push((format!("F_a/F_n {}", format_quantity(coefficient, "1")), Meaning::Title));
     }

@@ -155,7 +155,7 @@ fn every_pane_is_exported_as_a_figure() {
         ("", Pane::Profile, &["surface", "profile", "contact", "(nm)"]),
         ("", Pane::CloseUp, &["surface", "patch end"]),
         ("Q", Pane::Spectrum, &["wave number"]),
-        ("c L", Pane::Force, &["loading"]),
+        ("c L", Pane::Force, &["H 0.7", "loading"]),
     ] {
         let mut driver = pressed(keys);
         driver.app.view.pane = pane;

@@ -1,8 +1,8 @@
 //! Manual loading: begun at the present indentation, pressed and pulled by keys, ended.
 
 use super::*;
-use asperity::explorer::app::ManualState;
 use asperity::explorer::request::Drive;
+use asperity::explorer::snapshot::ManualState;
 
 fn manual(driver: &Driver) -> &ManualState {
     driver.app.manual.as_ref().expect("manual loading")

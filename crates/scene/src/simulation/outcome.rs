@@ -49,6 +49,13 @@ pub struct Outcome {
     pub timings: Timings,
 }
 
+impl Outcome {
+    /// Adhesion force over the ideal one, F_a/F_a,max; `None` without either.
+    pub fn adhesion_share(&self) -> Option<f64> {
+        Some(self.figures.adhesion_force? / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?)
+    }
+}
+
 /// Facts about a profile, without its heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineFacts {
