@@ -27,5 +27,5 @@ pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 pub use topography::text::each_text;
 pub use topography::text::header::{Column, Header, Role};
-pub use topography::text::layout::{Cell, Decimal, Separator};
+pub use topography::text::layout::{Cell, Decimal, ONE_MARK, Separator};
 pub use topography::{Place, TopographyError, Unit, UnitError, refused, shown};

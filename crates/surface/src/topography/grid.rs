@@ -42,7 +42,8 @@ impl Digits {
                     decimals += i32::from(is_behind);
                     significant += i32::from(byte != b'0' || significant > 0);
                 }
-                b'.' | b',' => is_behind = true,
+                // The last one: others separate thousands.
+                b'.' | b',' => (is_behind, decimals) = (true, 0),
                 b'e' | b'E' => {
                     decimals -= cell[index + 1..].parse::<i32>().map_or(0, |power| power.clamp(-400, 400));
                     break;

@@ -109,6 +109,10 @@ impl Reading {
         let [of_positions, of_heights] = match (lateral_unit, height_unit, options.height_unit) {
             (None, Some(_), None) => [options.unit, None],
             (Some(_), None, None) => [None, options.unit],
+            // Distances of a grid are lengths, such as 500 nm, whatever the unit of the heights is.
+            (Some(_), Some(_), None) if self.positions.is_none() && options.unit == height_unit => {
+                [None, options.unit]
+            }
             (_, _, of_heights) => [options.unit, of_heights.or(options.unit)],
         };
         let height_unit = unit("heights", height_unit, of_heights, options.convention, lateral_unit)?;

@@ -1,4 +1,6 @@
-//! Cells of a line of text: separators and decimal marks.
+//! Cells of a line of text: separators, decimal marks and marks that separate thousands.
+
+use super::super::{Place, TopographyError, refused};
 
 /// Characters that begin a comment.
 pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
@@ -43,13 +45,14 @@ fn outside_quotes() -> impl FnMut(char) -> bool {
     }
 }
 
-/// Returns true for two or more words that are numbers, at least one with a comma inside and none with a point.
+/// Returns true for two or more words that are numbers of one decimal mark with commas inside words alone.
 fn has_decimal_commas(line: &str) -> bool {
+    let mut decimal = Decimal::default();
     let is_number = |word: &str| {
         let inside = word.split_once(',').is_none_or(|(before, after)| {
             before.ends_with(|c: char| c.is_ascii_digit()) && after.starts_with(|c: char| c.is_ascii_digit())
         });
-        inside && !word.contains('.') && word.replacen(',', ".", 1).parse::<f64>().is_ok()
+        inside && matches!(decimal.read(word, Separator::SPACE), Cell::Number(_) | Cell::Missing)
     };
     line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
 }
@@ -61,7 +64,8 @@ pub enum Cell {
     Number(f64),
     /// A mark of a missing point, or an empty column.
     Missing,
-    /// A number with a decimal comma, in a text with decimal points, or the other way round.
+    /// A number with a decimal comma, in a text with decimal points, or the other way round; a comma in a cell between commas
+    /// that may be a decimal mark or separate thousands.
     OtherMark,
     /// Text that is no number.
     NoNumber,
@@ -70,9 +74,24 @@ pub enum Cell {
 /// Marks of missing points, besides an empty column and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Decimal mark of a text, determined by the first one read.
+/// Numbers that a text may have, for a message on a cell with [`Cell::OtherMark`].
+pub const ONE_MARK: &str = "one decimal mark throughout; spaces or apostrophes may separate thousands";
+
+/// Characters that separate thousands; a comma or a point may also be a decimal mark.
+const GROUPING: [char; 8] = [',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}'];
+
+/// Marks of the numbers of a text, determined by the first ones read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Decimal(Option<char>);
+pub struct Decimal {
+    /// Decimal mark.
+    mark: Option<char>,
+    /// Comma or point that separates thousands, known from a number with both marks, as `1,234.5`, or with two groups, as
+    /// `1,234,567`.
+    group: Option<char>,
+    /// True after a number whose comma cannot separate thousands, as `0,5`, and after a number without a mark.
+    is_certain: bool,
+    has_whole: bool,
+}
 
 impl Decimal {
     /// Reads a cell; the first decimal mark of a text holds for all its numbers.
@@ -81,26 +100,84 @@ impl Decimal {
         if cell.contains('\u{2212}') {
             return self.read(&cell.replace('\u{2212}', "-"), separator);
         }
-        let (value, mark) = if let Ok(value) = cell.parse::<f64>() {
+        let parsed = cell.parse::<f64>();
+        if (parsed.is_err() || self.group == Some('.'))
+            && let Some((ungrouped, mark)) = ungrouped(cell, self.group)
+        {
+            let mark = mark.filter(|mark| [',', '.'].contains(mark));
+            if mark.is_some() && mark == self.mark {
+                return Cell::OtherMark;
+            }
+            self.group = self.group.or(mark);
+            return self.read(&ungrouped, separator);
+        }
+        let (value, mark) = if let Ok(value) = parsed {
             (value, cell.contains('.').then_some('.'))
         } else if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
             return Cell::Missing;
-        } else if separator == Separator(',') || cell.contains('.') {
+        } else if separator == Separator(',') {
+            return if may_be_grouped(cell) { Cell::OtherMark } else { Cell::NoNumber };
+        } else if cell.contains('.') {
             return Cell::NoNumber;
         } else {
             let Ok(value) = cell.replacen(',', ".", 1).parse() else { return Cell::NoNumber };
+            self.is_certain = self.is_certain || !may_be_grouped(cell);
             (value, Some(','))
         };
         if value.is_nan() {
             return Cell::Missing;
         }
-        match (self.0, mark) {
-            (Some(found), Some(mark)) if found != mark => return Cell::OtherMark,
-            (None, mark) => self.0 = mark,
-            _ => {}
+        if mark.is_some() && (mark == self.group || self.mark.is_some_and(|found| mark != Some(found))) {
+            return Cell::OtherMark;
         }
+        self.mark = self.mark.or(mark);
+        self.has_whole |= mark.is_none();
         Cell::Number(value)
     }
+
+    /// Returns an error if each comma of the numbers read may be a decimal mark or separate thousands: all have three digits
+    /// behind the comma, and others have no comma.
+    pub fn check(&self) -> Result<(), TopographyError> {
+        if self.mark == Some(',') && self.has_whole && !self.is_certain {
+            let fault = "each comma in a number may be a decimal mark or separate thousands, as in 1,234";
+            return Err(refused(
+                Place::File,
+                fault,
+                "numbers with decimal points, or without separators of thousands",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Returns true for a number such as `1,234`, whose comma may separate thousands.
+fn may_be_grouped(cell: &str) -> bool {
+    ungrouped(cell, Some(',')).is_some_and(|(_, mark)| mark == Some(','))
+}
+
+/// A number without the marks that separate its thousands, and this mark. A single comma or point is such a mark where it is
+/// the one that is `known`, or where a decimal mark follows.
+fn ungrouped(cell: &str, known: Option<char>) -> Option<(String, Option<char>)> {
+    let unsigned = cell.trim_start_matches(['+', '-']);
+    let mark = unsigned.chars().find(|c| !c.is_ascii_digit()).filter(|mark| GROUPING.contains(mark))?;
+    let (first, mut rest) = unsigned.split_once(mark)?;
+    if !(1..=3).contains(&first.len()) || first.starts_with('0') {
+        return None;
+    }
+    let (mut digits, mut groups) = (cell[..cell.len() - unsigned.len()].to_owned() + first, 0);
+    loop {
+        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        if end != 3 {
+            return None;
+        }
+        digits += &rest[..end];
+        (rest, groups) = (&rest[end..], groups + 1);
+        let Some(next) = rest.strip_prefix(mark) else { break };
+        rest = next;
+    }
+    let has_decimals = rest.starts_with([',', '.']);
+    let is_group = has_decimals || groups > 1 || ![',', '.'].contains(&mark) || known == Some(mark);
+    is_group.then(|| (digits + rest, Some(mark)))
 }
 
 #[cfg(test)]
@@ -128,16 +205,62 @@ mod tests {
             ("0,5\t-1,25E+2", vec![Number(0.5), Number(-125.0)]),
             ("0,5; 1.25", vec![Number(0.5), OtherMark]),
             ("0.5;1,25", vec![Number(0.5), OtherMark]),
-            ("1,234.5;2", vec![NoNumber, Number(2.0)]),
+            ("1.2,34;2", vec![NoNumber, Number(2.0)]),
             ("1;;NaN;bad;x", vec![Number(1.0), Missing, Missing, Missing, NoNumber]),
             ("1,,2", vec![Number(1.0), Missing, Number(2.0)]),
             ("12", vec![Number(12.0)]),
             ("\"0.5\",\"-1.25\"", vec![Number(0.5), Number(-1.25)]),
             ("\"0,5\";\" 1,25 \";\"\"", vec![Number(0.5), Number(1.25), Missing]),
             ("\"0,5\" \"1,25\"", vec![Number(0.5), Number(1.25)]),
-            ("\"1,234\",\"5\"", vec![NoNumber, Number(5.0)]),
+            ("\"1,234\",\"5\"", vec![OtherMark, Number(5.0)]),
+            ("\"0,5\",\"5\"", vec![NoNumber, Number(5.0)]),
         ] {
             assert_eq!(read(line), expected, "{line}");
+        }
+    }
+
+    /// A mark that may be a decimal mark separates thousands where it cannot be one.
+    #[test]
+    fn thousands_are_separated_where_no_mark_is_doubtful() {
+        use Cell::{NoNumber, Number, OtherMark};
+        for (line, expected) in [
+            ("1,234.5;-2,345,678;1,234", vec![Number(1234.5), Number(-2345678.0), Number(1234.0)]),
+            ("1.234,5;2.345;0,5", vec![Number(1234.5), Number(2345.0), Number(0.5)]),
+            ("1'234.5\t2\u{2019}345\t0.5", vec![Number(1234.5), Number(2345.0), Number(0.5)]),
+            ("1 234,5;\u{2212}12 345 678e-3;0,5", vec![Number(1234.5), Number(-12345.678), Number(0.5)]),
+            ("1\u{a0}234.5 2\u{202f}345.5", vec![Number(1234.5), Number(2345.5)]),
+            ("1,234.5 999.5", vec![Number(1234.5), Number(999.5)]),
+            ("\"1,234.5\",\"2,345\"", vec![Number(1234.5), Number(2345.0)]),
+            // A decimal mark that was found before or is found behind it.
+            ("0.5;1,234", vec![Number(0.5), OtherMark]),
+            ("1,234;1,234.5", vec![Number(1.234), OtherMark]),
+            ("1,234.5;0,5", vec![Number(1234.5), OtherMark]),
+            // Groups of other lengths.
+            ("1 23;1,2345.6;0,123.4;1234,567.8;1,234,56", vec![NoNumber; 5]),
+        ] {
+            assert_eq!(read(line), expected, "{line}");
+        }
+    }
+
+    /// `1,234` among numbers without a comma is 1.234 or 1234.
+    #[test]
+    fn doubtful_commas_are_refused() {
+        for (line, is_doubtful) in [
+            ("999;1,234", true),
+            ("999;-1,234;5;2,345", true),
+            // Numbers of three decimals throughout, and commas that can only be decimal marks.
+            ("1,234;2,345", false),
+            ("999;1,234;0,123", false),
+            ("999;1,234;2,5", false),
+            ("999;1.234", false),
+            ("999;1,234.5", false),
+        ] {
+            let separator = Separator::of(line);
+            let mut decimal = Decimal::default();
+            separator
+                .split(line)
+                .for_each(|cell| assert!(matches!(decimal.read(cell, separator), Cell::Number(_))));
+            assert_eq!(decimal.check().is_err(), is_doubtful, "{line}");
         }
     }
 }

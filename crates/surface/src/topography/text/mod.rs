@@ -184,6 +184,7 @@ fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, Topograp
 
 #[cfg(test)]
 mod tests {
+    use super::super::reading::ReadOptions;
     use super::*;
 
     fn text(text: &str) -> Result<Reading, String> {
@@ -375,6 +376,18 @@ mod tests {
         assert_eq!(
             (found.columns, found.spacing, units(&found)),
             (4, Some([5e-7; 2]), [Some("m"), Some("µm")])
+        );
+        // The distance has a unit of its own, so that the option is that of the heights.
+        let with = |unit: &str| {
+            let options = ReadOptions { unit: unit.parse().ok(), ..ReadOptions::default() };
+            let found = read(keyence.as_bytes(), None).unwrap().resolve(&options);
+            found.map(|map| (map.heights[0], map.spacing().unwrap())).map_err(|error| error.to_string())
+        };
+        assert_eq!(with("um"), Ok((1e-6, [5e-7; 2])));
+        assert!(
+            with("nm")
+                .unwrap_err()
+                .starts_with("the file states µm as the unit of heights, the options state nm")
         );
         let cut = keyence.replace("\"5\"", "5").replacen("4\"", "5\"", 1);
         assert_eq!(

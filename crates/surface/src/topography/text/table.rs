@@ -7,7 +7,7 @@ use super::super::surface::LARGEST;
 use super::super::{Place, TopographyError, refused, shown};
 use super::columns::{List, list_of};
 use super::header::{Column, Header, Role};
-use super::layout::{Cell, Decimal, Separator};
+use super::layout::{Cell, Decimal, ONE_MARK, Separator};
 use super::{matrix, warnings};
 use asperity_data::{gathered, push, reserve};
 use std::ops::Range;
@@ -207,7 +207,7 @@ impl Table {
             Cell::Missing => return Ok(f64::NAN),
             Cell::OtherMark => {
                 let fault = format!("{} has another decimal mark than the numbers before", quoted());
-                (fault, "one decimal mark throughout".to_owned())
+                (fault, ONE_MARK.to_owned())
             }
             Cell::Number(_) | Cell::NoNumber => {
                 (quoted(), format!("a number from -{LARGEST:e} to {LARGEST:e}"))
@@ -238,6 +238,7 @@ impl Table {
         rows: Range<usize>,
         is_open: bool,
     ) -> Result<Reading, TopographyError> {
+        self.decimal.check()?;
         let cells = self.cells;
         if rows.len() < self.rows() {
             self.values.truncate(rows.end * cells);
