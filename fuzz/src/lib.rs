@@ -3,12 +3,14 @@
 //! The targets of cargo-fuzz call them with generated inputs; `tests/fuzz/main.rs` includes this file and calls them
 //! with the seeds, with the findings, and with mutations of both.
 
+mod curve;
 mod overrides;
 mod profile;
 mod quantity;
 mod scene;
 mod surface;
 
+pub use curve::curve;
 pub use overrides::overrides;
 pub use profile::profile;
 pub use quantity::quantity;
@@ -28,6 +30,7 @@ pub const TARGETS: &[(&str, Property)] = &[
     ("quantity", quantity),
     ("profile", profile),
     ("surface", surface),
+    ("curve", curve),
 ];
 
 /// Longest line of a message, in characters: names, values and the words of the field, none of them endless.

@@ -81,7 +81,7 @@ macro_rules! targets {
     };
 }
 
-targets!(scene overrides quantity profile surface);
+targets!(scene overrides quantity profile surface curve);
 
 /// A property that cannot fail proves nothing.
 #[test]

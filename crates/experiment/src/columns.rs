@@ -43,6 +43,8 @@ const OF_ROW: f64 = 1e-9;
 /// Option that helps if the columns are not recognised.
 const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
     beside its approach, such as --columns 1,2,1,3";
+/// What else a file without names and units needs.
+const UNITS: &str = "; with it --units, such as --units nm,nN, since the file states no units";
 
 /// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
 #[derive(Clone, Copy, Debug)]
@@ -82,8 +84,11 @@ impl Choice {
         stated: Stated<'_>,
         options: &CurveOptions,
     ) -> Result<Self, TopographyError> {
-        let wrong = |fault: String| refused(Place::File, fault, COLUMNS);
         let count = columns.len();
+        let is_unnamed = columns.iter().all(|column| column.name.is_empty());
+        let has_units = !options.units.is_empty() || columns.iter().any(|column| column.unit.is_some());
+        let units = if is_unnamed && !has_units { UNITS } else { "" };
+        let wrong = |fault: String| refused(Place::File, fault, COLUMNS.to_owned() + units);
         let names = columns.iter().map(|column| &*column.name).filter(|name| !name.is_empty());
         let all = match &*names.map(shown).collect::<Vec<_>>().join(", ") {
             "" => format!("{count} columns without names"),
@@ -99,7 +104,6 @@ impl Choice {
             let place = found.or_else(|| Some(number()? - 1));
             place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
         };
-        let is_unnamed = columns.iter().all(|column| column.name.is_empty());
         let is_unknown = !named.iter().any(|one| QUANTITIES.iter().any(|row| is_one_of(&one.rest, row.3)));
         let ramp = options.ramp.or(stated.metadata.ramp).filter(|_| count == 1);
         if count == 1 && ramp.is_none() {

@@ -11,6 +11,7 @@ use crate::zero::FreeParts;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
 use asperity_data::mean;
+use asperity_surface::content;
 use std::path::Path;
 
 /// Largest number of points that a fit uses; of more points, neighbours are averaged.
@@ -65,12 +66,21 @@ impl MeasuredCurve {
     /// # Errors
     /// The file cannot be read, or the curve lacks a part before contact, a contact or a turning point.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
-        MeasuredCurve::prepare(Columns::read(path, options)?, options)
+        MeasuredCurve::parse(path, &content(path)?, options)
+    }
+
+    /// Reads a curve from the content of a file; the name of the file identifies formats that are no text.
+    ///
+    /// # Errors
+    /// As [`MeasuredCurve::read`].
+    pub fn parse(name: &Path, bytes: &[u8], options: &CurveOptions) -> Result<Self, ExperimentError> {
+        MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
     }
 
     /// Returns true if a file has displacements and forces, whether or not they are used as a curve.
     pub fn is_in(path: &Path) -> bool {
-        Columns::read(path, &CurveOptions::default()).is_ok_and(|columns| !columns.force.is_empty())
+        let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
+        content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
     }
 
     fn prepare(columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {

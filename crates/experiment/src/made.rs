@@ -12,6 +12,7 @@ use asperity_scene::{Adhesion, Document, Material, Scene, open};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
+use std::path::Path;
 
 /// Scene and disturbances from which a test curve is made.
 pub(crate) struct Made {
@@ -88,10 +89,7 @@ pub(crate) fn read(points: impl Iterator<Item = (f64, f64)>, drift: Drift) -> Me
 }
 
 pub(crate) fn from_bytes(content: &[u8], options: &CurveOptions) -> Result<MeasuredCurve, String> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("curve");
-    std::fs::write(&path, content).unwrap();
-    MeasuredCurve::read(&path, options).map_err(|error| error.to_string())
+    MeasuredCurve::parse(Path::new("curve"), content, options).map_err(|error| error.to_string())
 }
 
 pub(crate) fn from_text(text: &str, options: &CurveOptions) -> Result<MeasuredCurve, String> {

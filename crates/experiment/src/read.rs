@@ -9,8 +9,8 @@ use crate::options::CurveOptions;
 use crate::segment::Label;
 use crate::text::{Above, Shape, beginning, is_comment, segment_of};
 use asperity_data::{PROVENANCE, grouped, npy};
-use asperity_surface::{Cell, Column, Decimal, each_text};
-use asperity_surface::{Place, TopographyError, columns as npy_columns, content, refused, shown, unpacked};
+use asperity_surface::{Cell, Column, Decimal, ONE_MARK, each_text};
+use asperity_surface::{Place, TopographyError, columns as npy_columns, refused, shown, unpacked};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -47,12 +47,12 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
-        let bytes = content(path)?;
-        let bytes = unpacked(&bytes)?;
+    /// Reads the content of a file, which may be compressed by gzip; the name identifies formats that are no text.
+    pub fn parse(name: &Path, bytes: &[u8], options: &CurveOptions) -> Result<Self, ExperimentError> {
+        let bytes = unpacked(bytes)?;
         let is_array = bytes.starts_with(npy::SIGNATURE);
         if !is_array {
-            check_is_text(path, &bytes)?;
+            check_is_text(name, &bytes)?;
         }
         let parts = if is_array { of_array(&bytes, options)? } else { of_text(&bytes, options)? };
         let columns = Columns::joined(parts);
@@ -304,6 +304,7 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogra
         let value = |column: usize| number_in(cells[column], column, &shape, &mut decimal, &place);
         points.take(&place, value, |column| cells[column].into())
     })?;
+    decimal.check()?;
     let mut parts = points.map_or_else(Vec::new, Points::finished);
     if let Some(first) = parts.first_mut().filter(|_| above.has_merged()) {
         first.missing += 1;
@@ -326,9 +327,8 @@ fn number_in(
         }
         Cell::Number(value) => return Ok(value),
         Cell::Missing => return Ok(f64::NAN),
-        Cell::OtherMark | Cell::NoNumber => {
-            ("not a number", "numbers of one decimal mark, NaN for a missing value")
-        }
+        Cell::OtherMark => ("a number with another decimal mark than the numbers before", ONE_MARK),
+        Cell::NoNumber => ("not a number", "numbers of one decimal mark, NaN for a missing value"),
     };
     Err(refused(place.clone(), format!("column {}: {:?} is {fault}", column + 1, shown(cell)), allowed))
 }
