@@ -35,7 +35,7 @@ pub struct FittedParameter {
     pub parameter: Parameter,
     /// Value of the smallest residuals; all values are in the SI unit of the parameter.
     pub value: f64,
-    /// Ends of the 95 % interval.
+    /// Ends of the 95 % interval; the whole range where the profile is random and the model does not describe the curve.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
     /// Standard error due to the noise.
@@ -72,8 +72,8 @@ pub struct Fit {
     pub residual_over_noise: f64,
     /// Share of the points whose residual exceeds 5 times the noise.
     pub beyond_five_sigma: f64,
-    /// Root mean square residual of the points in contact over the noise; single points on the wrong side of a jump count
-    /// as 5 times that root mean square.
+    /// Root mean square residual of the points in contact over the noise; points inside a jump of the model count as
+    /// described, and other single points count as 5 times that root mean square.
     pub misfit: f64,
     /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve as well.
     #[serde(skip)]
@@ -113,6 +113,12 @@ impl Fit {
     pub fn describes(&self) -> bool {
         self.misfit <= MISFIT
     }
+
+    /// Returns true if the model does not describe the curve and the profile of the scene is random: the specimen has another
+    /// one, and the values found say nothing about it.
+    pub fn has_other_profile(&self) -> bool {
+        !self.describes() && self.document.scene().seed().is_some()
+    }
 }
 
 /// Fits parameters of a scene to a curve. `stop` is polled before each computed curve, and `report` receives the number of
@@ -131,7 +137,8 @@ pub fn fit(
     let mut simulation = Simulation::new(document.resolve(""));
     let instrument = curve.with_instrument(document).map_err(wrong)?.1;
     let (document, space) = Space::of(curve, document, &mut simulation, free, stop)?;
-    let (found, rests, evaluations) = searched(curve, &document, &mut simulation, &space, report)?;
+    let Searched { found, rests, misfit, evaluations } =
+        searched(curve, &document, &mut simulation, &space, report)?;
     let values = space.values(&found.best.at);
     let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
         samples.iter().map(|at| space.values(at)[one.parameter as usize]).collect()
@@ -140,6 +147,7 @@ pub fn fit(
     let correlation_factor = correlated(&found.rests);
     let mut samples = found.samples.clone();
     widen(&mut samples, correlation_factor.sqrt());
+    let has_other_profile = misfit > MISFIT && document.scene().seed().is_some();
     let is_without_adhesion = found.without_adhesion < 0.5 * NORMAL * NORMAL * correlation_factor;
     let fitted = |one: &Coordinate| {
         let of = |values: &Values| values[one.parameter as usize];
@@ -150,7 +158,8 @@ pub fn fit(
         let is_bound = one.parameter == Parameter::Work && is_without_adhesion;
         let low = if is_bound { 0.0 } else { low.min(value - half).max(least) };
         let Coordinate { parameter, start, range, .. } = *one;
-        let interval = (low, high.max(value + half));
+        let is_unknown = has_other_profile && !parameter.is_signed();
+        let interval = if is_unknown { range } else { (low, high.max(value + half)) };
         FittedParameter { parameter, start, range, value, interval, noise_error }
     };
     let parameters: Vec<FittedParameter> = space.coordinates.iter().map(fitted).collect();
@@ -180,7 +189,6 @@ pub fn fit(
     let found = with_values(&document, &values, |parameter| free.contains(&parameter), curve)?;
     let (_, governing) = simulation.contact(found.scene())?;
     let tabor = scene_tabor_number(found.scene(), &governing);
-    let misfit = space.misfit(&rests);
     let reason =
         (misfit > MISFIT).then(|| reason(curve, found.scene(), &mut simulation, (&values, &free), tabor));
     let residual_over_noise = (dot(&rests, &rests) / rests.len() as f64).sqrt();
@@ -203,16 +211,24 @@ pub fn fit(
     })
 }
 
-/// The result of the search, the residuals of all points of the curve, and the number of curves computed. If the residuals
-/// of a part of the points are no noise, the search uses these points alone: more of them would not average the residuals
-/// out.
+/// The result of the search, with the residuals of all points of the curve, their [`Fit::misfit`], and the number of curves
+/// computed.
+struct Searched {
+    found: Found,
+    rests: Vec<f64>,
+    misfit: f64,
+    evaluations: usize,
+}
+
+/// Searches the parameters. If the residuals of a part of the points are no noise, the search uses these points alone: more of
+/// them would not average the residuals out.
 fn searched(
     curve: &MeasuredCurve,
     document: &Document,
     simulation: &mut Simulation,
     space: &Space<'_>,
     report: &mut dyn FnMut(usize),
-) -> Result<(Found, Vec<f64>, usize), ExperimentError> {
+) -> Result<Searched, ExperimentError> {
     let (mut found, mut computed) = (None, 0);
     if let Some(part) = curve.thinned(ENOUGH) {
         let space = Space { curve: &part, ..space.clone() };
@@ -229,8 +245,9 @@ fn searched(
     let mut search = Search { space, model, report: &mut count, lines: space.lines() };
     let found = found.map_or_else(|| search.find(), Ok)?;
     let rests = search.rests(&found.best.at, WRONG_SIDE * found.noise)?;
+    let misfit = space.misfit(&search.eased(&found.best.at, &rests)?);
     let evaluations = computed + search.model.evaluations;
-    Ok((found, rests, evaluations))
+    Ok(Searched { found, rests, misfit, evaluations })
 }
 
 #[cfg(test)]
@@ -277,6 +294,48 @@ mod tests {
         let scene = fit.document.scene();
         assert_eq!(scene.adhesion.unwrap().work(), Some(work));
         assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
+    }
+
+    /// A point in the middle of the jump at pull-off changes neither the fit nor the number of curves computed for it; as far
+    /// from the model elsewhere, points are a misfit.
+    #[test]
+    fn a_point_inside_a_jump_counts_as_described() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let clean = fitted(&curve, &made, "work,modulus,offset");
+        let rise = |index: &usize| curve.force[*index] - curve.force[index - 1];
+        let retraction = curve.segment.partition_point(|segment| *segment == 0) + 1;
+        let jump = (retraction..1000).max_by(|one, other| rise(one).total_cmp(&rise(other))).unwrap();
+        let half = 0.5 * rise(&jump);
+        assert!(half > 10.0 * curve.noise, "{half:e} {:e}", curve.noise);
+        let with = |points: &[usize]| {
+            let mut curve = curve.clone();
+            points.iter().for_each(|index| curve.force[*index] -= half);
+            fitted(&curve, &made, "work,modulus,offset")
+        };
+        let inside = with(&[jump]);
+        assert!(inside.describes() && inside.misfit < 1.02 * clean.misfit, "{inside:?}");
+        assert!(
+            inside.beyond_five_sigma > 0.0 && inside.evaluations < clean.evaluations * 5 / 4,
+            "{inside:?}"
+        );
+        let apart: Vec<usize> = (1..11).map(|step| jump - 10 * step).collect();
+        assert!(with(&apart).misfit > 1.2 * clean.misfit);
+    }
+
+    /// The profile of a specimen is not the random one of the scene: no interval excludes the truth, and the reason says so.
+    #[test]
+    fn another_random_profile_has_the_whole_range_as_interval() {
+        let mut made = random(13, 1024);
+        let curve = measured(&made, 13);
+        made.scene.set_seed(99);
+        let fit = fitted(&curve, &made, "work,modulus,offset");
+        assert!(fit.has_other_profile() && fit.reason == Some(Reason::OtherProfile), "{:?}", fit.reason);
+        for one in &fit.parameters[..2] {
+            assert_eq!(one.interval, one.range);
+            let truth = truth(&made, one.parameter);
+            assert!(one.interval.0 < truth && truth < one.interval.1, "{one:?}");
+        }
     }
 
     /// For any start the upper bound of the work of adhesion is at most a few times the work that the noise hides, γ =

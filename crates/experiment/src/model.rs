@@ -1,5 +1,6 @@
 //! The force of a scene at the measured displacements, for any values of its parameters.
 
+use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::parameter::{Parameter, Values};
@@ -8,6 +9,7 @@ use asperity_scene::Scene;
 use asperity_scene::Simulation;
 use asperity_scene::{DisplacementCurve, DisplacementPoint};
 use asperity_surface::Form;
+use std::ops::Range;
 
 /// Number of points of the force curve of each segment besides points at jumps, and number of points of a coarse force curve.
 const SAMPLES: usize = 128;
@@ -74,15 +76,61 @@ impl<'a> Model<'a> {
     /// Computes the forces at the points of the curve, N.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
+        let (curve, zero) = (self.curve, values[Parameter::Zero as usize]);
+        let mut forces = Vec::with_capacity(curve.force.len());
+        self.each_segment(values, |segment, points, offset| {
+            let at = |displacement: &f64| force_at(segment, displacement - offset);
+            forces.extend(curve.displacement[points].iter().map(|displacement| zero + at(displacement)));
+        })?;
+        Ok(forces)
+    }
+
+    /// For each point of the curve the forces, N, between which the model jumps not further away than the neighbours of the
+    /// point, less the force of the model at the point; `None` without a jump of at least `least`, N.
+    pub fn jumps(&mut self, values: &Values, least: f64) -> Result<Vec<Option<[f64; 2]>>, ExperimentError> {
+        self.evaluations += 1;
+        let curve = self.curve;
+        let mut all = vec![None; curve.force.len()];
+        self.each_segment(values, |segment, points, offset| {
+            let jump = |[one, other]: [DisplacementPoint; 2]| (one.displacement, [one.force, other.force]);
+            // Where the body is separated beyond an end of the segment, it jumps there.
+            let (first, last) = (segment.points().first(), segment.points().last());
+            let beyond = [first, last].into_iter().flatten().map(|end| {
+                let free = [f64::next_up, f64::next_down].map(|to| segment.at(to(end.displacement)));
+                let free = free.into_iter().flatten().find(|point| point.force == 0.0);
+                (end.displacement, [end.force, free.map_or(end.force, |point| point.force)])
+            });
+            let jumps = segment.jumps().map(|ends| jump([ends[0], ends[1]])).chain(beyond);
+            let jumps: Vec<_> = jumps.filter(|(_, ends)| (ends[1] - ends[0]).abs() >= least).collect();
+            let place = |index: usize| curve.displacement[index] - offset;
+            for index in points.clone() {
+                let (before, after) = (index.max(points.start + 1) - 1, (index + 2).min(points.end) - 1);
+                let (low, high) = (place(before).min(place(after)), place(before).max(place(after)));
+                let force = force_at(segment, place(index));
+                let near = jumps.iter().filter(|(at, _)| (low..=high).contains(at));
+                let (low, high) =
+                    ends(near.flat_map(|(_, forces)| *forces).map(|at| at - force).chain([0.0]));
+                all[index] = (low < high).then_some([low, high]);
+            }
+        })?;
+        Ok(all)
+    }
+
+    /// Computes the curve of each segment, and calls `take` with it, the range of its points in the measured curve, and the
+    /// displacement at first touch.
+    fn each_segment(
+        &mut self,
+        values: &Values,
+        mut take: impl FnMut(&DisplacementCurve, Range<usize>, f64),
+    ) -> Result<(), ExperimentError> {
         let contact = self.contact(values)?;
-        let [offset, zero, stiffness] =
-            [Parameter::Offset, Parameter::Zero, Parameter::Stiffness].map(|one| values[one as usize]);
+        let [offset, stiffness] = [Parameter::Offset, Parameter::Stiffness].map(|one| values[one as usize]);
         let sampling = Sampling {
             stiffness,
             points: if self.noise > 1.0 { FEW } else { SAMPLES },
             least_jump: NOTABLE * self.noise * self.curve.noise,
         };
-        let mut forces = Vec::with_capacity(self.curve.force.len());
+        let mut begin = 0;
         // Leg and indentation of the body, m, while it touches.
         let mut here: Option<(Leg, f64)> = None;
         for (number, turn) in self.curve.turns.iter().enumerate() {
@@ -97,23 +145,27 @@ impl<'a> Model<'a> {
                 Some(leg) => sampling.pull(leg, from.unwrap_or_default())?,
                 None => DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness),
             };
-            let ends = [curve.points().first(), curve.points().last()].into_iter().flatten().copied();
-            // Beyond the ends of a segment, by the noise of the displacement, the force is that of the end.
-            let at = |displacement: f64| {
-                let place = displacement - offset;
-                let away = |point: &DisplacementPoint| (point.displacement - place).abs();
-                let nearest = || ends.clone().min_by(|one, other| away(one).total_cmp(&away(other)));
-                curve.at(place).or_else(nearest)
-            };
             let end = self.curve.segment.partition_point(|segment| *segment <= number);
-            let places = &self.curve.displacement[forces.len()..end];
-            forces.extend(places.iter().map(|&place| zero + at(place).map_or(0.0, |point| point.force)));
-            let at = at(*turn).map_or(0.0, |point| point.indentation);
+            take(&curve, begin..end, offset);
+            begin = end;
+            let at = nearest(&curve, turn - offset).map_or(0.0, |point| point.indentation);
             let is_apart = |leg: &Leg| leg.direction() == Direction::Unloading && at < leg.end();
             here = leg.filter(|leg| !is_apart(leg)).map(|leg| (leg, at));
         }
-        Ok(forces)
+        Ok(())
     }
+}
+
+/// The point of a segment at a displacement, m. Beyond the ends of the segment, by the noise of the displacement, it is the
+/// end.
+fn nearest(segment: &DisplacementCurve, at: f64) -> Option<DisplacementPoint> {
+    let away = |point: &DisplacementPoint| (point.displacement - at).abs();
+    let ends = || [segment.points().first(), segment.points().last()].into_iter().flatten().copied();
+    segment.at(at).or_else(|| ends().min_by(|one, other| away(one).total_cmp(&away(other))))
+}
+
+fn force_at(segment: &DisplacementCurve, at: f64) -> f64 {
+    nearest(segment, at).map_or(0.0, |point| point.force)
 }
 
 impl Sampling {

@@ -2,6 +2,8 @@
 
 /// Share of different members from which on the extent of a population is meaningful.
 const DISTINCT: f64 = 0.5;
+/// Share of different members from which on the copies of a step have moved apart.
+const MOVED: f64 = 0.8;
 /// Residual, in units of the noise, beyond which a point counts less, since it is on the wrong side of a jump.
 pub(crate) const WRONG_SIDE: f64 = 5.0;
 
@@ -33,6 +35,11 @@ impl Population {
     pub fn distinct(&self) -> usize {
         let is_copy = |index: usize| self.members[..index].iter().any(|one| one.at == self.members[index].at);
         (0..self.members.len()).filter(|&index| !is_copy(index)).count()
+    }
+
+    /// Returns true once few members are copies that have not moved, so that the next step can be taken.
+    pub fn has_moved(&self) -> bool {
+        self.distinct() as f64 >= MOVED * self.members.len() as f64
     }
 
     /// Returns false if most members are copies, so that the extent of the population means nothing.

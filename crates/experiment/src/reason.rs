@@ -78,6 +78,12 @@ pub enum Reason {
         format_quantity(*.0, "1")
     )]
     TaborNumber(f64),
+    /// The profile of the scene is random, and the specimen has another one.
+    #[error(
+        "The profile of the scene is one of many random ones, and the specimen has another one: --lines compares the curve with \
+         many of them."
+    )]
+    OtherProfile,
     /// Approach and retraction differ: viscoelasticity, or two works of adhesion.
     #[error(
         "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
@@ -155,6 +161,9 @@ pub(crate) fn reason(
     let slope = slope_when_pressed(curve);
     if is_stated && slope > STEEPER * stiffness {
         return Ok(Reason::Stiffness(slope));
+    }
+    if scene.seed().is_some() {
+        return Ok(Reason::OtherProfile);
     }
     if curve.segment.first() != curve.segment.last()
         && branches_differ(curve, &mut model, (values, free), (&forces, rests, lines))?

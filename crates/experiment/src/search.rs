@@ -28,7 +28,7 @@ const MEMBERS: usize = 24;
 const FOR_EACH: usize = 8;
 /// Share of the members that still count after a step of the noise.
 const EFFECTIVE: f64 = 0.3;
-/// Number of moves of the population at each step, and number of moves at the end, after each of which all members become
+/// Largest number of moves of the population at each step, and number of moves at the end, after each of which all members become
 /// samples.
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
@@ -122,6 +122,19 @@ impl Search<'_> {
         Ok(self.refined(&member.rests, limit))
     }
 
+    /// Residuals in which points inside a jump count as described: a residual beyond [`WRONG_SIDE`] becomes the distance from
+    /// the forces between which the model jumps, if it does so within one point.
+    pub fn eased(&mut self, at: &[f64], rests: &[f64]) -> Result<Vec<f64>, ExperimentError> {
+        let noise = self.space.curve.noise;
+        self.model.noise = 1.0;
+        let jumps = self.model.jumps(&self.space.values(at), WRONG_SIDE * noise)?;
+        let ease = |(rest, jump): (&f64, Option<[f64; 2]>)| match jump {
+            Some([low, high]) if rest.abs() > WRONG_SIDE => rest - rest.clamp(low / noise, high / noise),
+            _ => *rest,
+        };
+        Ok(rests.iter().zip(jumps).map(ease).collect())
+    }
+
     /// Residual in contact in units of the noise of the curve, see [`Space::misfit`], after a fit of the lines at this noise.
     fn misfit(&self, member: &Member, noise: f64) -> f64 {
         self.space.misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
@@ -190,7 +203,10 @@ impl Search<'_> {
         self.model.noise = 1.0;
         let start = self.member(self.space.start())?;
         for attempt in 1..ATTEMPTS {
-            let is_poor = self.cost(&population.best, 1.0) > EXPECTED * 0.5 * start.rests.len() as f64;
+            let rests = self.refined(&population.best.rests, WRONG_SIDE);
+            let rests = self.eased(&population.best.at, &rests)?;
+            let cost: f64 = rests.iter().map(|rest| loss(*rest)).sum();
+            let is_poor = cost > EXPECTED * 0.5 * rests.len() as f64;
             let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;
             let has_spread = population.has_spread();
             if has_spread && !has_missed && !is_poor {
@@ -290,6 +306,9 @@ impl Search<'_> {
             self.set_noise(&mut population, noise);
             for _ in 0..MOVES {
                 self.move_all(&mut population, generator)?;
+                if population.has_moved() {
+                    break;
+                }
             }
         }
     }

@@ -41,9 +41,14 @@ impl Report for FitReport<'_> {
         let mut sheet = Sheet::default();
         if let Some(reason) = &fit.reason {
             let times = format_quantity(fit.residual_over_noise, "1");
+            let intervals = if fit.has_other_profile() {
+                "are the whole ranges of the search, since each profile gives other values"
+            } else {
+                "are by the scatter over parts of the curve"
+            };
             sheet.paragraph(&format!(
                 "The model does not describe the curve: the residual is {times} times the noise. {reason} The intervals \
-                 are by the scatter over parts of the curve."
+                 {intervals}."
             ));
         }
         sheet.heading(&format!("Curve {title}"));
