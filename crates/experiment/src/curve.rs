@@ -69,7 +69,7 @@ impl MeasuredCurve {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
 
-    /// Reads a curve from the content of a file; the name of the file tells formats that are no text.
+    /// Reads a curve from the content of a file; the name of the file identifies formats that are no text.
     ///
     /// # Errors
     /// As [`MeasuredCurve::read`].

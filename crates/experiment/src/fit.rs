@@ -54,9 +54,10 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// A value of the parameter in words, with the digits that its interval determines.
+    /// A value of the parameter in words, with the digits that its interval determines, unless it is the whole range.
     pub fn text(&self, value: f64) -> String {
-        format_within(value, 0.5 * (self.interval.1 - self.interval.0), self.parameter.row().unit)
+        let half = 0.5 * (self.interval.1 - self.interval.0);
+        format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
     }
 }
 

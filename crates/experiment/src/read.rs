@@ -47,7 +47,7 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Reads the content of a file, which may be compressed by gzip; the name tells formats that are no text.
+    /// Reads the content of a file, which may be compressed by gzip; the name identifies formats that are no text.
     pub fn parse(name: &Path, bytes: &[u8], options: &CurveOptions) -> Result<Self, ExperimentError> {
         let bytes = unpacked(bytes)?;
         let is_array = bytes.starts_with(npy::SIGNATURE);
@@ -363,7 +363,15 @@ mod tests {
         assert!((expected.noise / 1e-10 - 1.0).abs() < 0.02, "{:e}", expected.noise);
         assert!((expected.force[300] / 1e-7 - 1.0).abs() < 0.01, "{:e}", expected.force[300]);
         assert_eq!(expected.turns.len(), 2);
+        // Thousands of pN, separated by this mark.
+        let thousands = |force: f64, mark: &str| {
+            let text = format!("{:.9}", 1e3 * force);
+            let at = text.find('.').unwrap_or(text.len()).saturating_sub(3);
+            if at == 0 { text } else { format!("{}{mark}{}", &text[..at], &text[at..]) }
+        };
         for (content, options) in [
+            (text("d [nm];f [pN]\n", |d, f| format!("{d};{}", thousands(f, ","))), plain()),
+            (text("d [nm]\tf [pN]\n", |d, f| format!("{d}\t{}", thousands(f, " "))), plain()),
             (text("x/nm;F/nN\n", |d, f| format!("{d};{f}")), columns(&["x", "f"])),
             (text("# columns: time height force\n# units: s nm nN\n", |d, f| format!("0 {d} {f}")), plain()),
             (text("", |d, f| format!("{d}\t{f}")), units(plain())),
@@ -442,9 +450,19 @@ mod tests {
                 "the force is a deflection in nm, and the file",
             ),
             ((lines(of_spring(600)), columns(&["1", "5"])), "2 columns displacement, force: none is \"5\""),
+            (
+                (
+                    text("d [nm];f [pN]\n", |d, f| format!("{d:.0};{:.0}", 1e3 * f)) + "5;1,234\n",
+                    columns(&[]),
+                ),
+                "each comma in a number may be a decimal mark or separate thousands",
+            ),
+            ((text("", |d, f| format!("{d}\t{f}\t{f}")), columns(&[])), "3 columns without names: none is"),
         ] {
             let error = from_text(&text, &options).expect_err(said);
             assert!(error.starts_with(said) && error.contains("allowed: "), "{said}: {error}");
+            // A file without names and units needs both options.
+            assert!(error.contains("; with it --units") == error.contains("without names"), "{error}");
         }
     }
 }

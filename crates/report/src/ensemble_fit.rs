@@ -88,9 +88,10 @@ impl Report for EnsembleFitReport<'_> {
             ));
         }
         if !has_roughness_errors {
-            sheet.paragraph(
-                "The interval leaves out errors of the roughness: --height-error, --hurst-error state them.",
-            );
+            let text = "The interval leaves out errors of the roughness";
+            // Those of a measured roughness cannot be stated.
+            let options = fit.roughness.map_or("", |_| ": --height-error, --hurst-error state them");
+            sheet.paragraph(&format!("{text}{options}."));
         }
         sheet.heading("Each curve alone");
         let header = ["curve", "pull-off", "loop area", "stiffness", "γ", "95 % interval"];
@@ -98,8 +99,9 @@ impl Report for EnsembleFitReport<'_> {
         sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
         let ends = fit.curves.iter().filter(|curve| curve.at_end_of_table).count();
         if ends > 0 {
+            let reach = if ends == 1 { "reaches" } else { "reach" };
             sheet.paragraph(&format!(
-                "{ends} of these intervals reach the end of the computed values, and may be wider."
+                "{ends} of these intervals {reach} the end of the computed values, and may be wider."
             ));
         }
         sheet.heading(&self.preloads());

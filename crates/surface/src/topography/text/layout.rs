@@ -75,7 +75,8 @@ pub enum Cell {
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
 /// Numbers that a text may have, for a message on a cell with [`Cell::OtherMark`].
-pub const ONE_MARK: &str = "one decimal mark throughout; spaces or apostrophes may separate thousands";
+pub const ONE_MARK: &str =
+    "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
 /// Characters that separate thousands; a comma or a point may also be a decimal mark.
 const GROUPING: [char; 8] = [',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}'];

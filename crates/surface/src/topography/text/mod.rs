@@ -184,7 +184,7 @@ fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, Topograp
 
 #[cfg(test)]
 mod tests {
-    use super::super::ReadOptions;
+    use super::super::reading::ReadOptions;
     use super::*;
 
     fn text(text: &str) -> Result<Reading, String> {
