@@ -135,11 +135,17 @@ pub fn fit(
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(usize),
 ) -> Result<Fit, ExperimentError> {
-    let mut simulation = Simulation::new(document.resolve(""));
-    let instrument = curve.with_instrument(document).map_err(wrong)?.1;
-    let (document, space) = Space::of(curve, document, &mut simulation, free, stop)?;
+    let given = document;
+    let mut simulation = Simulation::new(given.resolve(""));
+    let instrument = curve.with_instrument(given).map_err(wrong)?.1;
+    let (document, space) = Space::of(curve, given, &mut simulation, free, stop)?;
     let Searched { found, rests, misfit, evaluations } =
         searched(curve, &document, &mut simulation, &space, report)?;
+    if let Some(free) = space.extended(&found.best.at, free) {
+        let mut report = |computed: usize| report(evaluations + computed);
+        let fit = fit(curve, given, &free, stop, &mut report)?;
+        return Ok(Fit { evaluations: evaluations + fit.evaluations, ..fit });
+    }
     let values = space.values(&found.best.at);
     let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
         samples.iter().map(|at| space.values(at)[one.parameter as usize]).collect()
@@ -322,6 +328,23 @@ mod tests {
         );
         let apart: Vec<usize> = (1..11).map(|step| jump - 10 * step).collect();
         assert!(with(&apart).misfit > 1.2 * clean.misfit);
+    }
+
+    /// A rough sphere whose pull-off force is 50 times smaller than that of a smooth one.
+    #[test]
+    fn a_range_that_ends_below_the_work_of_adhesion_is_extended() {
+        let made = random(67, 4096);
+        let curve = measured(&made, 67);
+        let fit = fitted(&curve, &made, "work,offset");
+        let (work, truth) = (fit.parameters[0], truth(&made, Parameter::Work));
+        assert!(truth > 31.0 * work.start && work.range.1 > 800.0 * work.start, "{work:?}");
+        assert!(fit.describes() && work.interval.0 < truth && truth < work.interval.1, "{work:?} {truth:e}");
+        assert!((work.value / truth - 1.0).abs() < 0.02, "{work:?} {truth:e}");
+        let Free { parameter, .. } = "work".parse().unwrap();
+        let given = [Free { parameter, range: Some((0.0, 30.0 * work.start)) }, "offset".parse().unwrap()];
+        let document = Document::from_scene(&made.scene, "made").unwrap();
+        let bounded = super::fit(&curve, &document, &given, &|| false, &mut |_| ()).unwrap();
+        assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
     }
 
     /// The profile of a specimen is not the random one of the scene: no interval excludes the truth, and the reason says so.

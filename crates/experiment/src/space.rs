@@ -15,6 +15,9 @@ use std::ops::Range;
 
 /// Ratio between the start and the ends of a range that is not given.
 const FACTOR: f64 = 30.0;
+/// Share of a range within which a value is at its end.
+const AT_END: f64 = 0.01;
+
 /// The coordinates in which a scene is fitted, with the values of all other parameters.
 #[derive(Clone)]
 pub(crate) struct Space<'a> {
@@ -158,6 +161,18 @@ impl<'a> Space<'a> {
             }
         }
         values
+    }
+
+    /// The free parameters with a larger range of the work of adhesion, if its range was not given and ends at these
+    /// coordinates: rough bodies may be pulled off by a small part of the force of smooth ones.
+    pub fn extended(&self, at: &[f64], free: &[Free]) -> Option<Vec<Free>> {
+        let place = self.coordinates.iter().position(|one| one.parameter == Parameter::Work)?;
+        let (Coordinate { range, .. }, (low, high)) =
+            (self.coordinates[place], self.coordinates[place].ends());
+        let mut free = free.to_vec();
+        let work = free.iter_mut().find(|one| one.parameter == Parameter::Work && one.range.is_none())?;
+        work.range = Some((range.0, FACTOR * range.1));
+        (at[place] > high - AT_END * (high - low)).then_some(free)
     }
 
     /// Coordinates at which the search begins.
