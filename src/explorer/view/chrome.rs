@@ -118,8 +118,9 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     }
 }
 
-/// Smallest width, columns, of a status line with the error of F_a.
+/// Smallest width, columns, of a status line with the error of F_a, and of one that has random profiles too.
 const WITH_ERROR: usize = 48;
+const WITH_BOTH: usize = 100;
 
 /// As many facts about the loop as there is room for.
 fn headline(app: &App, width: usize) -> Line<'static> {
@@ -166,6 +167,7 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         let profiles = profiles(app, is_wide);
         let this = if profiles.is_some() { "this profile" } else { "F_a" };
         let fixed = if is_fixed && is_wide { ", fixed profile" } else { "" };
+        let error = error.filter(|_| profiles.is_none() || width >= WITH_BOTH);
         let error = error.map_or_else(String::new, |error| format!(", {error}"));
         facts.extend(profiles);
         facts.push((format!("{this} {}{error}{fixed}", app.force_in_words(adhesion)), Meaning::Text));

@@ -57,8 +57,14 @@ pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     (Rect { width, ..area }, Some(Rect { x: area.x + width, width: BESIDE, ..area }))
 }
 
-/// Shares of a curve at which its name may stand.
-const NAMED_AT: [f64; 7] = [0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95];
+/// Number of places along a curve at which its name may stand.
+const NAMED_AT: usize = 19;
+
+/// Shares of a curve at which its name may stand, from the middle to both ends.
+fn shares() -> impl Iterator<Item = f64> {
+    let step = 0.5 / (NAMED_AT as f64 + 1.0);
+    (0..NAMED_AT).map(move |place| 0.5 + if place % 2 == 0 { -1.0 } else { 1.0 } * step * place as f64)
+}
 
 /// The name of the layers of an entry of the legend, beside one of their points, and the entry.
 fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<(Name, Entry)> {
@@ -68,7 +74,7 @@ fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<(Name, Entry)> {
         let ink = layers.clone().next()?.ink;
         let points: Vec<_> = layers.flat_map(|layer| layer.shape.points()).collect();
         let last = points.len().checked_sub(1);
-        let at = NAMED_AT.iter().filter_map(|share| Some(points[(share * last? as f64) as usize]));
+        let at = shares().filter_map(|share| Some(points[(share * last? as f64) as usize]));
         Some((Name { at: at.collect(), texts: vec![text], ink }, entry))
     });
     named.collect()
