@@ -40,6 +40,9 @@ mod measure {
     /// A typed work of adhesion, J/m²: from the third digit on each character gives another curve.
     const VALUE: &str = "0.0123456";
 
+    /// Row that is computed from κ until adhesion is given by work.
+    const WORK: &str = "work of adhesion";
+
     /// A measured edit and its longest time.
     struct Case {
         what: &'static str,
@@ -52,8 +55,8 @@ mod measure {
 
     const CASES: [Case; 7] = [
         Case { what: "E, small step", row: "Young's modulus", keys: ["l", "h"], bar: EDIT },
-        Case { what: "work of adhesion, small step", row: "work of adhesion", keys: ["l", "h"], bar: EDIT },
         Case { what: "kappa, small step", row: "roughness-adhesion parameter", keys: ["h", "l"], bar: EDIT },
+        Case { what: "work of adhesion, small step", row: WORK, keys: ["l", "h"], bar: EDIT },
         Case {
             what: "force of the first leg, small step",
             row: "force of stage",
@@ -155,6 +158,12 @@ mod measure {
 
     /// Times from a key of an edit to the first frame after it, and to the one with the new loop, ms.
     fn edits(terminal: &mut Terminal, case: &Case, runs: usize) -> (Vec<f64>, Vec<f64>) {
+        if case.row == WORK {
+            select(terminal, "adhesion");
+            terminal.send("h");
+            terminal.wait_for("by work of adhesion");
+            terminal.settle_for(QUIET);
+        }
         select(terminal, case.row);
         let (mut echo, mut done) = (Vec::new(), Vec::new());
         for run in 0..runs {
@@ -198,12 +207,12 @@ mod measure {
         rows.iter().any(|row| row.contains("computing"))
     }
 
-    /// Adhesion force and adhesion coefficient of the headline, one of which each edit changes.
+    /// Adhesion force of the shown profile and adhesion coefficient in the status line, one of which each edit changes.
     fn headline(rows: &[String]) -> Option<[String; 2]> {
-        let row = rows.iter().find(|row| row.starts_with("F_a "))?;
-        let force = row.split("  ").next()?;
-        let coefficient = row.split("F_a/F_n ").nth(1)?.split(' ').next()?;
-        Some([force.to_owned(), coefficient.to_owned()])
+        let row = rows.iter().rev().find(|row| row.contains("F_a ") && row.contains(" · "))?;
+        let behind = |name: &str| Some(row.split(name).nth(1)?.split([',', '·']).next()?.trim().to_owned());
+        let force = behind("this profile ").or_else(|| behind("F_a "))?;
+        Some([force, behind("F_a/F_n ").unwrap_or_default()])
     }
 
     /// Selects a parameter by its name, by keys.

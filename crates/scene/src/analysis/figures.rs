@@ -52,12 +52,7 @@ impl Figures {
     /// Figures from the point of the largest force with the target of its stage, the pull-off point, and the released
     /// energy of all stages, J.
     fn at(pressed: Option<(Move, CurvePoint)>, pull_off: Option<CurvePoint>, energy: Option<f64>) -> Self {
-        // The force that remains at a target force of zero is rounding.
-        let force = |(target, point): (Move, CurvePoint)| match target {
-            Move::ToForce(0.0) | Move::ToZeroForce => 0.0,
-            _ => point.force,
-        };
-        let preload = pressed.map(force);
+        let preload = pressed.map(|(target, point)| without_rounding(target, point).force);
         // Not −F, which would make a force of zero negative.
         let adhesion_force = pull_off.map(|point| 0.0 - point.force);
         Figures {
@@ -96,6 +91,14 @@ impl Mark {
     }
 }
 
+/// The end of a stage; the force that remains at a target force of zero is rounding.
+fn without_rounding(target: Move, end: CurvePoint) -> CurvePoint {
+    match target {
+        Move::ToForce(0.0) | Move::ToZeroForce => CurvePoint { force: 0.0, ..end },
+        _ => end,
+    }
+}
+
 /// The marked points that a loading history has, in their order.
 pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     let into_contact = |leg: &LegRecord| {
@@ -115,7 +118,10 @@ pub fn marks(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
     });
     let found = [
         (Mark::JumpIn, jump_in),
-        (Mark::Preload, preload_point(legs).map(|(_, point)| point)),
+        (
+            Mark::Preload,
+            preload_point(legs).map(|(stage, point)| without_rounding(legs[stage].target, point)),
+        ),
         (Mark::PullOff, pull_off.map(|(_, point)| point)),
         (Mark::JumpOut, jump_out),
     ];
