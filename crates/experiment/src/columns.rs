@@ -43,7 +43,7 @@ const OF_ROW: f64 = 1e-9;
 /// Option that helps if the columns are not recognised.
 const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
     beside its approach, such as --columns 1,2,1,3";
-/// What else a file without names and units needs.
+/// Options that a file without names and units needs beside its columns.
 const UNITS: &str = "; with it --units, such as --units nm,nN, since the file states no units";
 
 /// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
@@ -69,7 +69,7 @@ pub(crate) struct Choice {
     pub statements: Vec<String>,
 }
 
-/// What the file states beside its columns.
+/// Statements of the file beside its columns.
 #[derive(Clone, Copy)]
 pub(crate) struct Stated<'a> {
     pub metadata: &'a Metadata,
@@ -242,7 +242,7 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String)
     })
 }
 
-/// What the name of a column states.
+/// Statements in the name of a column.
 #[derive(Clone, Debug)]
 struct Named {
     /// 0 approach, 1 retraction.
@@ -269,7 +269,7 @@ impl Named {
         }
     }
 
-    /// Whether the unit suits a force (0), a deflection (1) or neither (2).
+    /// Rank of the unit: 0 for a force, 1 for a deflection, 2 for any other unit.
     fn rank(&self) -> usize {
         match self.unit.as_deref() {
             None => 0,

@@ -88,7 +88,7 @@ pub struct Fit {
     /// Pairs of parameters that the curve cannot separate; a pair of the same parameter for one that the curve does not
     /// determine.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// What the file of the curve changes in the scene, in words.
+    /// Change of the scene by the file of the curve, in words.
     #[serde(skip)]
     pub instrument: Option<String>,
     /// Number of curves computed by the fit.

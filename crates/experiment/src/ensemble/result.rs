@@ -36,7 +36,7 @@ pub struct EnsembleFit {
     pub prospects: Vec<Prospect>,
     /// Changes of the results if the roughness differs from that of the scene; `None` for a measured roughness.
     pub roughness: Option<RoughnessShifts>,
-    /// What the files of the curves change in the scene, in words.
+    /// Changes of the scene by the files of the curves, in words.
     #[serde(skip)]
     pub instrument: Option<String>,
     /// Number of random profiles.

@@ -1,4 +1,4 @@
-//! What errors of the roughness of the scene change in the result.
+//! Changes of the result of an ensemble by errors of the roughness of the scene.
 
 use super::compared::Compared;
 use super::computed::{Place, Specimen};
@@ -14,7 +14,7 @@ use asperity_scene::{Roughness, Scene};
 const HEIGHT_STEP: f64 = 0.05;
 const HURST_STEP: f64 = 0.05;
 
-/// What the derivatives of the result are computed from.
+/// Data from which the derivatives of the result are computed.
 pub(crate) struct Shifts<'a> {
     pub workers: &'a Workers<'a>,
     pub compared: &'a Compared,
