@@ -1,13 +1,15 @@
 //! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error; and
 //! reversals, the unloadings from many turning points of one loading.
 
+use super::adhesive::tree::TWO_THREADS;
+use super::contact::Contact;
 use super::contact_state::{ContactState, Extreme, Grid};
-use super::history::{CurvePoint, Direction, History, LegRecord, Move, Work};
+use super::error::ContactError;
+use super::history::{CurvePoint, Direction, History, LegRecord, Work};
 use super::history::{Goal, plan};
 use super::leg::Leg;
 use super::leg::forces::SEARCH_INTERVALS;
-use super::springs::Contact;
-use super::{ContactError, TWO_THREADS};
+use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 

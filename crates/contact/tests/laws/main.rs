@@ -18,13 +18,12 @@ mod refusals;
 mod reversals;
 mod search;
 mod stepwise;
-mod sums;
 mod symmetries;
 mod work;
 
 use asperity_contact::{
-    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Foundation, HessRule, Leg,
-    LegRecord, Move, Patch, Solver, run,
+    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Leg, LegRecord, Move, Patch,
+    Solver, run,
 };
 use body::*;
 use proptest::prelude::*;

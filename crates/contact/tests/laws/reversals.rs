@@ -67,7 +67,7 @@ proptest! {
 
 #[test]
 fn turning_points_out_of_contact_are_refused() {
-    let body = Body::new(vec![0.0, 0.5, 0.25], Edges::SubCell, Foundation::endless(0.01, 1.0), 0.0);
+    let body = Body::new(vec![0.0, 0.5, 0.25], Edges::SubCell, Foundation::new(0.01, 1.0), 0.0);
     for (turns, index, reason) in [
         (vec![Move::ToTouch, Move::ToIndentation(-0.1)], 1, ContactError::NoContact),
         (vec![Move::ToForce(f64::INFINITY)], 0, ContactError::NotFinite(f64::INFINITY)),
@@ -82,7 +82,7 @@ fn turning_points_out_of_contact_are_refused() {
 fn all_reversals_share_one_loading_pass() {
     for work in [0.002, 0.02] {
         let gaps = self_affine(0.7, 1, 1 << 13);
-        let mut body = Body::new(gaps, Edges::SubCell, Foundation::endless(1e-3, 1.0), work).on(2);
+        let mut body = Body::new(gaps, Edges::SubCell, Foundation::new(1e-3, 1.0), work).on(2);
         let turns: Vec<Move> = (1..=64).map(|turn| Move::ToForce(0.05 * f64::from(turn))).collect();
         body.reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
         assert_eq!((body.work().loading_passes, body.work().unloading_passes), (1, 64));
