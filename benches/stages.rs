@@ -9,7 +9,7 @@
 
 use asperity::contact::ideal_adhesion_force;
 use asperity::contact::{
-    Body, Contact, ContactTree, Edges, Leg, LegRecord, Modulus, Move, Profile, Solver, Work,
+    Body, Contact, ContactTree, Edges, Leg, LegRecord, Modulus, Move, MovingBody, Profile, Work,
 };
 use asperity::scene::Simulation;
 use asperity::scene::{Adhesion, CheckedScene, Document, RoughnessParameter};

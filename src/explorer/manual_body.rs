@@ -3,7 +3,7 @@
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
 use asperity_contact::Move;
-use asperity_contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
+use asperity_contact::{Body, CurvePoint, Direction, Leg, Motion, MovingBody};
 use asperity_data::round_to;
 use asperity_scene::Reach;
 

@@ -14,7 +14,7 @@ use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
 /// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
-pub trait Solver {
+pub trait MovingBody {
     /// Moves the body to a target and records the motion.
     ///
     /// # Errors
@@ -304,7 +304,7 @@ impl Body {
     }
 }
 
-impl Solver for Body {
+impl MovingBody for Body {
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let here = self.point();
         match self.plan(target)? {
@@ -339,8 +339,8 @@ impl Solver for Body {
 ///
 /// # Errors
 /// The first stage that fails ends the run.
-pub fn run(
-    solver: &mut dyn Solver,
+pub fn load_body(
+    solver: &mut dyn MovingBody,
     targets: &[Move],
     mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
 ) -> Result<History, ContactError> {

@@ -1,6 +1,6 @@
 //! The loading of a contact and its result: force curve, figures and patches.
 
-use super::body::{Body, Reversal, Solver, run};
+use super::body::{Body, MovingBody, Reversal, load_body};
 use super::contact::Contact;
 use super::error::{ContactError, LARGEST, check};
 use super::figures::Figures;
@@ -132,7 +132,7 @@ impl Contact {
         if !stages.is_empty() {
             may_proceed(0)?;
         }
-        let history = run(&mut body, stages, |record, leg| {
+        let history = load_body(&mut body, stages, |record, leg| {
             at.push(points_between(record, leg, indentations)?);
             if at.len() < stages.len() { may_proceed(at.len()) } else { Ok(()) }
         })?;

@@ -44,7 +44,7 @@ mod totals;
 
 pub use adhesive::levels::Edges;
 pub use adhesive::tree::ContactTree;
-pub use body::{Body, Motion, Reversal, Solver, run};
+pub use body::{Body, Motion, MovingBody, Reversal, load_body};
 pub use branches::{Branch, preload_point, pull_off_point};
 pub use closed_form::{ClosedForm, flat_punch, ideal_adhesion_force};
 pub use contact::{Contact, ContactBuilder};

@@ -4,7 +4,7 @@
 //! rules and the sums with the exact solver.
 
 use super::adhesive::levels::EdgeCells;
-use super::body::Solver;
+use super::body::MovingBody;
 use super::contact::Contact;
 use super::contact_state::{ContactState, Grid};
 use super::error::{ContactError, STEP_LIMIT};
@@ -234,7 +234,7 @@ impl<'a> Stepwise<'a> {
     }
 }
 
-impl Solver for Stepwise<'_> {
+impl MovingBody for Stepwise<'_> {
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let here = self.point();
         // Its instrument is rigid: no goal is a displacement.

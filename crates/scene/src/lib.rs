@@ -15,7 +15,7 @@ pub use accuracy::choice::{Choice, ChoiceError, choose, parse_tolerance};
 pub use accuracy::estimate::{Estimate, Evidence, estimate};
 pub use accuracy::ladder::{Progress, measure};
 pub use accuracy::solution::Target;
-pub use accuracy::table::{CostTable, ErrorFigure, Knob, QUANTITIES, Reference, Row, Timing};
+pub use accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, QUANTITIES, Row, Timing};
 pub use analysis::governing::{DEFAULT_RANGE, Governing, LEAST_TABOR_NUMBER, SteepWaves, scene_tabor_number};
 pub use analysis::instrument::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
 pub use analysis::regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, Regime, VANISHING_SHARE};
@@ -35,7 +35,9 @@ pub use scene::field::{
     Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, STAGE, Step, choice_in_words, target_field,
 };
 pub use scene::fields::{FIELDS, SCENE_VERSION, field};
-pub use scene::library::{DEFAULT, Entry, Preset, Source, find, own_folder, presets, scenes, typed_path};
+pub use scene::library::{
+    DEFAULT, Entry, Preset, Source, find_scene, own_folder, presets, scenes, typed_path,
+};
 pub use scene::measured::Measured;
 pub use scene::model::{Material, Numerics, Observer, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 pub use scene::open::{is_file_name, is_path, open, open_argument};
@@ -45,7 +47,7 @@ pub use scene::stages::{
     STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_stage, stage_in_ron,
 };
 pub use scene::statements::{Statement, statements};
-pub use scene::text::index::{Span, Text, line_column};
+pub use scene::text::index::{Text, TextSpan, line_column};
 pub use scene::text::scan::Unreadable;
 pub use scene::text::{read_ron, ron_float, ron_string};
 pub use scene::tree::{Tree, to_ron};

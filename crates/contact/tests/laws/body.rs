@@ -4,7 +4,7 @@
 
 use asperity_contact::{
     self as contact, Contact, ContactBuilder, CurvePoint, Edges, History, LegRecord, Modulus, Move, Patch,
-    Profile, run,
+    Profile, load_body,
 };
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -91,7 +91,7 @@ impl Body {
     }
 
     pub fn history(&self, targets: &[Move], samples: usize) -> History {
-        run(&mut self.on(samples), targets, |_, _| Ok(())).unwrap()
+        load_body(&mut self.on(samples), targets, |_, _| Ok(())).unwrap()
     }
 
     /// Largest gap, m.

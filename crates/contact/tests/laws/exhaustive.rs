@@ -2,7 +2,7 @@
 //! history of a few springs against the bare rules.
 
 use super::body::Foundation;
-use asperity_contact::{Body, ContactError, Edges, Move, Patch, Solver};
+use asperity_contact::{Body, ContactError, Edges, Move, MovingBody, Patch};
 use std::f64::consts::PI;
 
 const SPACING: f64 = 0.01;

@@ -22,8 +22,8 @@ mod symmetries;
 mod work;
 
 use asperity_contact::{
-    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Leg, LegRecord, Move, Patch,
-    Solver, run,
+    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Leg, LegRecord, Move, MovingBody,
+    Patch, load_body,
 };
 use body::*;
 use proptest::prelude::*;

@@ -29,7 +29,7 @@ fn all(body: &mut contact::Body, turns: &[Move], points: &[f64]) -> Result<Vec<R
 fn compare(new: impl Fn() -> contact::Body, turns: &[Move], points: &[f64]) -> Result<(), TestCaseError> {
     let reversals = all(&mut new(), turns, points).unwrap();
     for (turn, reversal) in turns.iter().zip(&reversals) {
-        let history = run(&mut new(), &[*turn, Move::ToSeparation], |_, _| Ok(())).unwrap();
+        let history = load_body(&mut new(), &[*turn, Move::ToSeparation], |_, _| Ok(())).unwrap();
         let [loading, unloading] = &history.legs[..] else { panic!("{history:?}") };
         prop_assert_eq!(bits(&reversal.turn), bits(&end(loading)), "{:?}", turn);
         prop_assert_eq!(bits(&reversal.smallest), bits(&unloading.smallest), "{:?}", turn);
@@ -38,7 +38,8 @@ fn compare(new: impl Fn() -> contact::Body, turns: &[Move], points: &[f64]) -> R
         prop_assert_eq!(reversal.dissipated_energy.to_bits(), (dissipated + 0.0).to_bits(), "{:?}", turn);
         let below = points.iter().filter(|point| **point <= reversal.turn.indentation);
         let separate = below.map(|&point| {
-            let to_point = run(&mut new(), &[*turn, Move::ToIndentation(point)], |_, _| Ok(())).unwrap();
+            let to_point =
+                load_body(&mut new(), &[*turn, Move::ToIndentation(point)], |_, _| Ok(())).unwrap();
             end(&to_point.legs[1]).force.to_bits()
         });
         let found: Vec<_> = reversal.forces.iter().map(|force| force.to_bits()).collect();

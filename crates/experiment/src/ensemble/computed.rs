@@ -4,7 +4,7 @@ use super::branches::{Branches, Point};
 use super::summary::{Summaries, summaries};
 use crate::error::ExperimentError;
 use crate::model::Sampling;
-use asperity_contact::{Body, ContactError, CurvePoint, Modulus, Move, Solver};
+use asperity_contact::{Body, ContactError, CurvePoint, Modulus, Move, MovingBody};
 use asperity_scene::{DisplacementCurve, Scene, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -6,7 +6,7 @@ use super::cases::{
     SEED, WORK_OF_ADHESION,
 };
 use asperity_contact::Move;
-use asperity_contact::{Body, Contact, History, Leg, LegRecord, Modulus, Patch, Profile, run};
+use asperity_contact::{Body, Contact, History, Leg, LegRecord, Modulus, Patch, Profile, load_body};
 use asperity_surface::Form;
 use asperity_surface::{Histogram, Line, SelfAffine, Synthesizer};
 use std::sync::Arc;
@@ -42,7 +42,7 @@ pub fn kernel(case: &Case) -> Given {
     let contact = Contact::builder(&profile, modulus).work_of_adhesion(work).edges(edges).build();
     let mut body = Body::new(&contact.expect("a contact"), SAMPLES);
     if !case.is_adhesive() {
-        let history = run(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
+        let history = load_body(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
         return Given { history, ..Given::default() };
     }
     let histogram =
@@ -64,7 +64,7 @@ fn rough() -> Line {
 /// A loading under adhesion, with the other results of its case beside the curve.
 fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
     let mut fragments = Vec::new();
-    let history = run(&mut body, legs, |record: &LegRecord, leg: &Leg| {
+    let history = load_body(&mut body, legs, |record: &LegRecord, leg: &Leg| {
         if case.is_observed() {
             let end = record.curve.last().filter(|end| end.springs > 0);
             fragments.push(end.map_or_else(Vec::new, |end| leg.patches(end.indentation)));

@@ -1,7 +1,7 @@
 //! Instructions of 64 reversals over those of one loop to the deepest of them on the same line, trees included.
 
 use crate::instructions::callgrind;
-use asperity_contact::{Body, Contact, Modulus, Profile, Solver};
+use asperity_contact::{Body, Contact, Modulus, MovingBody, Profile};
 use asperity_contact::{Edges, Move};
 use asperity_surface::{Line, SelfAffine};
 use std::hint::black_box;

@@ -10,8 +10,8 @@ use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::{
-    Body, Contact, ContactError, ContactTree, Edges, Figures, History, Leg, LegRecord, Move, Patch, Profile,
-    Solver, Stepwise, Work, ideal_adhesion_force, run,
+    Body, Contact, ContactError, ContactTree, Edges, Figures, History, Leg, LegRecord, Move, MovingBody,
+    Patch, Profile, Stepwise, Work, ideal_adhesion_force, load_body,
 };
 use asperity_data::{check_room, emptied};
 use asperity_surface::Form;
@@ -371,12 +371,12 @@ fn load(
         SolverChoice::Stepwise { step } => {
             let body = |samples| Stepwise::new(contact, step, samples, stop);
             let mut solver = body(samples)?;
-            let mut history = run(&mut solver, &scene.loading, see)?;
+            let mut history = load_body(&mut solver, &scene.loading, see)?;
             timings.curve = solver.curve_seconds();
             if zero_load {
                 let clock = Instant::now();
                 for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
-                    let turned = match run(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
+                    let turned = match load_body(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
                         Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
                         // A turn out of reach of the steps has no F_a(0).
                         Err(_) => continue,
@@ -394,7 +394,7 @@ fn load(
         }
         SolverChoice::Exact => {
             let mut body = Body::new(contact, samples);
-            let mut history = run(&mut body, &scene.loading, see)?;
+            let mut history = load_body(&mut body, &scene.loading, see)?;
             timings.curve = body.curve_seconds();
             if zero_load && contact.has_adhesion() {
                 let clock = Instant::now();

@@ -2,7 +2,7 @@
 
 use super::body::*;
 use asperity_contact::Figures;
-use asperity_contact::{Direction, Edges, History, LegRecord, Move, Solver};
+use asperity_contact::{Direction, Edges, History, LegRecord, Move, MovingBody};
 use asperity_scene::{Outcome, Regime, Simulation, open};
 use proptest::prelude::*;
 

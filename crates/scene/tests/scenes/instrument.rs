@@ -3,7 +3,7 @@
 use super::body::{cases, end};
 use asperity_contact::{
     Body, ClosedForm, Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile,
-    run,
+    load_body,
 };
 use asperity_scene::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
 use asperity_surface::{Form, Line};
@@ -20,7 +20,7 @@ fn sphere(points: usize, stiffness: f64) -> (Contact, ClosedForm) {
 }
 
 fn loaded(contact: &Contact, targets: &[Move]) -> History {
-    run(&mut Body::new(contact, 512), targets, |_, _| Ok(())).unwrap()
+    load_body(&mut Body::new(contact, 512), targets, |_, _| Ok(())).unwrap()
 }
 
 proptest! {
