@@ -8,6 +8,7 @@ mod effort;
 mod energy;
 mod equilibrium;
 mod exhaustive;
+mod front;
 mod instrument;
 mod large_lines;
 mod levels;
