@@ -33,6 +33,18 @@ const SMALL: u64 = 32 << 20;
 /// Between runs at most four times the memory of the last scene is kept ([`Workload::peak_bytes`], and 20 bytes for each
 /// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; the allocator of glibc keeps blocks
 /// of less than 32 MiB, up to 64 MiB for each thread.
+///
+/// ```
+/// use asperity_scene::{Simulation, open};
+///
+/// let (mut simulation, sphere) = (Simulation::default(), open("jkr-sphere")?);
+/// let mut force = |points: u64| {
+///     let scene = sphere.scene().with(|scene| scene.numerics.points = points)?;
+///     Ok::<_, asperity_scene::Error>(simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()))?.figures.adhesion_force)
+/// };
+/// assert!((force(512)?.unwrap() / force(4096)?.unwrap() - 1.0).abs() < 1e-3);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Default)]
 pub struct Simulation {
     /// True for a single scene: memory for a further profile is released at once.
