@@ -83,6 +83,7 @@ pub struct Body {
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Motion {
     /// Contact at all indentations of the motion.
     pub leg: Leg,

@@ -163,6 +163,7 @@ pub struct History {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize))]
+#[non_exhaustive]
 pub struct Work {
     /// Number of springs of the line.
     pub springs: u64,

@@ -83,6 +83,7 @@ impl Choice {
 
 /// Reason why no number of springs was chosen.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ChoiceError {
     /// The scene could not be computed.
     #[error(transparent)]

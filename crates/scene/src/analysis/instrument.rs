@@ -135,6 +135,7 @@ fn sign_of(direction: Direction) -> f64 {
 
 /// Figures of a loading history under a compliant instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct InstrumentFigures {
     /// Loading stiffness k, N/m.
     pub stiffness: f64,

@@ -21,7 +21,7 @@ pub const SPRINGS_PER_WAVE: u64 = 4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Version of the file format, [`SCENE_VERSION`](crate::scene::fields::SCENE_VERSION).
+    /// Version of the file format, 1.
     pub version: u32,
     /// Title of the scene, one line.
     #[serde(default)]

@@ -11,7 +11,7 @@ use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::{
     Body, Contact, ContactError, ContactTree, Edges, Figures, History, Leg, LegRecord, Move, MovingBody,
-    Patch, Profile, Stepwise, Work, ideal_adhesion_force, load_body,
+    Patch, Profile, Stepwise, ideal_adhesion_force, load_body,
 };
 use asperity_data::{check_room, emptied};
 use asperity_surface::Form;
@@ -333,7 +333,9 @@ impl Simulation {
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
         history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
         let transforms = u64::from(random_phases > 0);
-        history.work = Work { random_phases, transforms, heights_binned, ..history.work };
+        let work = &mut history.work;
+        (work.random_phases, work.transforms, work.heights_binned) =
+            (random_phases, transforms, heights_binned);
 
         let figures = Figures::of(&history);
         let [zero_load_adhesion_force, zero_force_adhesion_force] = zero_load;
