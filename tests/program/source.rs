@@ -12,7 +12,7 @@ const CRATES: [&str; 10] =
 /// Rooms of crates from the ground up: each imports only earlier rooms.
 const ROOMS: [(&str, &str); 3] = [
     ("surface", "topography spectrum line"),
-    ("scene", "scene analysis reference simulation error front profile contact_cycle accuracy"),
+    ("scene", "scene analysis reference simulation error front profile_builder accuracy"),
     ("program", "explorer cli"),
 ];
 
@@ -271,7 +271,7 @@ fn few_files_name_a_pane_a_form_or_an_effect() {
     for form in ["Form::Paraboloid", "Form::Cone", "Form::Power", "Form::Punch"] {
         // The profile of a sphere, and the form of a flat body, are only constructed.
         let mut files = files_that_name(form);
-        files.retain(|file| !["scene::profile", "scene::scene::effects"].contains(&file.as_str()));
+        files.retain(|file| !["scene::profile_builder", "scene::scene::effects"].contains(&file.as_str()));
         assert_eq!(files, ["surface::line::form"], "{form}");
     }
     let files = files_that_name("closing_work");
