@@ -7,7 +7,7 @@ use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
 use asperity::scene::{Outcome, Simulation};
 use asperity::study::{
     Changes, Folder, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status, StudyMap,
-    merge, run,
+    merge, run_study,
 };
 use proptest::prelude::*;
 use std::fs;
