@@ -142,7 +142,7 @@ impl Report for SurfaceReport {
 impl SurfaceReport {
     /// Moments of the equivalent line, and quantities that follow from them.
     fn moments(&self) -> [MomentRow; 6] {
-        let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus } =
+        let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus, .. } =
             self.line.moments();
         let stiff = |moment: Moment| Some(moment.scaled(self.modulus?));
         let over_work = |moment: Moment| Some(moment.scaled(1.0 / self.work?));
