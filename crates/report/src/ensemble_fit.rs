@@ -13,10 +13,12 @@ const HURST_CHANGE: f64 = 0.05;
 /// Ratios of scatters between which the curves scatter as the profiles do.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
+/// A work of adhesion found by comparison of curves with random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
+    /// Result of the comparison.
     pub fit: &'a EnsembleFit,
     /// True if errors of the roughness were stated.
     pub has_roughness_errors: bool,

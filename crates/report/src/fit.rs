@@ -12,11 +12,14 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use serde::Serialize;
 use std::f64::consts::PI;
 
+/// A fit of a scene to one curve.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
     /// Name of the file of the curve, for the title.
     pub title: &'a str,
+    /// The measured curve.
     pub curve: &'a MeasuredCurve,
+    /// Result of the fit.
     pub fit: &'a FitResult,
 }
 

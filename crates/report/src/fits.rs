@@ -21,7 +21,9 @@ pub struct CurveRow {
     pub parameters: Vec<[f64; 3]>,
     /// Pull-off force, N, its work of adhesion, J/m², residual over noise, noise, N.
     pub facts: [Option<f64>; 4],
+    /// Number of points of the curve that are used.
     pub points: Option<u64>,
+    /// Whether the model describes the curve.
     pub described: Option<bool>,
     /// Why the model does not describe the curve.
     pub reason: String,
@@ -97,9 +99,11 @@ fn cells_of(line: &str) -> Option<Vec<String>> {
 /// Fits of one scene to many curves.
 #[derive(Clone, Copy, Debug)]
 pub struct FitsReport<'a> {
+    /// The scene that is fitted.
     pub scene: &'a Scene,
     /// The free parameters, in the order of the values.
     pub free: &'a [Parameter],
+    /// A row for each curve.
     pub rows: &'a [CurveRow],
 }
 

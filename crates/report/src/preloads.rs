@@ -18,6 +18,7 @@ pub(crate) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 /// Adhesion force against preload, on one or more profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
     /// Choice of springs for a tolerance, if one was requested.
     pub choice: Option<&'a Choice>,

@@ -42,6 +42,7 @@ impl ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
 
+    /// Takes the patches of a stage that has been computed.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);

@@ -17,10 +17,14 @@ const LEAST: f64 = 1.0;
 /// Half the height of a bar, over the distance of bars.
 const HALF: f64 = 0.35;
 
+/// Changes of the results with the numbers of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// The changes.
     pub sensitivity: &'a Sensitivity,
 }
 

@@ -36,8 +36,11 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
 pub struct SurfaceReport {
     /// The analysed face, and the opposite face if it was measured too.
     pub faces: Vec<MeasuredFace>,
+    /// Equivalent line of all faces.
     pub line: EquivalentLine,
+    /// Effective modulus E*, Pa, if it is given.
     pub modulus: Option<f64>,
+    /// Work of adhesion γ, J/m², if it is given.
     pub work: Option<f64>,
     /// Scene of the equivalent line, if its adhesion was requested, with the results on random profiles; without them if
     /// the scene has many springs and they were not requested.
