@@ -33,4 +33,36 @@ from ._native import FieldError, LoadingError, Loop, Profile, Scene, __version__
 from ._notation import Form
 from ._results import Ensemble, Found, Outcome, Preloads, Reference, Result, Reversals
 
-__all__ = [name for name in dir() if not name.startswith("_")]
+__all__ = [
+    "Ensemble",
+    "FieldError",
+    "Form",
+    "Found",
+    "LoadingError",
+    "Loop",
+    "Outcome",
+    "Preloads",
+    "Profile",
+    "Reference",
+    "Result",
+    "Reversals",
+    "Scene",
+    "cone",
+    "ensemble",
+    "find",
+    "load",
+    "power",
+    "preloads",
+    "presets",
+    "profile",
+    "punch",
+    "quantity",
+    "reference",
+    "reversals",
+    "run",
+    "scene",
+    "self_affine",
+    "sphere",
+    "table",
+    "wavy_sphere",
+]

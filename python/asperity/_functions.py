@@ -5,19 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, SupportsFloat, TypeAlias
 
 from . import _native
 from ._native import Loop, Profile, Scene, quantity, whole
 from ._notation import Form, in_fields, in_scene, refusal
 from ._results import Ensemble, Found, Outcome, Preloads, Reference, Reversals
 
-if TYPE_CHECKING:
-    from typing import SupportsFloat
-
-    Quantity: TypeAlias = SupportsFloat | str
-    Progress: TypeAlias = Callable[[int, int], object] | None
-    AnyScene: TypeAlias = str | os.PathLike[str] | Scene
+#: A number in SI units, or a text with its unit.
+Quantity: TypeAlias = SupportsFloat | str
+#: Called with the number of parts that are done and of all parts; an exception stops the computation.
+Progress: TypeAlias = Callable[[int, int], object] | None
+#: Name of a built-in scene, path of a file, text of a scene, or an open scene.
+AnyScene: TypeAlias = str | os.PathLike[str] | Scene
 
 #: A scene whose form and roughness are replaced.
 _PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"
@@ -163,14 +163,14 @@ def run(
     `jobs` threads share the profiles, by default one for each core; no result depends on their number. `progress` is called
     with the number of profiles that are done and of all.
     """
-    return Outcome(*_native.run(_scene(scene, fields), profiles, jobs, progress))
+    return Outcome(*_native.run(_scene(scene, fields), _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
 
 
 def ensemble(
     scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
 ) -> Ensemble:
     """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    return Ensemble(_native.ensemble(_scene(scene, fields), profiles, jobs, progress))
+    return Ensemble(_native.ensemble(_scene(scene, fields), _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
 
 
 def find(
@@ -190,7 +190,7 @@ def find(
     Each random profile is searched for itself. The searched range is by default two decades down and up.
     """
     searched = None if range is None else _range(range)
-    return Found(_native.find(_scene(scene, fields), field, where, searched, profiles, jobs, progress))
+    return Found(_native.find(_scene(scene, fields), field, where, searched, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
 
 
 def preloads(
@@ -207,7 +207,7 @@ def preloads(
 ) -> Preloads:
     """Computes the adhesion force for `count` preloads between two forces, N; with `log` at equal ratios."""
     axis = f"{_range(between)}:{count}" + (":log" if log else "")
-    return Preloads(_native.preloads(_scene(scene, fields), axis, profiles, jobs, progress))
+    return Preloads(_native.preloads(_scene(scene, fields), axis, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
 
 
 def reversals(
@@ -236,7 +236,7 @@ def reference(
     **fields: Any,
 ) -> Reference:
     """Computes a scene in three dimensions on random squares of `grid` cells along a side, beside random lines."""
-    return Reference(_native.reference(_scene(scene, fields), grid, maps, profiles, jobs, progress))
+    return Reference(_native.reference(_scene(scene, fields), grid, maps, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
 
 
 def presets() -> dict[str, str]:
@@ -246,6 +246,10 @@ def presets() -> dict[str, str]:
 
 def _scene(name: AnyScene, fields: Mapping[str, Any]) -> Scene:
     return scene(name, **fields)
+
+
+def _count(name: str, value: int | None, most: int = 1_000_000) -> int | None:
+    return None if value is None else whole(value, name, 1, most)
 
 
 def _range(ends: tuple[Quantity, Quantity] | str) -> str:

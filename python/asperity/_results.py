@@ -103,12 +103,14 @@ class Ensemble(Result):
     @property
     def median(self) -> float | None:
         """Median of the adhesion force over the profiles, N."""
-        return self._of_force("median")
+        median: float | None = self._of_force("median")
+        return median
 
     @property
     def quartiles(self) -> list[float] | None:
         """Lower and upper quartile of the adhesion force over the profiles, N."""
-        return self._of_force("quartiles")
+        quartiles: list[float] | None = self._of_force("quartiles")
+        return quartiles
 
     def values(self, quantity: str = "adhesion_force") -> np.ndarray[Any, Any]:
         """Values of a quantity on all profiles, in the order of their seeds; NaN for a profile that has none."""

@@ -3,19 +3,18 @@
 use crate::failure::Failure;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
-use std::thread::{ThreadId, current};
-use std::time::{Duration, Instant};
+use std::thread::{Builder, scope};
+use std::time::Duration;
 
-/// Shortest time between two looks for a signal.
-const PAUSE: Duration = Duration::from_millis(20);
+/// Time between two looks for a signal.
+const PAUSE: Duration = Duration::from_millis(50);
 
 /// What a running computation asks and reports.
+#[derive(Default)]
 pub struct Watch {
-    caller: ThreadId,
-    asked: Mutex<Instant>,
     is_stopped: AtomicBool,
     /// The exception of a signal or of the callback.
     raised: Mutex<Option<PyErr>>,
@@ -25,13 +24,6 @@ pub struct Watch {
 impl Watch {
     /// Returns true if the computation is to stop, since a signal or the callback has raised an exception.
     pub fn stop(&self) -> bool {
-        if current().id() == self.caller {
-            let mut asked = self.asked.lock().unwrap_or_else(PoisonError::into_inner);
-            if asked.elapsed() >= PAUSE {
-                *asked = Instant::now();
-                self.keep(Python::attach(|py| py.check_signals()));
-            }
-        }
         self.is_stopped.load(Ordering::Relaxed)
     }
 
@@ -50,7 +42,8 @@ impl Watch {
     }
 }
 
-/// Result of a computation without the lock of Python.
+/// Result of a computation without the lock of Python. It runs on a thread of its own, so that the calling thread, which may be
+/// the one that receives signals, looks for them meanwhile.
 ///
 /// # Errors
 /// The exception of a signal or of the callback, the failure as an exception, or `RuntimeError` for a defect.
@@ -59,14 +52,28 @@ pub fn computed<R: Send>(
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&Watch) -> Result<R, Failure> + Send,
 ) -> PyResult<R> {
-    let (asked, is_stopped, raised) = (Mutex::new(Instant::now()), AtomicBool::new(false), Mutex::new(None));
-    let watch = Watch { caller: current().id(), asked, is_stopped, raised, progress };
-    let done = py.detach(|| catch_unwind(AssertUnwindSafe(|| work(&watch))));
+    let watch = Watch { progress, ..Watch::default() };
+    let done = py.detach(|| {
+        let (ended, end) = channel::<()>();
+        let working = || {
+            // Closed at the end, however it comes.
+            let _ended = ended;
+            work(&watch)
+        };
+        scope(|scope| {
+            let worker = Builder::new().spawn_scoped(scope, working)?;
+            while end.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
+                watch.keep(Python::attach(|py| py.check_signals()));
+            }
+            Ok::<_, std::io::Error>(worker.join())
+        })
+    });
     if let Some(error) = watch.raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
         return Err(error);
     }
     match done {
-        Ok(result) => result.map_err(|failure| failure.exception(py)),
-        Err(_) => Err(PyRuntimeError::new_err("internal error, please report it")),
+        Ok(Ok(result)) => result.map_err(|failure| failure.exception(py)),
+        Ok(Err(_)) => Err(PyRuntimeError::new_err("internal error, please report it")),
+        Err(error) => Err(PyRuntimeError::new_err(format!("could not start a thread: {error}"))),
     }
 }
