@@ -231,7 +231,7 @@ fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, Cl
         surfaces.extend(read);
     }
     let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
-        let file = facts.get(error.surface());
+        let file = facts.get(error.surface().unwrap_or(0));
         CliError::named(file.map(|file| path_name(&file.path)).unwrap_or_default(), error)
     })?;
     Ok(MeasuredFace { files: facts, analysis })

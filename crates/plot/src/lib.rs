@@ -18,7 +18,7 @@ mod screen;
 mod svg;
 mod ticks;
 
-pub use axis::Axis;
+pub use axis::ChartAxis;
 pub use cells::legend::legend;
 pub use cells::map::{SHADES, key};
 pub use cells::pane::{ContactRow, PaneChart, split};

@@ -6,7 +6,7 @@ use crate::sheet::Sheet;
 use asperity_data::{AxisScale, Kind, Table};
 use asperity_data::{format_quantity, format_range, format_within, grouped, object, one_unit, quantile};
 use asperity_experiment::Parameter;
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Span};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
 use asperity_scene::Scene;
 
 /// Smallest and largest number of bars of a histogram.
@@ -245,14 +245,15 @@ impl Report for FitsReport<'_> {
             upper.extend((other > 0.0).then_some((edges(bar), (one, one + other))));
             most = most.max(one + other);
         }
-        let x = Axis::new(
+        let x = ChartAxis::new(
             AxisScale::Linear,
             Span::around(all.iter().copied(), 0.06),
             row.term,
             row.symbol,
             row.unit,
         );
-        let y = Axis::new(AxisScale::Linear, Span::around([0.0, most].into_iter(), 0.06), "curves", "", "1");
+        let y =
+            ChartAxis::new(AxisScale::Linear, Span::around([0.0, most].into_iter(), 0.06), "curves", "", "1");
         let mut layers = Vec::new();
         let named = [("described", Ink::Contact, lower), ("not described", Ink::Quiet, upper)];
         layers.extend(

@@ -53,7 +53,7 @@ pub use run::{PathReport, RunReport};
 pub use scene_figure::ContactSets;
 pub use scene_spectra::SceneSpectra;
 pub use scenes::{ComparedScene, ScenesReport};
-pub use section::{Contact, LineColumns, Part, Section};
+pub use section::{LineColumns, Part, Section, SectionContact};
 pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;

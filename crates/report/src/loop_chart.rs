@@ -2,7 +2,7 @@
 
 use asperity_contact::{CurvePoint, Direction, LegRecord};
 use asperity_data::{AxisScale, format_rounded};
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
 use asperity_scene::Outcome;
 use asperity_scene::{DisplacementCurve, DisplacementPoint, Mark, marks};
 
@@ -137,7 +137,7 @@ impl LoopUnits {
         }
     }
 
-    fn axes(&self, places: &[(f64, f64)]) -> [Axis; 2] {
+    fn axes(&self, places: &[(f64, f64)]) -> [ChartAxis; 2] {
         let x = Span::around(places.iter().map(|place| place.0), 0.06);
         let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
         // There is no negative length or number.
@@ -145,8 +145,8 @@ impl LoopUnits {
         let low = if up.symbol == "F" { y.low } else { 0.0 };
         [(x, across), (Span { low, ..y }, up)].map(|(span, one)| {
             let (symbol, unit) = one.symbol_and_unit();
-            let axis = Axis::new(AxisScale::Linear, span, one.name, &symbol, unit);
-            Axis { counts: one.symbol == "n", ..axis }
+            let axis = ChartAxis::new(AxisScale::Linear, span, one.name, &symbol, unit);
+            ChartAxis { counts: one.symbol == "n", ..axis }
         })
     }
 }

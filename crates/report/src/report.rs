@@ -3,7 +3,7 @@
 use crate::provenance::entries;
 use asperity_data::{Kind, Table, write_json};
 use asperity_data::{path_name, printable};
-use asperity_plot::{Axis, Chart, Figure, Layer};
+use asperity_plot::{Chart, ChartAxis, Figure, Layer};
 use serde::Serialize;
 use std::io;
 use std::io::Write;
@@ -47,7 +47,7 @@ impl Report for Figure {
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
-        let column = |axis: &Axis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
+        let column = |axis: &ChartAxis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
         let rows = || {
             let points = |layer: &Layer| layer.shape.points();
             layers

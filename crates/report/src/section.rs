@@ -2,13 +2,13 @@
 
 use asperity_contact::Patch;
 use asperity_data::AxisScale;
-use asperity_plot::{Axis, Chart, Ink, Layer, Shape, Span};
+use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span};
 use asperity_scene::LineFacts;
 use std::ops::Range;
 
 /// The rigid profile and its contact at one indentation.
 #[derive(Clone, Copy)]
-pub struct Contact<'a> {
+pub struct SectionContact<'a> {
     /// Gaps below the highest point, m.
     pub gaps: &'a [f64],
     pub summit: f64,
@@ -73,7 +73,7 @@ impl Section {
             layer("profile", Ink::Profile, |column| Some(column.line)),
             layer("contact", Ink::Contact, |column| column.contact),
         ];
-        let axis = |span, name, symbol| Axis::new(AxisScale::Linear, span, name, symbol, "m");
+        let axis = |span, name, symbol| ChartAxis::new(AxisScale::Linear, span, name, symbol, "m");
         let x = Span { low: x.0, high: x.1 };
         Chart::new(axis(x, "position", "x"), axis(z, "height", "z"), layers)
     }
@@ -100,7 +100,7 @@ impl Part {
     }
 }
 
-impl Contact<'_> {
+impl SectionContact<'_> {
     /// Returns the height of the rigid profile at a spring, m.
     pub fn height(&self, spring: usize) -> f64 {
         self.summit - self.gaps[spring]
@@ -176,7 +176,7 @@ mod tests {
             let first = first % gaps.len();
             let part = Part { first, springs: springs.min(gaps.len() - first), columns };
             let patches = Patch::of_springs(touching.iter().copied());
-            let contact = Contact { gaps: &gaps, summit: 20.0, indentation: 3.0, patches: &patches };
+            let contact = SectionContact { gaps: &gaps, summit: 20.0, indentation: 3.0, patches: &patches };
             let section = contact.section(part, &mut LineColumns::default());
             for (column, found) in section.columns.iter().enumerate() {
                 let heights = |springs: Vec<usize>| {

@@ -1,7 +1,7 @@
 //! Work–precision diagram: error over computing time for each setting that affects accuracy.
 
 use asperity_data::AxisScale;
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::{CostTable, Knob};
 
 /// Figure of relative errors over the shortest time of a run, one curve for each setting: errors of the adhesion force, or
@@ -27,7 +27,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
     }
     let all = || series.iter().flat_map(|(_, points)| points);
     let axis = |span: Span, name: &str, symbol: &str, unit: &str| {
-        Axis::new(AxisScale::Logarithmic, span, name, symbol, unit)
+        ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
     };
     let times = Span::decades(all().map(|(seconds, _)| seconds.log10()));
     let errors = Span::decades(all().map(|(_, figure)| figure.error.log10()));

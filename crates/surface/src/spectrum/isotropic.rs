@@ -55,7 +55,7 @@ pub enum End {
 
 /// Value with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Estimate {
+pub struct ValueWithError {
     /// Value.
     pub value: f64,
     /// Standard error.

@@ -1,7 +1,7 @@
 //! Header before the numbers of a text: units, sizes, and names of columns.
 
 use super::super::Unit;
-use super::layout::{COMMENT, Cell, Decimal, Separator};
+use super::layout::{COMMENT, Decimal, Separator, TextCell};
 use std::collections::VecDeque;
 
 /// Limit of the length of a header line that is examined, bytes, and the number of last lines that may name columns.
@@ -67,7 +67,7 @@ const ROLES: [(Role, &str); 6] = [
 
 /// Name of a column and, if the name states one, its unit.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Column {
+pub struct TextColumn {
     /// Name of the column; empty if it has none.
     pub name: String,
     /// What the column holds.
@@ -81,7 +81,7 @@ type Length = (f64, Option<Unit>);
 
 /// The lines above the numbers of a text.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Header {
+pub struct TextHeader {
     /// Name of the channel.
     pub channel: Option<String>,
     /// Units of x, y and heights, from keys that name them.
@@ -110,10 +110,10 @@ pub struct Header {
     lines: VecDeque<String>,
 }
 
-impl Header {
+impl TextHeader {
     /// A header that states a unit of all lengths.
-    pub fn in_unit(unit: Option<Unit>) -> Header {
-        Header { unit, ..Header::default() }
+    pub fn in_unit(unit: Option<Unit>) -> TextHeader {
+        TextHeader { unit, ..TextHeader::default() }
     }
 
     /// Reads a line: `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may name
@@ -234,7 +234,7 @@ impl Header {
     }
 
     /// Unit of x (0), y (1) or heights (2): as the column states, else as a key states.
-    pub fn unit(&self, axis: usize, column: Option<&Column>) -> Option<Unit> {
+    pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
         let of_axis =
             self.units[axis].or_else(|| self.nanometres.filter(|_| axis == 2).and(NANOMETRE.parse().ok()));
@@ -243,16 +243,23 @@ impl Header {
 
     /// Names and units of the columns, from the last line with a name for each of `count` columns, and a row of units. Lines
     /// of numbers may end with further separators, up to `cells` cells. Without such a line nothing is known of the columns.
-    pub fn columns(&self, count: usize, cells: usize, separator: Separator, is_unit: IsUnit) -> Vec<Column> {
+    pub fn columns(
+        &self,
+        count: usize,
+        cells: usize,
+        separator: Separator,
+        is_unit: IsUnit,
+    ) -> Vec<TextColumn> {
         let mut units: Option<Vec<String>> = None;
         for line in self.lines.iter().rev() {
             let Some(found) = cells_of(line, count, cells, separator) else { continue };
-            let is_number =
-                |cell: &String| matches!(Decimal::default().read(cell, Separator::SPACE), Cell::Number(_));
+            let is_number = |cell: &String| {
+                matches!(Decimal::default().read(cell, Separator::SPACE), TextCell::Number(_))
+            };
             if found.iter().any(is_number) || !found.iter().any(|cell| cell.contains(char::is_alphanumeric)) {
                 continue;
             }
-            let mut columns: Vec<Column> = found.iter().map(|cell| column(cell, is_unit)).collect();
+            let mut columns: Vec<TextColumn> = found.iter().map(|cell| column(cell, is_unit)).collect();
             let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
             let names = columns.iter().any(|column| column.role != Role::Unknown);
             if units.is_none() && !names && bare.iter().any(|cell| is_unit(cell)) {
@@ -269,7 +276,7 @@ impl Header {
             add_units(&mut columns, units.unwrap_or_default(), is_unit);
             return columns;
         }
-        let mut columns = vec![Column::default(); count];
+        let mut columns = vec![TextColumn::default(); count];
         add_units(&mut columns, units.unwrap_or_default(), is_unit);
         columns
     }
@@ -284,7 +291,7 @@ impl Header {
 pub(crate) type IsUnit = fn(&str) -> bool;
 
 /// Adds a row of units; a unit in it replaces the unit beside a name, if it is known.
-fn add_units(columns: &mut [Column], units: Vec<String>, is_unit: IsUnit) {
+fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: IsUnit) {
     for (column, unit) in columns.iter_mut().zip(units) {
         if is_unit(&unit) || column.unit.is_none() && !unit.is_empty() {
             column.unit = Some(unit);
@@ -330,7 +337,7 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
 /// Number of a text in any notation.
 fn number(text: &str) -> Option<f64> {
     match Decimal::default().read(text, Separator::SPACE) {
-        Cell::Number(value) if value.is_finite() => Some(value),
+        TextCell::Number(value) if value.is_finite() => Some(value),
         _ => None,
     }
 }
@@ -381,7 +388,7 @@ fn bare(cell: &str) -> &str {
 /// Name, role and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral
 /// um`. An unknown unit is recognised in square brackets, behind a slash, or as a short word in round brackets: `height
 /// (measured)` is a name.
-fn column(cell: &str, is_unit: IsUnit) -> Column {
+fn column(cell: &str, is_unit: IsUnit) -> TextColumn {
     let bracket = |(at, mark): (usize, &str)| {
         let unit = bare(cell[at + 1..].split([']', ')']).next()?);
         Some((&cell[..at], unit, mark == "[" || unit.chars().count() < LONGEST_UNIT))
@@ -399,7 +406,7 @@ fn column(cell: &str, is_unit: IsUnit) -> Column {
     let lower = cell.split(['[', '(', '/']).next().unwrap_or_default().to_lowercase();
     let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let role = ROLES.iter().find(|(_, known)| words().any(|word| is_one_of(word, known)));
-    Column {
+    TextColumn {
         name: name.trim_matches(['"', ' ']).to_owned(),
         role: role.map_or(Role::Unknown, |(role, _)| *role),
         unit,
@@ -410,8 +417,8 @@ fn column(cell: &str, is_unit: IsUnit) -> Column {
 mod tests {
     use super::*;
 
-    fn header(lines: &[&str]) -> Header {
-        let mut header = Header::default();
+    fn header(lines: &[&str]) -> TextHeader {
+        let mut header = TextHeader::default();
         lines.iter().for_each(|line| header.take(line));
         header
     }
@@ -476,7 +483,7 @@ mod tests {
             ("z_sensor,signal", vec![Height, Unknown]),
         ] {
             let count = roles.len();
-            let mut header = Header::default();
+            let mut header = TextHeader::default();
             header.lines.push_back(line.to_owned());
             let found = header.columns(count, count, Separator::of(line), Unit::is_name);
             assert_eq!(found.iter().map(|column| column.role).collect::<Vec<_>>(), roles, "{line}");
