@@ -308,7 +308,7 @@ fn few_files_name_a_pane_a_form_or_an_effect() {
     assert!(files.len() <= 10, "a second work of adhesion is named in {files:?}");
 }
 
-/// Words that the glossary replaces.
+/// Words that CONTRIBUTING.md replaces.
 const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
 
 #[test]
@@ -332,7 +332,7 @@ fn replaced_words_are_not_used() {
         if path.ends_with("program/source.rs") {
             continue;
         }
-        // The glossary ends with the words to avoid.
+        // CONTRIBUTING.md ends with the words to avoid.
         let text = text.split("## Words to avoid").next().unwrap();
         for word in text.split(|c: char| !c.is_alphabetic()) {
             words += 1;

@@ -22,7 +22,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
         layers.push(Layer::new(Label::plain(knob.name()), ink, Shape::signs(of(true).collect(), sign)));
         if of(false).next().is_some() {
             let rings = Shape::signs(of(false).collect(), Sign::Ring);
-            layers.push(Layer::new("error below that of the reference".into(), ink, rings));
+            layers.push(Layer::new("error below the error of the reference".into(), ink, rings));
         }
     }
     let all = || series.iter().flat_map(|(_, points)| points);
@@ -66,7 +66,7 @@ mod tests {
         );
         assert_eq!(chart.y.name, "relative error of the curve");
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(legend, [Knob::SubCellSprings.name(), "error below that of the reference"]);
+        assert_eq!(legend, [Knob::SubCellSprings.name(), "error below the error of the reference"]);
         assert!(figure.svg().contains("a &lt; b"));
         let empty = work_precision("", &CostTable { rows: Vec::new(), ..table }).svg();
         assert!(!empty.contains("NaN") && !empty.contains("inf") && !empty.contains("<circle"), "{empty}");

@@ -29,9 +29,8 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| fit(app).or_else(|| outcome(app)),
     help: &[(
         "Curve",
-        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-             ◆ now; letters and colours are ghosts, dashes are the path of manual loading. A measured curve is drawn in dots \
-             under the model; below it, where there is room, its residuals in units of the noise",
+        "F over indentation d: dotted on loading, solid on unloading; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ now. Letters and \
+         colours are ghosts, dashes are the path of manual loading. A measured curve is dots, with its residuals below",
     )],
     ..PaneRow::EMPTY
 };
