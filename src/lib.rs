@@ -3,7 +3,7 @@
 //! Adhesion of rough elastic contacts: pull-off force, dissipated energy and the whole hysteretic force curve of a
 //! rigid rough profile on an elastic half-space, for any loading history, exactly and in linear time.
 //!
-//! The model is that of V. L. Popov and A. E. Filippov (Physical Mesomechanics 15, 2012): the method of dimensionality
+//! The model was stated by V. L. Popov and A. E. Filippov (Physical Mesomechanics 15, 2012): the method of dimensionality
 //! reduction (MDR) with the rule of Hess for adhesion. A three-dimensional contact maps to a one-dimensional
 //! equivalent profile on independent springs of stiffness E\* Δx. A contact patch of length l holds springs that are
 //! stretched by up to √(π l γ/E\*), with the work of adhesion γ and the effective modulus E\*.
@@ -81,7 +81,7 @@
 //! | [`experiment`] | measured force curves and a scene | fitted values with their errors |
 //! | [`study`] | many scenes | tables, statistics |
 //!
-//! Charts and reports have crates of their own; the command line and the explorer belong to the program alone.
+//! Charts and reports have crates of their own; the command line and the explorer belong only to the program.
 
 pub mod cli;
 pub mod explorer;

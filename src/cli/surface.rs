@@ -82,13 +82,13 @@ pub struct SurfaceArguments {
     /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
     pub work: Option<f64>,
-    /// Preload, such as 1mN; default: touch without a force
+    /// Preload, such as 1mN; default: turned at first touch
     #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = |text: &str| positive(text, "N"))]
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
     ///
     /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the
-    /// spread over profiles and that of the fit. Default: 16 up to 131 072 springs, else none.
+    /// spread over profiles and the spread by the fit. Default: 16 up to 131 072 springs, else none.
     #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Output file.
@@ -225,7 +225,7 @@ fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, Cl
         surfaces.extend(read);
     }
     let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
-        let file = facts.get(error.surface());
+        let file = facts.get(error.surface().unwrap_or(0));
         CliError::named(file.map(|file| path_name(&file.path)).unwrap_or_default(), error)
     })?;
     Ok(MeasuredFace { files: facts, analysis })

@@ -186,7 +186,7 @@ impl<'a> Runs<'a> {
 /// Returns true if memory or time did not suffice.
 pub(super) fn is_spent(error: &RunError) -> bool {
     use RunError::{Contact, OutOfMemory, Surface};
-    let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory(_)));
+    let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory { .. }));
     is_short || matches!(error, Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted))
 }
 
@@ -194,7 +194,8 @@ pub(super) fn is_spent(error: &RunError) -> bool {
 pub(super) fn is_too_coarse(error: &RunError) -> bool {
     match error {
         RunError::Contact(error) => error.is_out_of_reach(),
-        error => matches!(error, RunError::Surface(SurfaceError::NoSprings { .. })),
+        RunError::Surface(error) => error.field() == Some("form.radius"),
+        _ => false,
     }
 }
 

@@ -90,9 +90,9 @@ impl Regime {
         let name = self.name();
         match after_zero_force {
             Some(same) if same == self && self == Regime::NonAdhesive => name.to_owned(),
-            Some(same) if same == self => format!("{name} (touch, F=0)"),
-            None => format!("{name} (touch)"),
-            Some(other) => format!("{name} (touch), {} (F=0)", other.name().trim_start_matches("pressure-")),
+            Some(same) if same == self => format!("{name} (d=0, F=0)"),
+            None => format!("{name} (d=0)"),
+            Some(other) => format!("{name} (d=0), {} (F=0)", other.name().trim_start_matches("pressure-")),
         }
     }
 }
@@ -105,12 +105,12 @@ mod tests {
     fn a_regime_names_its_protocols() {
         let [insensitive, sensitive, non_adhesive] = Regime::ALL;
         assert_eq!(non_adhesive.by_protocols(Some(non_adhesive)), "non-adhesive");
-        assert_eq!(sensitive.by_protocols(Some(sensitive)), "pressure-sensitive (touch, F=0)");
+        assert_eq!(sensitive.by_protocols(Some(sensitive)), "pressure-sensitive (d=0, F=0)");
         assert_eq!(
             sensitive.by_protocols(Some(insensitive)),
-            "pressure-sensitive (touch), insensitive (F=0)"
+            "pressure-sensitive (d=0), insensitive (F=0)"
         );
-        assert_eq!(sensitive.by_protocols(None), "pressure-sensitive (touch)");
+        assert_eq!(sensitive.by_protocols(None), "pressure-sensitive (d=0)");
     }
 
     #[test]

@@ -211,7 +211,7 @@ impl Simulation {
         if let Some(rough) = self.roughness.as_mut().filter(|_| self.single) {
             memory = take(&mut rough.heights);
         } else {
-            memory = emptied(memory, points).map_err(SurfaceError::from)?;
+            memory = emptied(memory, points).map_err(SurfaceError::of_springs)?;
             let heights = self.roughness.as_ref().map_or(&[][..], |rough| &rough.heights);
             memory.extend_from_slice(heights);
             memory.resize(points, 0.0);
@@ -222,7 +222,7 @@ impl Simulation {
     /// Makes the heights of a roughness; synthesised ones in the memory `memory`.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::from)?;
+        check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::of_springs)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
             self.maker.synthesizer = Synthesizer::default();

@@ -1,7 +1,7 @@
 //! Forms from a table of rows against the forms that they were computed from.
 
 use asperity_scene::{Document, Outcome, RunError, Simulation, closed_form};
-use asperity_surface::{Form, FormTable, Line, SurfaceError};
+use asperity_surface::{Form, FormTable, Line};
 use dashu_float::{FBig, round::mode::HalfEven};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -85,7 +85,7 @@ fn a_table_without_a_file_or_too_short_is_refused() {
         let mut simulation = Simulation::new(folder.path().to_owned());
         let outcome = simulation.run(scene(form, 1e-4).scene(), &|| false, &mut |_, _, _| Ok(()));
         match outcome {
-            Err(RunError::Surface(SurfaceError::File { reason, .. })) => reason,
+            Err(RunError::Surface(error)) if error.field() == Some("form.file") => error.to_string(),
             other => panic!("{other:?}"),
         }
     };
