@@ -290,9 +290,11 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Contact of a scene before its loading, and its governing parameters. The values of the scene are checked, except the
-    /// radius of its form, which a fit may vary.
-    pub fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
+    /// Contact of a checked scene before its loading, and its governing parameters.
+    ///
+    /// # Errors
+    /// As for [`Self::make_line`].
+    pub fn contact(&mut self, scene: &CheckedScene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
