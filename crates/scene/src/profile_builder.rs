@@ -264,7 +264,7 @@ impl ProfileBuilder {
         loading: &[Move],
     ) -> Result<Outcome, Error> {
         let scene = self.scene(modulus, adhesion, loading)?;
-        Ok(self.simulation().run(&scene, &|| false, &mut |_, _, _| Ok(()))?)
+        Ok(self.simulation().compute(&scene)?)
     }
 
     fn simulation(&self) -> Simulation {

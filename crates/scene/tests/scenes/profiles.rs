@@ -71,7 +71,7 @@ proptest! {
         prop_assert_eq!(profile.position(0), line.position(0));
         let stages = [Move::ToForce(1.0e-6), Move::ToSeparation];
         let run = builder.run(Modulus::effective(1.0e6).unwrap(), Some(Adhesion::by_work(1.0e-3)), &stages).unwrap();
-        let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = simulation.compute(document.scene()).unwrap();
         prop_assert!(run.history.legs == outcome.history.legs && run.figures == outcome.figures);
         prop_assert_eq!((run.governing, run.regime), (outcome.governing, outcome.regime));
     }
