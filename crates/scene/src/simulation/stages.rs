@@ -376,7 +376,7 @@ impl Simulation {
 /// The profile of a contact on the springs under a line.
 pub(crate) fn profile_of(line: &Line) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
-    Ok(profile.on_foundation(line.length, line.first)?.with_summit(line.summit))
+    profile.on_foundation(line.length, line.first)?.with_summit(line.summit)
 }
 
 /// Loads a contact with the solver of the scene; with `zero_load` also with turns at first touch and at zero force. Returns
