@@ -2,7 +2,7 @@
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
 
-pub use realfft::{ComplexToReal, RealToComplex};
+pub use realfft::{ComplexToReal, FftError, RealToComplex};
 pub use rustfft::Fft;
 pub use rustfft::num_complex::Complex64;
 
