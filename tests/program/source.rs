@@ -12,7 +12,7 @@ const CRATES: [&str; 10] =
 /// Rooms of crates from the ground up: each imports only earlier rooms.
 const ROOMS: [(&str, &str); 3] = [
     ("surface", "error topography spectrum line"),
-    ("scene", "scene analysis reference simulation error front profile contact_cycle accuracy"),
+    ("scene", "scene analysis reference simulation error front profile_builder accuracy"),
     ("program", "explorer cli"),
 ];
 
@@ -301,14 +301,14 @@ fn few_files_name_a_pane_a_form_or_an_effect() {
     for form in ["Form::Paraboloid", "Form::Cone", "Form::Power", "Form::Punch"] {
         // The profile of a sphere, and the form of a flat body, are only constructed.
         let mut files = files_that_name(form);
-        files.retain(|file| !["scene::profile", "scene::scene::effects"].contains(&file.as_str()));
+        files.retain(|file| !["scene::profile_builder", "scene::scene::effects"].contains(&file.as_str()));
         assert_eq!(files, ["surface::line::form"], "{form}");
     }
     let files = files_that_name("closing_work");
     assert!(files.len() <= 10, "a second work of adhesion is named in {files:?}");
 }
 
-/// Words that the glossary replaces.
+/// Words that CONTRIBUTING.md replaces.
 const REPLACED: [&str; 8] = ["tell", "tells", "told", "owe", "owes", "owed", "stands", "stood"];
 
 #[test]
@@ -332,7 +332,7 @@ fn replaced_words_are_not_used() {
         if path.ends_with("program/source.rs") {
             continue;
         }
-        // The glossary ends with the words to avoid.
+        // CONTRIBUTING.md ends with the words to avoid.
         let text = text.split("## Words to avoid").next().unwrap();
         for word in text.split(|c: char| !c.is_alphabetic()) {
             words += 1;

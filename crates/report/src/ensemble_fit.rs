@@ -95,7 +95,7 @@ impl Report for EnsembleFitReport<'_> {
             let options = fit.roughness.map_or("", |_| ": --height-error, --hurst-error state them");
             sheet.paragraph(&format!("{text}{options}."));
         }
-        sheet.heading("Each curve alone");
+        sheet.heading("Each curve by itself");
         let header = ["curve", "pull-off", "loop area", "stiffness", "γ", "95 % interval"];
         let rows = fit.curves.iter().map(row);
         sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
@@ -116,7 +116,7 @@ impl Report for EnsembleFitReport<'_> {
             } else {
                 ": the work of adhesion or the roughness may vary from place to place"
             };
-            sheet.paragraph(&format!("Scatter of the curves over that of the profiles: {ratio:.2}{why}."));
+            sheet.paragraph(&format!("Scatter of the curves over scatter of the profiles: {ratio:.2}{why}."));
         }
         self.foreign().into_iter().for_each(|text| sheet.paragraph(&text));
         sheet.paragraph(&format!("{} curves were computed. {INDEPENDENT}", grouped(fit.computed as u64)));

@@ -114,7 +114,7 @@ struct Distribution {
 }
 
 impl FitsReport<'_> {
-    /// Values of the first free parameter of curves that are described, or of those that are not.
+    /// Values of the first free parameter, of curves that are described or of curves that are not.
     fn values(&self, is_described: bool) -> Vec<f64> {
         let of = self.rows.iter().filter(|row| row.described == Some(is_described));
         of.filter_map(|row| Some(row.parameters.first()?[0])).collect()
@@ -126,7 +126,7 @@ impl FitsReport<'_> {
         (!values.is_empty()).then_some(Distribution { quartiles, count: values.len() })
     }
 
-    /// Sentences on the first parameter over the curves that are described, over all, and on those without a fit.
+    /// Sentences on the first parameter over the described curves and over all curves, and on curves without a fit.
     fn summary(&self) -> Vec<String> {
         let Some(row) = self.free.first().map(|one| one.row()) else { return Vec::new() };
         let sentence = |found: Distribution, of: &str| {

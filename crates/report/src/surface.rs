@@ -183,7 +183,7 @@ fn preload(scene: &Scene) -> Option<f64> {
 fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
     sheet.heading("Adhesion of the equivalent line");
     let loading = preload(scene).map_or_else(
-        || "touch without force, then pull (--preload presses before)".to_owned(),
+        || "turned at first touch, d = 0 (--preload presses before)".to_owned(),
         |force| format!("to {}, then pull", format_quantity(force, "N")),
     );
     sheet.row("loading", loading);
@@ -198,7 +198,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion
     let forces = computed.adhesion_force();
     forces.and_then(|forces| forces.warning("F_a")).iter().for_each(|warning| sheet.row("", warning));
     let count = computed.profiles.len();
-    let labels = ["regime from first touch", "regime after zero force"];
+    let labels = ["regime turned at first touch", "regime turned at zero force"];
     for (label, regimes) in labels.into_iter().zip(computed.regimes()) {
         let each = regimes.present().map(|(name, some)| format!("{name} on {some} of {count}"));
         sheet.row(label, each.collect::<Vec<_>>().join(", ") + " profiles");
@@ -298,7 +298,7 @@ fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result
 }
 
 impl<'a> FaceJson<'a> {
-    /// The facts of one face alone.
+    /// The facts of one face.
     fn new(face: &'a MeasuredFace) -> Self {
         let MeasuredFace { files, analysis } = face;
         let spectrum = |(direction, bins): &'a (Along, Vec<Bin>)| SpectrumJson {
