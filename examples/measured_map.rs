@@ -26,8 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let cycle = contact.build()?.load(&[Move::ToForce(1.0e-6), Move::ToSeparation])?;
         Ok(cycle.pull_off_force().unwrap_or(0.0))
     };
-    let line = EquivalentLine::from(&analysis);
-    let (mut forces, mut changes) = (Vec::new(), 0.0);
+    let (line, mut forces, mut changes) = (EquivalentLine::from(&analysis), Vec::new(), 0.0);
     for seed in 1..=16 {
         forces.push(force(&line, seed)?);
         // To first order: a small step of the spectrum, drawn from the errors of the fit.
