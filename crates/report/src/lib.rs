@@ -58,7 +58,7 @@ pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;
 pub use stages::stages_text;
-pub use status::{progress_text, status_text};
+pub use status::{duration, progress_text, status_text};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
