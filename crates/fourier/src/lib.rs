@@ -2,9 +2,9 @@
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
 
-pub use realfft::{ComplexToReal, FftError, RealToComplex};
-pub use rustfft::{Fft, FftNum};
+pub use realfft::{ComplexToReal, RealToComplex};
 pub use rustfft::num_complex::{Complex, Complex64};
+pub use rustfft::{Fft, FftNum};
 
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;

@@ -1,7 +1,7 @@
 //! Content of a figure: charts with axes and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
 //! decides on the appearance.
 
-use super::axis::Axis;
+use super::axis::ChartAxis;
 use super::colour::{Ink, Rgb, Shades};
 use super::label::Label;
 use super::scale::Span;
@@ -25,7 +25,7 @@ pub struct Figure {
     /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
     pub width: Option<f64>,
     /// Height of a picture, px of 1/96 inch, into which its frames are fitted; `None`: the height that its frames need, but in
-    /// a figure with a given width at most that of a page.
+    /// a figure with a given width at most the height of a page.
     pub height: Option<f64>,
     /// True for a picture without the title, which a caption has instead.
     pub untitled: bool,
@@ -58,7 +58,7 @@ impl Figure {
         Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
-    /// The figure with the chosen panels alone, which get the letters from `a` on.
+    /// The figure with only the chosen panels, which get the letters from `a` on.
     ///
     /// # Errors
     /// The letters of the panels, if one of the chosen letters is not among them.
@@ -91,16 +91,16 @@ pub struct Chart {
     /// Heading, shown in figures of several charts; may be empty.
     pub heading: Label,
     /// Horizontal axis.
-    pub x: Axis,
+    pub x: ChartAxis,
     /// Vertical axis.
-    pub y: Axis,
+    pub y: ChartAxis,
     /// Layers, the lowest first.
     pub layers: Vec<Layer>,
 }
 
 impl Chart {
     /// Creates a chart of layers over two axes.
-    pub fn new(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
+    pub fn new(x: ChartAxis, y: ChartAxis, layers: Vec<Layer>) -> Chart {
         Chart { heading: Label::default(), x, y, layers }
     }
 
@@ -303,7 +303,7 @@ pub struct HeatMap {
     /// Values of the cells in SI units, row by row; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
     /// Axis of the colour scale of the values.
-    pub key: Axis,
+    pub key: ChartAxis,
     /// Colours of the values.
     pub shades: Shades,
     /// Class of each cell as an index of `class_names`; empty if the values have no classes.
@@ -319,7 +319,7 @@ pub struct HeatMap {
 pub struct Class {
     /// Sign of the class in a picture.
     pub sign: Sign,
-    /// Letter of the class in wide cells of a terminal; `None` if the shade alone shows the class.
+    /// Letter of the class in wide cells of a terminal; `None` if the shade shows the class.
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,

@@ -27,7 +27,7 @@ const RESAMPLING_SEED: u64 = 2012;
 
 /// The boundary for one combination of values on the other axes, one protocol and one share.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Boundary {
+pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of these axes.
     pub others: Vec<f64>,
     /// The recorded quantity F_a(0)/F_a,max, which identifies the protocol.
@@ -68,7 +68,7 @@ pub struct Boundaries {
     /// Number of random profiles of each cell.
     pub lines: u64,
     /// Boundaries, sorted by the values on the other axes, then by protocol, then by share.
-    pub found: Vec<Boundary>,
+    pub found: Vec<AdhesionBoundary>,
 }
 
 /// F_a(0)/F_a,max over ascending κ or e_el/γ: for each value the shares on the same profiles.
@@ -92,7 +92,7 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
     let protocols: Vec<Quantity> = shares.into_iter().filter(|share| plan.record.contains(share)).collect();
     if protocols.is_empty() {
         return Err(refuse(
-            "this study records neither zero_load_adhesion_share nor zero_force_adhesion_share",
+            "this study records neither first_touch_adhesion_share nor zero_force_adhesion_share",
         ));
     }
     let others: Vec<usize> = (0..plan.axes.len()).filter(|axis| *axis != along).collect();
@@ -115,7 +115,7 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
                 let interval = interval.map(|(low, high)| (to(low), to(high)));
                 let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
                 let crossing = Crossing { value: to(value), side, interval };
-                found.push(Boundary { others, protocol, level, crossing });
+                found.push(AdhesionBoundary { others, protocol, level, crossing });
             }
         }
     }
@@ -157,7 +157,7 @@ fn conversion(
 
 /// Name of the protocol of a recorded quantity F_a(0)/F_a,max.
 pub fn protocol_name(share: Quantity) -> &'static str {
-    if share == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
+    if share == Quantity::ZeroLoadAdhesionShare { "first touch" } else { "zero force" }
 }
 
 impl Boundaries {

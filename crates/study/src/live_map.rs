@@ -174,7 +174,7 @@ mod tests {
     use crate::live_plan::live_plan;
     use crate::plan_text::Changes;
     use crate::quantity::Quantity;
-    use crate::run::{Options, run};
+    use crate::run::run_study;
     use crate::shard::Shard;
     use crate::store::Folder;
     use crate::study_map::StudyMap;
@@ -230,7 +230,7 @@ mod tests {
             places.iter().map(value).collect::<Vec<_>>().join(", ")
         };
         let text = format!(
-            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [zero_load_adhesion_share, \
+            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [first_touch_adhesion_share, \
              adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force, adhesion_share], axes: [List(path: \"adhesion.kappa\", values: [{}]), \
              List(path: \"roughness.hurst\", values: [{}])])",
             to_ron(&live.plan().scene),
@@ -241,7 +241,7 @@ mod tests {
         let plan = Plan::parse(&text, "map", &Changes::default()).unwrap();
         let place = tempfile::tempdir().unwrap();
         let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
-        run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+        run_study(&folder, Shard::WHOLE, 1, &|| false, &mut |_| ()).unwrap();
         merge(&folder).unwrap();
         let study = StudyMap::open(folder.path()).unwrap().grid(0);
         let (live, mut disagreeing) = (live.grid(), 0);

@@ -4,7 +4,7 @@
 //! draws, so only their means compare. The area of contact does not: at the same force the line has 1.1 to 4.2 times
 //! the area of three dimensions.
 
-use super::error::{NO_PROFILES, StudyError};
+use super::error::StudyError;
 use super::profiles::Stop;
 use super::quantity::Quantity;
 use super::resolved::{Resolved, of_scene};
@@ -152,7 +152,7 @@ impl Reference {
         report: &(dyn Fn(ReferenceEvent<'_>) + Sync),
     ) -> Result<Reference, StudyError> {
         if options.maps == 0 || options.lines == 0 {
-            return Err(NO_PROFILES);
+            return Err(StudyError::refused(None, "no profiles", "at least one"));
         }
         let resolved = Resolved::of(scene, options.cells, &mut simulation)?;
         let (seed, is_random) = (scene.seed().unwrap_or(0), scene.seed().is_some());
@@ -162,19 +162,16 @@ impl Reference {
         let bytes = resolved.body.bytes(options.cells);
         let threads = jobs.clamp(1, usize::try_from(options.maps).unwrap_or(usize::MAX));
         let fits = |threads: &usize| check_room(bytes.saturating_mul(*threads as u64)).is_ok();
-        let threads = (1..=threads).rev().find(fits).ok_or_else(|| StudyError::Question {
-            place: format!("{} cells", options.cells),
-            why: format!(
-                "not enough memory for the {} of a square; allowed: fewer cells along the side",
-                memory_size(bytes)
-            ),
+        let threads = (1..=threads).rev().find(fits).ok_or_else(|| {
+            let found = format!("not enough memory for the {} of a square", memory_size(bytes));
+            StudyError::refused(Some(&format!("{} cells", options.cells)), found, "fewer cells along the side")
         })?;
 
         let begun = Instant::now();
         let own = run(&resolved.line, &mut resolved.simulation(), stop)?;
-        let preload = own.figures.preload.filter(|preload| *preload > 0.0).ok_or(StudyError::NotAllowed {
-            found: "the loading has no preload above 0 N",
-            allowed: "a loading to a force or an indentation before the separation",
+        let preload = own.figures.preload.filter(|preload| *preload > 0.0).ok_or_else(|| {
+            let allowed = "a loading to a force or an indentation before the separation";
+            StudyError::refused(None, "the loading has no preload above 0 N", allowed)
         })?;
         let bare = resolved.line.with(|scene| {
             scene.adhesion = None;

@@ -39,10 +39,8 @@ impl Resolved {
     ) -> Result<Resolved, StudyError> {
         check_cells(cells)?;
         if scene.measured_as_line() {
-            return Err(StudyError::NotAllowed {
-                found: "the measured profile itself is the line",
-                allowed: "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)",
-            });
+            let allowed = "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
+            return Err(StudyError::refused(None, "the measured profile itself is the line", allowed));
         }
         let (_, _, governing) = simulation.make_line(scene).map_err(of_scene)?;
         let mut changed = Scene::clone(scene);
@@ -85,9 +83,7 @@ impl Resolved {
             changed.numerics.points = points(last);
             resolved.body.spectrum = Some(Spectrum::SelfAffine(kept, first));
         } else if let Some(line) = simulation.equivalent_line() {
-            let (first, whole) = line
-                .modes(scene.length, usize::MAX)
-                .map_err(|why| StudyError::Question { place: "roughness".to_owned(), why })?;
+            let (first, whole) = line.modes(scene.length, usize::MAX)?;
             let last = keep(first, whole)?;
             let line = line.up_to(TAU * last as f64 / scene.length);
             changed.numerics.points = points(last);
@@ -114,12 +110,9 @@ pub(super) fn of_scene(error: RunError) -> StudyError {
 }
 
 fn too_few(cells: usize, first: u64) -> StudyError {
-    StudyError::Question {
-        place: format!("{cells} cells"),
-        why: format!(
-            "the longest wave of the scene has {} cells; allowed: at least {} cells along the side",
-            cells as u64 / first,
-            (CELLS_PER_WAVE * first).next_power_of_two()
-        ),
-    }
+    StudyError::refused(
+        Some(&format!("{cells} cells")),
+        format!("the longest wave of the scene has {} cells", cells as u64 / first),
+        format!("at least {} cells along the side", (CELLS_PER_WAVE * first).next_power_of_two()),
+    )
 }

@@ -194,10 +194,8 @@ impl Loop {
             next = if missing > 0.0 { missing.clamp(0.05 * step, step) } else { step };
         }
         let deepest = self.state.indentation;
-        let why = format!(
-            "the preload {preload:e} N is not reached at the indentation {deepest:e} m; allowed: a smaller preload"
-        );
-        Err(StudyError::Question { place: "the square".to_owned(), why })
+        let found = format!("{preload:e} N is not reached at the indentation {deepest:e} m");
+        Err(StudyError::refused(Some("the preload in three dimensions"), found, "a smaller preload"))
     }
 
     /// Pulls off in steps of the indentation, m, until nothing touches.
