@@ -47,7 +47,7 @@ pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, w
 pub use provenance::{
     check_measured_files, entries, files_provenance, named_from, scene_provenance, scenes_provenance,
 };
-pub use reference::ReferenceReport;
+pub use reference::{ReferenceProgress, ReferenceReport, square_loops_words};
 pub use report::{Format, Json, Report, check_extension, write};
 pub use reversals::ReversalReport;
 pub use run::{PathReport, RunReport};
@@ -59,7 +59,7 @@ pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;
 pub use stages::stages_text;
-pub use status::{duration, progress_text, status_text};
+pub use status::{progress_text, status_text};
 pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};

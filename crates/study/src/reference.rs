@@ -5,15 +5,16 @@
 //! the area of three dimensions.
 
 use super::error::StudyError;
-use super::profiles::Stop;
+use super::profiles::{Stop, on_threads_received};
 use super::quantity::Quantity;
 use super::resolved::{Resolved, of_scene};
 use super::spatial::{Body, Loads, Pressing, Pulling};
 use super::statistics::Statistics;
 use asperity_contact::{CurvePoint, Move};
 use asperity_data::{check_room, memory_size, on_threads};
-use asperity_scene::{CheckedScene, Outcome, Simulation};
+use asperity_scene::{CheckedScene, Outcome, Scene, Simulation};
 use serde::Serialize;
+use std::sync::mpsc::Sender;
 use std::time::Instant;
 
 /// Forces of the comparison without adhesion, as shares of the preload.
@@ -36,6 +37,18 @@ pub struct ReferenceOptions {
     pub maps: u64,
     /// Number of random lines.
     pub lines: u64,
+}
+
+/// Lines for each square: a line takes a thousandth of the time.
+const LINES_PER_MAP: u64 = 16;
+
+impl ReferenceOptions {
+    /// Numbers for a scene: by default 24 squares without adhesion, and 12 with adhesion, where a square takes ten times as
+    /// long.
+    pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
+        let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
+        ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
+    }
 }
 
 /// A number of both models.
@@ -91,6 +104,8 @@ pub struct Reference {
     pub convolutions: u64,
     /// Time of the lines and of the squares, s.
     pub seconds: [f64; 2],
+    /// Mean time of one square, s.
+    pub seconds_of_square: f64,
 }
 
 /// Errors by their sources, as shares of the adhesion force, or without adhesion of the indentation.
@@ -109,8 +124,8 @@ pub struct ReferenceBudget {
 }
 
 /// What happens during a comparison.
-#[derive(Clone, Copy, Debug)]
-pub enum ReferenceEvent<'a> {
+#[derive(Clone, Debug)]
+pub enum ReferenceEvent {
     /// The squares begin.
     Begins {
         /// Number of squares: one for a body without random roughness.
@@ -125,7 +140,7 @@ pub enum ReferenceEvent<'a> {
     /// A square is done.
     Square {
         /// Its indentations, m, and forces, N.
-        curve: &'a [(f64, f64)],
+        curve: Vec<(f64, f64)>,
         /// Its adhesion force, N, with adhesion.
         adhesion_force: Option<f64>,
     },
@@ -135,9 +150,16 @@ pub enum ReferenceEvent<'a> {
 struct OfSquare {
     fine: Loads,
     coarse: Option<Loads>,
+    /// Time of the finer one, s.
+    seconds: f64,
 }
 
 impl Reference {
+    /// The number of both models that is compared first: the adhesion force, or without one the last indentation.
+    pub fn headline(&self) -> Option<&Compared> {
+        self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
+    }
+
     /// Compares a checked scene with squares. `simulation` has the files of the scene; `jobs` threads share the lines and the
     /// squares, and no bit but the seconds depends on their number.
     ///
@@ -149,7 +171,7 @@ impl Reference {
         options: ReferenceOptions,
         (mut simulation, jobs): (Simulation, usize),
         stop: &Stop<'_>,
-        report: &(dyn Fn(ReferenceEvent<'_>) + Sync),
+        report: &mut dyn FnMut(ReferenceEvent),
     ) -> Result<Reference, StudyError> {
         if options.maps == 0 || options.lines == 0 {
             return Err(StudyError::refused(None, "no profiles", "at least one"));
@@ -164,7 +186,11 @@ impl Reference {
         let fits = |threads: &usize| check_room(bytes.saturating_mul(*threads as u64)).is_ok();
         let threads = (1..=threads).rev().find(fits).ok_or_else(|| {
             let found = format!("not enough memory for the {} of a square", memory_size(bytes));
-            StudyError::refused(Some(&format!("{} cells", options.cells)), found, "fewer cells along the side")
+            StudyError::refused(
+                Some(&format!("{} cells", options.cells)),
+                found,
+                "fewer cells along the side",
+            )
         })?;
 
         let begun = Instant::now();
@@ -200,24 +226,27 @@ impl Reference {
         let bytes = bytes * threads as u64;
         report(ReferenceEvent::Begins { maps: options.maps, threads, bytes, seconds });
         let begun = Instant::now();
-        let squares = on_threads(options.maps, threads, || {
-            let body = &resolved.body;
+        let body = &resolved.body;
+        let worker = |sender: Sender<ReferenceEvent>| {
             move |map: u64| {
-                let seed = seed.wrapping_add(map);
+                let (begun, seed) = (Instant::now(), seed.wrapping_add(map));
                 let fine = body.load((options.cells, seed), loads, &stop)?;
+                let seconds = begun.elapsed().as_secs_f64();
                 let coarse = match options.cells / 2 {
                     cells if cells >= LEAST_CELLS => Some(body.load((cells, seed), loads, &stop)?),
                     _ => None,
                 };
-                let pressings = fine.pressings.iter().zip(loads.0);
-                let pressed: Vec<(f64, f64)> =
-                    pressings.map(|(found, force)| (found.indentation, *force)).collect();
-                let curve = fine.pulling.as_ref().map_or(&pressed, |pulling| &pulling.curve);
-                let adhesion_force = fine.pulling.as_ref().map(|pulling| pulling.adhesion_force);
-                report(ReferenceEvent::Square { curve, adhesion_force });
-                Ok::<_, StudyError>(OfSquare { fine, coarse })
+                let pressed =
+                    fine.pressings.iter().zip(loads.0).map(|(found, force)| (found.indentation, *force));
+                let pulling = fine.pulling.as_ref();
+                let curve = pulling.map_or_else(|| pressed.collect(), |pulling| pulling.curve.clone());
+                let adhesion_force = pulling.map(|pulling| pulling.adhesion_force);
+                // The receiver lives until all threads have ended.
+                let _ = sender.send(ReferenceEvent::Square { curve, adhesion_force });
+                Ok(OfSquare { fine, coarse, seconds })
             }
-        })?;
+        };
+        let squares = on_threads_received(options.maps, threads, worker, report)?;
         let of_squares = begun.elapsed().as_secs_f64();
         Ok(Reference::gather(options, &resolved, preload, &lines, &squares, [of_lines, of_squares]))
     }
@@ -272,6 +301,7 @@ impl Reference {
             budget,
             convolutions: squares.iter().map(|found| found.fine.convolutions).sum(),
             seconds,
+            seconds_of_square: squares.iter().map(|found| found.seconds).sum::<f64>() / squares.len() as f64,
             options,
         }
     }
@@ -364,7 +394,7 @@ mod tests {
         jobs: usize,
     ) -> Result<Reference, StudyError> {
         let options = ReferenceOptions { cells, maps, lines: 16 * maps };
-        Reference::of(scene, options, (Simulation::default(), jobs), &|| false, &|_| ())
+        Reference::of(scene, options, (Simulation::default(), jobs), &|| false, &mut |_| ())
     }
 
     /// For a sphere the line is exact, so that both models agree to the error of the grid.
@@ -392,7 +422,8 @@ mod tests {
             // Two squares scatter by a half.
             assert!((0.4..2.5).contains(&loaded.stiffness.ratio), "{loaded:?}");
         }
-        let same = Reference { seconds: found.seconds, ..reference(scene.scene(), 64, 2, 1).unwrap() };
+        let (seconds, seconds_of_square) = (found.seconds, found.seconds_of_square);
+        let same = Reference { seconds, seconds_of_square, ..reference(scene.scene(), 64, 2, 1).unwrap() };
         assert_eq!(same, found);
         assert!(found.budget.solver <= 1e-8 && found.budget.grid.is_some() && found.budget.sample.is_some());
     }

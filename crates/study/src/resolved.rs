@@ -39,7 +39,8 @@ impl Resolved {
     ) -> Result<Resolved, StudyError> {
         check_cells(cells)?;
         if scene.measured_as_line() {
-            let allowed = "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
+            let allowed =
+                "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
             return Err(StudyError::refused(None, "the measured profile itself is the line", allowed));
         }
         let (_, _, governing) = simulation.make_line(scene).map_err(of_scene)?;

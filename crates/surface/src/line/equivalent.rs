@@ -205,9 +205,9 @@ mod tests {
         let (first, last) = line.modes(side, 4096).unwrap();
         assert_eq!((first, last), (1, 64));
         let of_line = line.amplitude_of_modes(side, (first, last)).rms_height.powi(2);
-        let waves = (-70..=70_i32).flat_map(|x| (-70..=70_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
-        let of_surface: f64 =
-            waves.filter(|k| *k > 0.0).map(|k| line.variance_of_surface(k, side)).sum();
+        let waves =
+            (-70..=70_i32).flat_map(|x| (-70..=70_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
+        let of_surface: f64 = waves.filter(|k| *k > 0.0).map(|k| line.variance_of_surface(k, side)).sum();
         assert!((of_surface / of_line - 1.0).abs() < 0.1, "{of_surface} {of_line}");
     }
 
