@@ -5,19 +5,25 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, SupportsFloat, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _native
 from ._native import Loop, Profile, Scene, quantity, whole
-from ._notation import Form, in_fields, in_scene, refusal
-from ._results import Ensemble, Found, Outcome, Preloads, Reference, Reversals
+from ._notation import Form, Quantity, in_fields, in_scene, in_words, refusal
+from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
 
-#: A number in SI units, or a text with its unit.
-Quantity: TypeAlias = SupportsFloat | str
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    _Curve: TypeAlias = AnyPath | tuple[npt.ArrayLike, npt.ArrayLike]
+
 #: Called with the number of parts that are done and of all parts; an exception stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
 #: Name of a built-in scene, path of a file, text of a scene, or an open scene.
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene
+
+#: Path of a file.
+AnyPath: TypeAlias = str | os.PathLike[str]
 
 #: A scene whose form and roughness are replaced.
 _PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"
@@ -207,7 +213,7 @@ def preloads(
 ) -> Preloads:
     """Computes the adhesion force for `count` preloads between two forces, N; with `log` at equal ratios."""
     axis = f"{_range(between)}:{count}" + (":log" if log else "")
-    return Preloads(_native.preloads(_scene(scene, fields), axis, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Preloads(_native.preloads(_scene(scene, fields), axis, whole(profiles, "profiles", 1, 1_000_000), _count("jobs", jobs, 1024), progress))
 
 
 def reversals(
@@ -237,6 +243,100 @@ def reference(
 ) -> Reference:
     """Computes a scene in three dimensions on random squares of `grid` cells along a side, beside random lines."""
     return Reference(_native.reference(_scene(scene, fields), grid, maps, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+
+
+def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
+    """What other theories say on a scene, each with its value, its threshold and its reference."""
+    found: list[Values] = run(scene, profiles=1, **fields).criteria
+    return found
+
+
+def study(
+    scene: AnyScene,
+    axes: Mapping[str, Sequence[Quantity]],
+    /,
+    *,
+    record: Sequence[str] = ("adhesion_force", "regime"),
+    profiles: int = 16,
+    jobs: int | None = None,
+    progress: Progress = None,
+    **fields: Any,
+) -> Study:
+    """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles of each.
+
+    `record` names quantities of `docs/studies.md`.
+    """
+    values = [(path, [float(value) for value in axis]) for path, axis in axes.items()]
+    count = whole(profiles, "profiles", 1, 1_000_000)
+    return Study(_native.study(_scene(scene, fields), values, list(record), count, _count("jobs", jobs, 1024), progress))
+
+
+def surface(
+    files: AnyPath | Sequence[AnyPath] | npt.ArrayLike,
+    /,
+    *,
+    spacing: Quantity | tuple[Quantity, Quantity] | None = None,
+    opposite: AnyPath | None = None,
+    **options: Any,
+) -> Surface:
+    """Reads and analyses measured surfaces: a file, several files that are samples of one roughness, or an array.
+
+    An array holds the heights of a profile or a map in m, and `spacing` is the distance between its points, or the distances
+    along its rows and between them. `opposite` is a file of the opposite face. Further options are those of
+    `asperity surface --help`: `unit="um"`, `detrend="tilt"`, `periodic=True`, `interpolate=True`, `channel=1`,
+    `continue_to="10 nm"`, `tip_radius="10 nm"`, `modulus="2.7 MPa"` and others.
+    """
+    if isinstance(files, (str, os.PathLike)):
+        files = [files]
+    words = in_words({"opposite": opposite, **options})
+    if isinstance(files, (list, tuple)) and files and all(isinstance(one, (str, os.PathLike)) for one in files):
+        words += [*in_words({"spacing": spacing}), "--", *map(os.fspath, files)]
+        return Surface(_native.Surface.of_files(words))
+    if spacing is None:
+        raise refusal("spacing", None, "the distance between the points of the array, m")
+    distances = spacing if isinstance(spacing, tuple) else (spacing, spacing)
+    along, across = (quantity(distance, "m", "spacing") for distance in distances)
+    heights: Any = files
+    return Surface(_native.Surface.of_heights(heights, [along, across], [*words, "array"]))
+
+
+def fit(
+    curves: _Curve | Sequence[_Curve],
+    scene: AnyScene,
+    /,
+    free: Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    profiles: int | None = None,
+    jobs: int | None = None,
+    progress: Progress = None,
+    options: Mapping[str, Any] | None = None,
+    **fields: Any,
+) -> Fit | Fits | EnsembleFit:
+    """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
+
+    A curve is a file, or a pair of arrays with displacements in m and forces in N. `free` names the parameters (work,
+    closing_work, modulus, offset, zero, stiffness, radius), or gives the range of each. With `profiles` one work of adhesion is
+    found for all curves of a rough body, by comparison with random profiles. `options` are those of `asperity fit --help` for
+    reading curves: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}` and others.
+    """
+    is_single = isinstance(curves, (str, os.PathLike, tuple))
+    all_curves = [curves] if is_single else list(curves)  # type: ignore[arg-type]
+    if not all_curves:
+        raise refusal("curves", all_curves, "a curve, or a list of at least one curve")
+    named = [name if ends is None else f"{name}={_range(ends)}" for name, ends in _ranges(free)]
+    words = [f"--free={one}" for one in named] + in_words({"lines": profiles, **(options or {})})
+    report = _native.fit(
+        all_curves, _scene(scene, fields), [*words, "curves", "scene"], is_single, _count("jobs", jobs, 1024), progress
+    )
+    if profiles is not None:
+        return EnsembleFit(report)
+    return Fit(report) if is_single else Fits(report)
+
+
+def _ranges(
+    free: Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+) -> Sequence[tuple[str, tuple[Quantity, Quantity] | None]]:
+    return list(free.items()) if isinstance(free, Mapping) else [(name, None) for name in free]
 
 
 def presets() -> dict[str, str]:

@@ -12,8 +12,10 @@ __all__ = [
     "Profile",
     "Report",
     "Scene",
+    "Surface",
     "ensemble",
     "find",
+    "fit",
     "in_words",
     "preloads",
     "presets",
@@ -22,6 +24,7 @@ __all__ = [
     "reference",
     "reversals",
     "run",
+    "study",
     "whole",
     "__version__",
 ]
@@ -136,6 +139,19 @@ class Scene:
     def text(self) -> str: ...
 
 @final
+class Surface:
+    """An analysed measured surface, from which profiles and scenes are made."""
+
+    @staticmethod
+    def of_files(words: list[str]) -> Surface: ...
+    @staticmethod
+    def of_heights(heights: npt.ArrayLike, spacing: list[float], words: list[str]) -> Surface: ...
+    @property
+    def report(self) -> Report: ...
+    def profile(self, length: float, points: int, seed: int) -> Profile: ...
+    def scene(self, modulus: float, work: float | None) -> Scene: ...
+
+@final
 class Report:
     """A result in the formats of the program."""
 
@@ -185,6 +201,22 @@ def reference(
     grid: int = 64,
     maps: int = 24,
     profiles: int | None = None,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Report: ...
+def study(
+    scene: Scene,
+    axes: list[tuple[str, list[float]]],
+    record: list[str],
+    profiles: int,
+    jobs: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Report: ...
+def fit(
+    curves: list[Any],
+    scene: Scene,
+    words: list[str],
+    is_single: bool,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Report: ...

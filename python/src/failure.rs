@@ -2,14 +2,16 @@
 
 use asperity::contact::ContactError;
 use asperity::data::{OutOfMemory, QuantityError};
+use asperity::experiment::ExperimentError;
 use asperity::scene::{Error, Origin, RunError, SceneError, SceneErrors};
 use asperity::study::StudyError;
+use asperity::surface::SurfaceError;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyMemoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use std::fmt::Display;
 use std::fs::File;
-use std::path::Path;
+use std::path::PathBuf;
 
 create_exception!(
     asperity,
@@ -57,13 +59,18 @@ impl Failure {
         Failure::Field { message, field: field.into(), value: value.into(), allowed }
     }
 
-    /// The failure to read a file if the file does not open, otherwise the failure that its content explains.
-    pub fn of_file(path: &Path, error: impl Display) -> Failure {
-        let message = format!("{}: {error}", path.display());
-        if path.is_dir() || File::open(path).is_err() {
-            Failure::File(message)
-        } else {
-            Failure::Value(message)
+    /// The failure to read files if one of them does not open, otherwise the failure that their content explains.
+    pub fn of_files(files: &[PathBuf], error: impl Display) -> Failure {
+        let message = error.to_string();
+        let is_missing = |path: &PathBuf| path.is_dir() || File::open(path).is_err();
+        if files.iter().any(is_missing) { Failure::File(message) } else { Failure::Value(message) }
+    }
+
+    /// The sentence of the exception.
+    pub fn message(self) -> String {
+        match self {
+            Failure::Field { message, .. } | Failure::Loading { message, .. } => message,
+            Failure::File(message) | Failure::Memory(message) | Failure::Value(message) => message,
         }
     }
 
@@ -128,6 +135,7 @@ impl From<RunError> for Failure {
         let message = error.to_string();
         match error {
             RunError::Values(errors) => errors.into(),
+            RunError::Surface(error) => error.into(),
             RunError::OutOfMemory { .. } | RunError::Contact(ContactError::OutOfMemory(_)) => {
                 Failure::Memory(message)
             }
@@ -149,9 +157,31 @@ impl From<StudyError> for Failure {
         let message = error.to_string();
         match error {
             StudyError::TooManyRecords(_) | StudyError::Memory { .. } => Failure::Memory(message),
+            StudyError::Measured(error) => error.into(),
             StudyError::Folder { .. } | StudyError::Write(_) => Failure::File(message),
             StudyError::Run { place, error } if place.is_empty() => error.into(),
             _ => Failure::Value(message),
+        }
+    }
+}
+
+impl From<SurfaceError> for Failure {
+    fn from(error: SurfaceError) -> Failure {
+        let message = error.to_string();
+        match error {
+            SurfaceError::OutOfMemory { .. } => Failure::Memory(message),
+            SurfaceError::Unreadable { .. } => Failure::File(message),
+            _ => Failure::Value(message),
+        }
+    }
+}
+
+impl From<ExperimentError> for Failure {
+    fn from(error: ExperimentError) -> Failure {
+        match error {
+            ExperimentError::File(error) => error.into(),
+            ExperimentError::Run(error) => error.into(),
+            error => Failure::Value(error.to_string()),
         }
     }
 }

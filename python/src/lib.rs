@@ -5,12 +5,14 @@
 
 mod computing;
 mod failure;
+mod fit;
 mod force_loop;
 mod profile;
 mod quantity;
 mod report;
 mod results;
 mod scene;
+mod surface;
 
 use pyo3::prelude::*;
 
@@ -28,6 +30,8 @@ mod _native {
     #[pymodule_export]
     use super::failure::{FieldError, LoadingError};
     #[pymodule_export]
+    use super::fit::fit;
+    #[pymodule_export]
     use super::force_loop::Loop;
     #[pymodule_export]
     use super::profile::Profile;
@@ -38,9 +42,11 @@ mod _native {
     #[pymodule_export]
     use super::report::Report;
     #[pymodule_export]
-    use super::results::{ensemble, find, preloads, reference, reversals, run};
+    use super::results::{ensemble, find, preloads, reference, reversals, run, study};
     #[pymodule_export]
     use super::scene::{Scene, presets};
+    #[pymodule_export]
+    use super::surface::Surface;
 
     /// States the version of the package.
     #[pymodule_init]

@@ -29,7 +29,7 @@ impl Profile {
     #[new]
     fn new(heights: &Bound<'_, PyAny>, spacing: &Bound<'_, PyAny>) -> PyResult<Self> {
         let spacing = quantity(spacing, "m", "spacing")?;
-        with_numbers(heights, "heights", |heights| {
+        with_numbers(heights, ("heights", 1), |heights, _| {
             Ok(Profile { shape: Shape::Heights(asperity::Profile::from_heights(heights, spacing)?) })
         })
     }

@@ -6,11 +6,11 @@ use crate::force_loop::Loop;
 use crate::profile::{Profile, Shape};
 use crate::report::{Report, bytes};
 use crate::scene::Scene;
-use asperity::data::parallel;
+use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Simulation, estimate};
 use asperity::study::{
-    Ensemble, Found, MeasuredAdhesion, Question, Reference, ReferenceOptions, Results, Staircase,
-    parse_condition, parse_preloads, parse_range,
+    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceOptions, Results, Staircase,
+    compute, parse_condition, parse_preloads, parse_range,
 };
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, ReversalReport, RunReport, scene_provenance,
@@ -24,12 +24,12 @@ use std::sync::Arc;
 const MOST_SPRINGS: u64 = 1 << 17;
 
 /// Number of threads: the given number, or one for each core.
-fn threads(jobs: Option<usize>) -> usize {
+pub fn threads(jobs: Option<usize>) -> usize {
     jobs.map_or_else(parallel::threads, |jobs| jobs.clamp(1, 1024))
 }
 
 /// A report of a scene as bytes; tables and figures state the scene.
-fn of_scene(
+pub fn of_scene(
     document: &Document,
     report: &impl asperity_report::Report,
     format: Format,
@@ -225,5 +225,31 @@ pub fn reference(
                 ReferenceReport { title: document.title(), scene: document.scene(), reference: &found };
             of_scene(&document, &report, format)
         }))
+    })
+}
+
+/// Computes a scene for all combinations of values on axes, on random profiles of each.
+#[pyfunction]
+#[pyo3(signature = (scene, axes, record, profiles, jobs=None, progress=None))]
+pub fn study(
+    py: Python<'_>,
+    scene: &Scene,
+    axes: Vec<(String, Vec<f64>)>,
+    record: Vec<String>,
+    profiles: u64,
+    jobs: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Report> {
+    let (document, jobs) = (scene.document.clone(), threads(jobs));
+    computed(py, progress, move |watch| {
+        let record = record.iter().map(|name| Quantity::named(name));
+        let record = record.collect::<Result<Vec<_>, _>>().map_err(Failure::Value)?;
+        let axes: Vec<_> = axes.iter().map(|(path, values)| (path.as_str(), values.as_slice())).collect();
+        let plan = Plan::new(&document, &axes, profiles, &record)?;
+        let (stop, all) = (|| watch.stop(), plan.records_in_all());
+        let mut report = |done| watch.report(done, all);
+        let control = Control::default().on_threads(jobs).stopped_by(&stop).reporting_to(&mut report);
+        let results = compute(&plan, control)?;
+        Ok(Report::new(move |format| of_scene(&document, &results, format)))
     })
 }
