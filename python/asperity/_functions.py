@@ -12,6 +12,9 @@ from ._native import Loop, Profile, Scene, quantity, whole
 from ._notation import Form, Quantity, in_fields, in_scene, in_words, refusal
 from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
 
+#: Path of a file.
+AnyPath: TypeAlias = str | os.PathLike[str]
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -21,9 +24,6 @@ if TYPE_CHECKING:
 Progress: TypeAlias = Callable[[int, int], object] | None
 #: Name of a built-in scene, path of a file, text of a scene, or an open scene.
 AnyScene: TypeAlias = str | os.PathLike[str] | Scene
-
-#: Path of a file.
-AnyPath: TypeAlias = str | os.PathLike[str]
 
 #: A scene whose form and roughness are replaced.
 _PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"

@@ -9,8 +9,8 @@ use crate::scene::Scene;
 use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Simulation, estimate};
 use asperity::study::{
-    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceOptions, Results, Staircase,
-    compute, parse_condition, parse_preloads, parse_range,
+    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceOptions, Results,
+    Staircase, compute, parse_condition, parse_preloads, parse_range,
 };
 use asperity_report::{
     FindReport, Format, PreloadReport, ReferenceReport, ReversalReport, RunReport, scene_provenance,
