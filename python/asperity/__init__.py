@@ -20,6 +20,7 @@ from ._functions import (
     power,
     preloads,
     presets,
+    press,
     profile,
     punch,
     reference,
@@ -33,7 +34,8 @@ from ._functions import (
     table,
     wavy_sphere,
 )
-from ._native import FieldError, LoadingError, Loop, Profile, Scene, __version__, quantity
+from ._loop import Loop
+from ._native import FieldError, LoadingError, Profile, Scene, __version__, quantity
 from ._notation import Form
 from ._results import (
     Drawn,
@@ -82,6 +84,7 @@ __all__ = [
     "power",
     "preloads",
     "presets",
+    "press",
     "profile",
     "punch",
     "quantity",

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _native
-from ._native import Loop, Profile, Scene, quantity, whole
+from ._loop import Loop
+from ._native import Profile, Scene, quantity, whole
 from ._notation import Form, Quantity, in_fields, in_scene, in_words, refusal
 from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
 
@@ -146,9 +147,10 @@ def load(
         raise refusal("edges", edges, ", ".join(_EDGES))
     stages = stages if isinstance(stages, str) else ", ".join(map(in_scene, stages))
     if profile.scene is None:
-        return Loop.of_heights(
-            profile, modulus, work, closing_work, stages, loading_stiffness, _EDGES[edges], samples, progress
-        )
+        works = [work if closing_work is None else closing_work, work]
+        stiffness = float("inf") if loading_stiffness is None else loading_stiffness
+        foundation = (modulus, works, stiffness)
+        return Loop(_native.Loop.of_heights(profile, foundation, (stages, edges == "grid", samples), progress))
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
     fields = {
         "material": {"effective_modulus": modulus},
@@ -158,7 +160,7 @@ def load(
         "numerics.edges": _EDGES[edges],
         "numerics.samples": samples,
     }
-    return Loop.of_body(profile.scene.set(in_fields(fields)), progress)
+    return Loop(_native.Loop.of_body(profile.scene.set(in_fields(fields)), progress))
 
 
 def run(
@@ -169,14 +171,14 @@ def run(
     `jobs` threads share the profiles, by default one for each core; no result depends on their number. `progress` is called
     with the number of profiles that are done and of all.
     """
-    return Outcome(*_native.run(_scene(scene, fields), _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Outcome(*_native.run(_scene(scene, fields), _call(profiles, jobs, progress)))
 
 
 def ensemble(
     scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
 ) -> Ensemble:
     """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    return Ensemble(_native.ensemble(_scene(scene, fields), _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Ensemble(_native.ensemble(_scene(scene, fields), _call(profiles, jobs, progress)))
 
 
 def find(
@@ -196,7 +198,7 @@ def find(
     Each random profile is searched for itself. The searched range is by default two decades down and up.
     """
     searched = None if range is None else _range(range)
-    return Found(_native.find(_scene(scene, fields), field, where, searched, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Found(_native.find(_scene(scene, fields), field, where, searched, _call(profiles, jobs, progress)))
 
 
 def preloads(
@@ -213,7 +215,7 @@ def preloads(
 ) -> Preloads:
     """Computes the adhesion force for `count` preloads between two forces, N; with `log` at equal ratios."""
     axis = f"{_range(between)}:{count}" + (":log" if log else "")
-    return Preloads(_native.preloads(_scene(scene, fields), axis, whole(profiles, "profiles", 1, 1_000_000), _count("jobs", jobs, 1024), progress))
+    return Preloads(_native.preloads(_scene(scene, fields), axis, _call(profiles, jobs, progress)))
 
 
 def reversals(
@@ -227,7 +229,8 @@ def reversals(
 ) -> Reversals:
     """Computes the unloading of a scene from `count` turning points between two forces, N; by default up to its preload."""
     ends = None if between is None else _range(between)
-    return Reversals(_native.reversals(_scene(scene, fields), ends, count, progress))
+    count = whole(count, "count", 2, 512)
+    return Reversals(_native.reversals(_scene(scene, fields), ends, count, _call(None, None, progress)))
 
 
 def reference(
@@ -242,7 +245,8 @@ def reference(
     **fields: Any,
 ) -> Reference:
     """Computes a scene in three dimensions on random squares of `grid` cells along a side, beside random lines."""
-    return Reference(_native.reference(_scene(scene, fields), grid, maps, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    cells, count = whole(grid, "grid", 1, 2**16), whole(maps, "maps", 1, 10_000)
+    return Reference(_native.reference(_scene(scene, fields), cells, count, _call(profiles, jobs, progress)))
 
 
 def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
@@ -267,8 +271,7 @@ def study(
     `record` names quantities of `docs/studies.md`.
     """
     values = [(path, [float(value) for value in axis]) for path, axis in axes.items()]
-    count = whole(profiles, "profiles", 1, 1_000_000)
-    return Study(_native.study(_scene(scene, fields), values, list(record), count, _count("jobs", jobs, 1024), progress))
+    return Study(_native.study(_scene(scene, fields), values, list(record), _call(profiles, jobs, progress)))
 
 
 def surface(
@@ -326,7 +329,7 @@ def fit(
     named = [name if ends is None else f"{name}={_range(ends)}" for name, ends in _ranges(free)]
     words = [f"--free={one}" for one in named] + in_words({"lines": profiles, **(options or {})})
     report = _native.fit(
-        all_curves, _scene(scene, fields), [*words, "curves", "scene"], is_single, _count("jobs", jobs, 1024), progress
+        all_curves, _scene(scene, fields), [*words, "curves", "scene"], is_single, *_call(None, jobs, progress)[1:]
     )
     if profiles is not None:
         return EnsembleFit(report)
@@ -339,6 +342,27 @@ def _ranges(
     return list(free.items()) if isinstance(free, Mapping) else [(name, None) for name in free]
 
 
+def press(
+    heights: npt.ArrayLike,
+    /,
+    *,
+    side: Quantity,
+    modulus: Quantity,
+    force: Quantity,
+    periodic: bool = False,
+    residual: float = 1e-8,
+) -> Values:
+    """Presses a rigid square map of heights, m, on an elastic half-space in three dimensions, without adhesion.
+
+    The side of the map is in m, the effective modulus in Pa, the force in N; the map has 32, 64, 128 … cells along a side.
+    `pressure` (Pa) and `gap` (m) of the result are maps; the solution has violations of at most `residual` rms heights.
+    """
+    load = (quantity(side, "m", "side"), quantity(modulus, "Pa", "modulus"), quantity(force, "N", "force"))
+    found = Values(_native.press(heights, load, periodic, quantity(residual, "1", "residual")))
+    cells = round(len(found.gap) ** 0.5)
+    return Values(found, pressure=found.pressure.reshape(cells, cells), gap=found.gap.reshape(cells, cells))
+
+
 def presets() -> dict[str, str]:
     """Names and titles of the built-in scenes."""
     return dict(_native.presets())
@@ -348,8 +372,10 @@ def _scene(name: AnyScene, fields: Mapping[str, Any]) -> Scene:
     return scene(name, **fields)
 
 
-def _count(name: str, value: int | None, most: int = 1_000_000) -> int | None:
-    return None if value is None else whole(value, name, 1, most)
+def _call(profiles: int | None, jobs: int | None, progress: Progress) -> tuple[int | None, int | None, Progress]:
+    profiles = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
+    jobs = None if jobs is None else whole(jobs, "jobs", 1, 1024)
+    return profiles, jobs, progress
 
 
 def _range(ends: tuple[Quantity, Quantity] | str) -> str:

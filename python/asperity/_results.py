@@ -7,6 +7,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._loop import Loop
 from ._notation import Quantity, in_fields
 
 if TYPE_CHECKING:
@@ -103,12 +104,12 @@ class Outcome(Drawn):
     #: Profile of the scene.
     profile: _native.Profile
     #: Force loop on that profile.
-    loop: _native.Loop
+    loop: Loop
 
     def __init__(self, report: _native.Report, profile: _native.Profile, loop: _native.Loop) -> None:
         super().__init__(report)
         self.profile = profile
-        self.loop = loop
+        self.loop = Loop(loop)
 
 
 class Ensemble(Result):

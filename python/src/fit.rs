@@ -3,11 +3,10 @@
 use crate::computing::{Watch, computed};
 use crate::failure::Failure;
 use crate::quantity::with_numbers;
-use crate::report::Report;
-use crate::results::{of_scene, threads};
+use crate::report::{Report, of_scene};
 use crate::scene::Scene;
 use asperity::cli::arguments::{Arguments, Command};
-use asperity::data::{Control, on_threads, path_name};
+use asperity::data::{Control, on_threads, parallel, path_name};
 use asperity::experiment::{CurveOptions, Fit, FitResult, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity::scene::Document;
 use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
@@ -26,8 +25,7 @@ pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failur
     let parsed = Arguments::try_parse_from(line).map_err(|error| {
         let text = error.to_string();
         let lines = text.lines().map(|line| line.trim().trim_start_matches("error: "));
-        let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
-        Failure::Value(lines.join(" "))
+        lines.take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
     });
     Ok(parsed?.command)
 }
@@ -53,17 +51,15 @@ impl Curve {
     }
 
     fn read(&self, options: &CurveOptions) -> Result<MeasuredCurve, Failure> {
-        match self {
+        let (displacement, force) = match self {
+            Curve::Columns(displacement, force) => (displacement, force),
             Curve::File(path) => {
+                let in_words = |error| format!("{}: {error}", path_name(path));
                 let curve = MeasuredCurve::read(path, options);
-                curve.map_err(|error| {
-                    Failure::of_files(std::slice::from_ref(path), format!("{}: {error}", path_name(path)))
-                })
+                return curve.map_err(|error| Failure::of_files(std::slice::from_ref(path), in_words(error)));
             }
-            Curve::Columns(displacement, force) => {
-                Ok(MeasuredCurve::from_columns(displacement, force, options)?)
-            }
-        }
+        };
+        Ok(MeasuredCurve::from_columns(displacement, force, options)?)
     }
 }
 
@@ -76,14 +72,13 @@ fn fitted(
     report: &mut dyn FnMut(u64),
 ) -> Result<FitResult, Failure> {
     let fit = free.iter().fold(Fit::of(document), |fit, free| fit.free(*free));
-    let stop = || watch.stop();
-    Ok(fit.run(curve, Control::default().stopped_by(&stop).reporting_to(report))?)
+    Ok(fit.run(curve, Control::default().stopped_by(&|| watch.stop()).reporting_to(report))?)
 }
 
 /// Fits a scene to one curve, to each of several curves, or on random profiles to all curves together. The words are options of
 /// `asperity fit`.
 #[pyfunction]
-#[pyo3(signature = (curves, scene, words, is_single, jobs=None, progress=None))]
+#[pyo3(signature = (curves, scene, words, is_single, jobs, progress))]
 pub fn fit(
     py: Python<'_>,
     curves: Vec<Bound<'_, PyAny>>,
@@ -95,16 +90,15 @@ pub fn fit(
 ) -> PyResult<Report> {
     let curves = curves.iter().enumerate().map(|(index, curve)| Curve::of(index, curve));
     let curves = curves.collect::<PyResult<Vec<_>>>()?;
-    let (document, jobs) = (scene.document.clone(), threads(jobs));
+    let (document, jobs) = (scene.document.clone(), jobs.unwrap_or_else(parallel::threads));
     computed(py, progress, move |watch| {
         let Some(Command::Fit(arguments)) = command("fit", words)? else {
-            return Err(Failure::Value("fit: no options of a fit".to_owned()));
+            return Err("fit: no options of a fit".to_owned().into());
         };
         let instrument = document.scene().loading_stiffness;
         let (reading, free) = (CurveOptions { instrument, ..arguments.reading }, arguments.free);
         if let Some(lines) = arguments.ensemble.lines {
-            let options = arguments.ensemble.options(&free, lines);
-            let options = options.map_err(|error| Failure::Value(error.to_string()))?;
+            let options = arguments.ensemble.options(&free, lines).map_err(|error| error.to_string())?;
             let curves = curves.iter().map(|(name, curve)| Ok((name.clone(), curve.read(&reading)?)));
             let curves = curves.collect::<Result<Vec<_>, Failure>>()?;
             let (stop, mut report) = (|| watch.stop(), |done| watch.report(done, 0));
@@ -112,17 +106,12 @@ pub fn fit(
             let fit = fit_ensemble(&curves, &document, &options, control)?;
             let has_roughness_errors = options.height_error.is_some() || options.hurst_error.is_some();
             return Ok(Report::new(move |format| {
-                of_scene(
-                    &document,
-                    &EnsembleFitReport { title: document.title(), fit: &fit, has_roughness_errors },
-                    format,
-                )
+                let (title, fit) = (document.title(), &fit);
+                of_scene(&document, &EnsembleFitReport { title, fit, has_roughness_errors }, format)
             }));
         }
-        if let [(name, curve)] = &curves[..]
-            && is_single
-        {
-            let (title, curve) = (name.clone(), curve.read(&reading)?);
+        if let ([(title, curve)], true) = (&curves[..], is_single) {
+            let (title, curve) = (title.clone(), curve.read(&reading)?);
             let fit = fitted(&document, &free, &curve, watch, &mut |done| watch.report(done, 0))?;
             return Ok(Report::new(move |format| {
                 of_scene(&fit.document, &FitReport { title: &title, curve: &curve, fit: &fit }, format)
@@ -131,20 +120,20 @@ pub fn fit(
         let (done, all) = (AtomicU64::new(0), curves.len() as u64);
         let worker = || {
             |number: u64| {
-                let (name, curve) = &curves[number as usize];
-                let fitted = curve.read(&reading).and_then(|curve| {
-                    let fit = fitted(&document, &free, &curve, watch, &mut |_| ())?;
-                    Ok(CurveRow::of(name.clone(), &FitReport { title: name, curve: &curve, fit: &fit }))
+                let (title, curve) = &curves[number as usize];
+                let row = curve.read(&reading).and_then(|curve| {
+                    let fit = &fitted(&document, &free, &curve, watch, &mut |_| ())?;
+                    Ok(CurveRow::of(title.clone(), &FitReport { title, curve: &curve, fit }))
                 });
                 watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
                 // A curve that cannot be fitted has a row with the reason, unless all are stopped.
-                match fitted {
-                    Err(failure) if watch.stop() => Err(failure),
-                    Err(failure) => {
-                        Ok(CurveRow { file: name.clone(), error: failure.message(), ..CurveRow::default() })
+                row.or_else(|failure| match watch.stop() {
+                    true => Err(failure),
+                    false => {
+                        let (file, error) = (title.clone(), failure.message().to_owned());
+                        Ok(CurveRow { file, error, ..CurveRow::default() })
                     }
-                    Ok(row) => Ok(row),
-                }
+                })
             }
         };
         let rows = on_threads(all, jobs, worker)?;

@@ -3,7 +3,7 @@
 use crate::computing::computed;
 use crate::failure::Failure;
 use crate::fit::command;
-use crate::profile::{Profile, Shape};
+use crate::profile::Profile;
 use crate::quantity::with_numbers;
 use crate::report::{Report, bytes};
 use crate::scene::Scene;
@@ -26,10 +26,10 @@ pub struct Surface {
 
 /// Options of `asperity surface` as words of its command line.
 fn parsed(words: Vec<String>) -> Result<SurfaceArguments, Failure> {
-    match command("surface", words)? {
-        Some(Command::Surface(arguments)) => Ok(arguments),
-        _ => Err(Failure::Value("surface: no options of a surface".to_owned())),
-    }
+    let Some(Command::Surface(arguments)) = command("surface", words)? else {
+        return Err("surface: no options of a surface".to_owned().into());
+    };
+    Ok(arguments)
 }
 
 impl Surface {
@@ -67,7 +67,7 @@ impl Surface {
         })?;
         computed(py, None, |_| {
             let arguments = parsed(words)?;
-            let options = arguments.options().map_err(|error| Failure::Value(error.to_string()))?;
+            let options = arguments.options().map_err(|error| error.to_string())?;
             let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
             let analysis = analyse(&[surface], &options.spectrum)?;
             Ok(Surface::of(arguments, vec![MeasuredFace { files, analysis }], true))
@@ -85,8 +85,8 @@ impl Surface {
     fn profile(&self, py: Python<'_>, length: f64, points: usize, seed: u64) -> PyResult<Profile> {
         computed(py, None, |_| {
             let heights = self.report.line.heights(length, points, seed)?;
-            let bare = asperity::Profile::from_heights(&heights, length / points as f64)?;
-            Ok(Profile { shape: Shape::Heights(bare) })
+            let profile = asperity::Profile::from_heights(heights, length / points as f64)?;
+            Ok(Profile { profile, document: None })
         })
     }
 
@@ -96,11 +96,11 @@ impl Surface {
             if self.is_array {
                 let reason =
                     "a surface of an array has no file that a scene could name; allowed: files, or profile()";
-                return Err(Failure::Value(reason.to_owned()));
+                return Err(reason.to_owned().into());
             }
             let SurfaceReport { faces, line, .. } = &*self.report;
             let scene = self.arguments.scene_of(modulus, faces, line);
-            let mut scene = scene.map_err(|error| Failure::Value(error.to_string()))?;
+            let mut scene = scene.map_err(|error| error.to_string())?;
             scene.adhesion = work.map(Adhesion::by_work).or(scene.adhesion);
             Ok(Scene { document: Document::from_scene(&scene, "scene")? })
         })

@@ -56,7 +56,7 @@ pub enum Command {
     Fit(fit::FitArguments),
     /// Play the explorer without a keyboard: on screen, as text, or as a picture
     Demo(demo::DemoArguments),
-    /// List the computing stages of a scene with their cost, and those it skips
+    /// List the computing stages of a scene with their cost, and the skipped stages
     Plan(plan::PlanArguments),
     /// Measure errors against computing time for each setting that affects accuracy
     Cost(cost::CostArguments),

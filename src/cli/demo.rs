@@ -38,7 +38,7 @@ pub struct DemoArguments {
     pub scene: Option<String>,
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Size of the screen; default: that of the terminal, else 120x40
+    /// Size of the screen; default: the size of the terminal, else 120x40
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
     /// Marker of plots

@@ -28,7 +28,7 @@ Examples:
   asperity fit map/*.txt my-scene.ron --free work,modulus,offset -o table.csv
 
 The curve is text, CSV or an array of NumPy: an approach, which begins before contact, and a
-retraction, or a retraction alone that ends without contact. The scene is the last argument. A
+retraction, or only a retraction that ends without contact. The scene is the last argument. A
 form.radius of two round bodies is R1 R2/(R1 + R2). Several curves, or a folder of them, give a
 row each; a table (-o FILE.csv) that is not complete is continued by the same command. JSON of
 one curve is one object with the parameters and their errors; CSV and .npy hold the columns

@@ -113,7 +113,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let Some(first) = words.first() else { return error };
     // A second word without a dash, which the parser takes for a command.
     let second = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
-    let is_scene = || asperity_scene::find(first).is_some() || Path::new(&**first).exists();
+    let is_scene = || asperity_scene::find_scene(first).is_some() || Path::new(&**first).exists();
     let message = match (words.iter().find(is_command), &refused, &second) {
         (Some(misplaced), ..)
             if misplaced != first

@@ -48,7 +48,7 @@ pub struct OutputArguments {
     /// Height of a printed figure: 60mm; default: what its panels need
     #[arg(long, value_name = "LENGTH", value_parser = |text: &str| length(text, LEAST[1]))]
     pub height: Option<f64>,
-    /// Draw these panels of a figure alone: a, or a,c
+    /// Draw only these panels of a figure: a, or a,c
     #[arg(long, value_name = "LETTERS")]
     pub only: Option<String>,
     /// Leave out the title of a figure
@@ -97,7 +97,7 @@ impl OutputArguments {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// Returns true if the file, the format or the look is that of a picture.
+    /// Returns true if the file, the format or the look belongs to a picture.
     pub(super) fn asks_for_picture(&self) -> bool {
         let extensions: Vec<_> = PICTURES.iter().map(|format| format.extension()).collect();
         let by_file =
@@ -124,7 +124,7 @@ impl OutputArguments {
         })
     }
 
-    /// The format of the results: that of the extension of FILE, else the chosen one, else the usual one. Before any
+    /// The format of the results: by the extension of FILE, else the chosen format, else the usual one. Before any
     /// computation, checks also that FILE can be written. A terminal gets text only.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format = Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;

@@ -26,7 +26,7 @@ Example:
 /// Subcommands on scenes.
 #[derive(Debug, Subcommand)]
 pub enum PresetsCommand {
-    /// List the built-in scenes, your own and those in the working folder
+    /// List the built-in scenes, your own scenes and the scenes of the working folder
     List {
         /// Name and title in columns, or objects with name, title and notice, and of scenes of files path and error.
         #[command(flatten)]

@@ -18,7 +18,7 @@ Examples:
   asperity sensitivity my-scene.ron --set numerics.points=16384 -o sensitivity.csv
 
 Each number of the scene is made 10 % smaller and larger while all others stay, on the same 16
-random profiles; changes are those of the median, beside them the range over the profiles.";
+random profiles: the change of the median, and the range of the changes of the profiles.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]

@@ -13,7 +13,7 @@ use asperity_report::SurfaceReport;
 use asperity_report::named_from;
 use asperity_report::{MeasuredFace, SurfaceFile};
 use asperity_scene::equivalent_springs;
-use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, SCENE_VERSION, Scene};
+use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, Scene};
 use asperity_study::MeasuredAdhesion;
 use asperity_surface::analyse;
 use asperity_surface::{EquivalentLine, MeasuredOptions};
@@ -84,13 +84,13 @@ pub struct SurfaceArguments {
     /// Work of adhesion, such as 50mJ/m^2, for κ and F_a; needs --modulus
     #[arg(long, value_name = "ENERGY", requires = "modulus", value_parser = |text: &str| positive(text, "J/m²"))]
     pub work: Option<f64>,
-    /// Preload, such as 1mN; default: touch without a force
+    /// Preload, such as 1mN; default: turned at first touch
     #[arg(long, value_name = "FORCE", requires = "modulus", value_parser = |text: &str| positive(text, "N"))]
     pub preload: Option<f64>,
     /// Random profiles of the adhesion force; needs --work
     ///
     /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the
-    /// spread over profiles and that of the fit. Default: 16 up to 131 072 springs, else none.
+    /// spread over profiles and the spread by the fit. Default: 16 up to 131 072 springs, else none.
     #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Output file.
@@ -197,18 +197,12 @@ impl SurfaceArguments {
         // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
         let length = round_to(length, 12);
         Ok(Scene {
-            version: SCENE_VERSION,
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
-            notice: String::new(),
-            material: Material::effective(modulus),
-            length,
-            form: None,
             roughness: Some(Roughness::Measured(measured)),
             adhesion: self.work.map(Adhesion::by_work),
-            loading_stiffness: None,
             loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
             numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
-            observe: Vec::new(),
+            ..Scene::new(Material::effective(modulus), length)
         })
     }
 }

@@ -18,12 +18,13 @@ use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::LegRecord;
+use asperity_contact::marks;
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::LoopQuantities;
 use asperity_report::Section;
+use asperity_scene::Governing;
 use asperity_scene::Outcome;
 use asperity_scene::{Document, ron_float};
-use asperity_scene::{Governing, marks};
 use asperity_study::{Axis, Ensemble, Grid, GridPlace, Quantity};
 use std::sync::Arc;
 

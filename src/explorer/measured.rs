@@ -47,7 +47,7 @@ impl Measured {
         self.curve.displacement.iter().zip(&self.curve.force).map(point).collect()
     }
 
-    /// Differences of the measured forces from those of a model, N, in units of the noise.
+    /// Differences of the measured forces from the forces of a model, N, in units of the noise.
     pub fn residuals(&self, model: &[f64]) -> Vec<f64> {
         let residual = |(force, model): (&f64, &f64)| (force - model) / self.curve.noise;
         self.curve.force.iter().zip(model).map(residual).collect()
@@ -62,7 +62,7 @@ pub struct Fitting {
     pub found: Option<Result<Arc<FitResult>, String>>,
 }
 
-/// The fit to the present scene, either of the position of the curve alone or also of parameters; `None` if not known yet.
+/// The fit to the present scene, of the position of the curve only, or of parameters too; `None` if not known yet.
 pub fn fitted(studies: &Findings) -> Option<&FitResult> {
     studies.value::<Arc<FitResult>>().map(|fit| &**fit)
 }

@@ -56,7 +56,7 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
             app.edit.select(row);
         }
         (_, Under::Data(x, _)) if app.view.crosshair.is_some() => crosshair::point_at(app, x),
-        // A click alone selects the pane; manual loading begins with a drag.
+        // A click without a drag selects the pane; a drag begins manual loading.
         (Pane::Force, Under::Data(x, _)) if !is_press || app.manual.is_some() => drag(app, here, x),
         _ => {}
     }
@@ -67,7 +67,7 @@ fn drag(app: &mut App, here: Position, x: f64) {
     if indentation_at(app, x).is_none() {
         return;
     }
-    // Manual loading begins first: its axis may reach further than that of the loading.
+    // Manual loading begins first: its axis may reach further than the axis of the loading.
     if app.manual.is_none() {
         movement::take(app, None);
     }

@@ -25,7 +25,7 @@ pub enum OpeningError {
     #[error(transparent)]
     Scene(Box<SceneErrors>),
     #[error(
-        "{0}: this folder is not that of a study: there is no plan.ron in it; allowed: a scene, or the folder of a \
+        "{0}: this is not the folder of a study: there is no plan.ron in it; allowed: a scene, or the folder of a \
          merged study"
     )]
     Folder(String),

@@ -27,7 +27,7 @@ impl Pane {
         !matches!(self, Self::Force | Self::Profile | Self::CloseUp | Self::Parameters)
     }
 
-    /// Name for a file with the content of the pane; that of the parameters is the force curve.
+    /// Name for a file with the content of the pane; the parameters export the force curve.
     pub fn file_name(self) -> &'static str {
         match self {
             Self::Force | Self::Parameters => "force",

@@ -61,7 +61,7 @@ pub struct Topic {
     /// Names of keys, or the name of a pane, a parameter or a scene.
     pub name: String,
     pub text: String,
-    /// Everyday words that find the entry as well.
+    /// Everyday words that also find the entry.
     pub words: String,
     pub aim: Aim,
 }

@@ -39,7 +39,7 @@ const fn option(path: &'static str, name: &'static str, range: Range, meaning: &
     Field::beside(path, name, range, meaning)
 }
 
-/// The options in the order of the list: those that decide whether a curve is read at all come first.
+/// The options in the order of the list: options that decide whether a curve is read at all come first.
 pub static OPTIONS: [ReadingOption; 10] = [
     ReadingOption {
         field: option(
@@ -182,7 +182,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
             "measured.noise",
             "noise",
             FORCE,
-            "standard deviation of the force (--noise); without it that of the part before contact",
+            "standard deviation of the force (--noise); without it the standard deviation before contact",
         )
         .in_unit("N"),
         usual: "by the curve",

@@ -184,12 +184,15 @@ impl Solver {
             line,
             focus: request.focus,
             point,
-            contact_radius: leg.contact().foundation().contact_radius(&patches, point),
+            contact_radius: leg.contact().contact_radius(&patches, point),
             profile: contact.section(part, profile),
             close_up,
             probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
             manual: body.as_mut().map(ManualBody::travel),
-            springs: SpringsInContact { springs: Arc::downgrade(leg.contact().springs()), patches },
+            springs: SpringsInContact {
+                gaps: Arc::downgrade(leg.contact().profile().shared_gaps()),
+                patches,
+            },
         })
     }
 

@@ -1,6 +1,6 @@
 //! Text within a number of columns: broken between words, in whole parts, or shortened with an `…`.
 //!
-//! ratatui breaks lines as well, but where a word has wide characters or begins with a combining mark, as in titles and
+//! ratatui breaks lines too, but where a word has wide characters or begins with a combining mark, as in titles and
 //! typed values, it overruns its area and panics.
 
 use asperity_data::{belong_together, grouped};

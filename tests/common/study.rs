@@ -20,7 +20,7 @@ pub const PLAN: &str = r#"(
     ],
     preloads: [0.01, 0.1, 1.0],
     lines: 12,
-    record: [zero_load_adhesion_share, adhesion_coefficient, adhesion_force, regime],
+    record: [first_touch_adhesion_share, adhesion_coefficient, adhesion_force, regime],
 )"#;
 
 /// Creates the study of a plan in a folder, computed and merged.

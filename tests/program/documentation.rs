@@ -10,7 +10,7 @@ use asperity::explorer::config::Config;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::row;
 use asperity::scene::Simulation;
-use asperity::scene::{Document, FIELDS, LEG_FIELDS, LEG_FORCE, Range, presets};
+use asperity::scene::{Document, FIELDS, Field, LEG_FIELDS, LEG_FORCE, Range, presets};
 use asperity::scene::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::{RngExt, SeedableRng};
@@ -22,23 +22,22 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 200;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 13] = [
+const PAGES: [(&str, &str); 15] = [
     ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
-    ("keys.md", "panes and keys of the explorer, typed values, appearance, configuration"),
-    ("scene-file.md", "fields of a scene, loading, measured profiles, results, built-in scenes"),
-    ("surfaces.md", "measured surfaces: formats, equivalent line, spectrum, accuracy"),
-    (
-        "experiment.md",
-        "measured force curves: reading, fit of the work of adhesion and other parameters, errors",
-    ),
-    ("model.md", "equations, exact solution, regimes, validity, claims of the paper"),
-    ("reversals.md", "steps of the adhesion force over the preload; the Everett function of reversal curves"),
-    ("conventions.md", "units, signs, zero points, E\\*, numbers in results"),
-    ("glossary.md", "terms and symbols, words to avoid"),
-    ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of random profiles"),
-    ("performance.md", "times, latency of the explorer, instructions, memory"),
-    ("studies.md", "parameter studies, figures, clusters, boundary of adhesion"),
-    ("errors.md", "messages, remedies, exit codes"),
+    ("scene-file.md", "fields of a scene, waves, loading, forms, built-in scenes"),
+    ("results.md", "summary, JSON, tables, figures"),
+    ("keys.md", "panes and keys of the explorer, typed values, configuration"),
+    ("studies.md", "inverse questions, parameter studies, statistics, clusters"),
+    ("reversals.md", "adhesion against preload, Everett function"),
+    ("surfaces.md", "measured surfaces: use, formats, fields"),
+    ("surface-estimate.md", "how a measured spectrum is estimated, and its errors"),
+    ("experiment.md", "measured force curves: reading, fit of the work of adhesion, errors"),
+    ("model.md", "equations, regimes, other theories, validity"),
+    ("findings.md", "claims of the paper, boundary of adhesion, stiffness: citable results"),
+    ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of profiles"),
+    ("performance.md", "times, latency of the explorer, memory"),
+    ("terms.md", "symbols, units, signs, words"),
+    ("errors.md", "exit codes, remedies"),
 ];
 
 /// The first fenced block of a language on a page.
@@ -55,6 +54,22 @@ pub fn markdown<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [S
     head + &rows.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<String>()
 }
 
+/// Path, variant and symbol of a field, its range and default, and its meaning.
+fn row_of_field(field: &Field) -> [String; 3] {
+    let of = field.variant.filter(|one| *one != "Measured").map_or(String::new(), |one| format!(" ({one})"));
+    let symbol = if field.symbol.is_empty() { String::new() } else { format!(" {}", escaped(field.symbol)) };
+    let allowed = match field.range {
+        Range::Choice(choices) => choices.iter().map(|one| format!("`{one}`")).collect::<Vec<_>>().join(", "),
+        _ => field.allowed(),
+    };
+    let default = match field.default {
+        "" => String::new(),
+        "None" => "; optional".to_owned(),
+        default => format!("; default `{default}`"),
+    };
+    [format!("`{}`{of}{symbol}", field.path), allowed + &default, escaped(field.meaning)]
+}
+
 /// Text of the program for a page, with escaped asterisks.
 fn escaped(text: &str) -> String {
     text.replace('*', "\\*")
@@ -62,7 +77,10 @@ fn escaped(text: &str) -> String {
 
 #[test]
 fn tables_are_those_of_the_program() {
-    check("docs/keys.md", "keys", &bindings().markdown());
+    // The help has the keys of editors and lists.
+    let keys = bindings().markdown();
+    let (keys, _) = keys.split_once("| **Typing and lists**").unwrap();
+    check("docs/keys.md", "keys", keys);
     let panes = Pane::ALL.iter().flat_map(|pane| row(*pane).help);
     let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
     check("docs/keys.md", "panes", &markdown(["pane", "content"], panes));
@@ -73,30 +91,23 @@ fn tables_are_those_of_the_program() {
     });
     check("docs/studies.md", "plans", &markdown(["plan", "cells", "random profiles", "title"], plans));
     let quantities = Quantity::ALL.iter().map(|one| {
-        [format!("`{}`", one.name()), escaped(one.symbol()), one.unit().to_owned(), escaped(one.meaning())]
+        let unit = [one.symbol(), one.unit()].into_iter().filter(|word| !["", "1"].contains(word));
+        let unit = escaped(&unit.collect::<Vec<_>>().join(", "));
+        [format!("`{}`", one.name()), unit, escaped(one.meaning())]
     });
-    check("docs/studies.md", "quantities", &markdown(["quantity", "symbol", "unit", "meaning"], quantities));
+    check("docs/studies.md", "quantities", &markdown(["quantity", "symbol, unit", "meaning"], quantities));
     let scenes = presets().iter().map(|preset| {
         let document = asperity::scene::open(preset.name).unwrap();
-        [format!("`{}`", preset.name), document.scene().notice.clone()]
+        [format!("`{}`", preset.name), document.title().to_owned()]
     });
-    check("docs/scene-file.md", "scenes", &markdown(["scene", "what it shows"], scenes));
-    let legs = LEG_FIELDS;
-    let fields = FIELDS.iter().chain(legs).filter(|field| field.range != Range::Group).map(|field| {
-        let of = field.variant.map_or(String::new(), |variant| format!(" ({variant})"));
-        let code = |text: &str| if text.is_empty() { String::new() } else { format!("`{text}`") };
-        let allowed = match field.range {
-            Range::Choice(choices) => choices.iter().map(|one| code(one)).collect::<Vec<_>>().join(", "),
-            _ => field.allowed(),
-        };
-        let name = format!("`{}`{of}", field.path);
-        [name, field.symbol.to_owned(), allowed, code(field.default), field.meaning.to_owned()]
-    });
-    check(
-        "docs/scene-file.md",
-        "fields",
-        &markdown(["field", "symbol", "allowed", "left out", "means"], fields),
-    );
+    check("docs/scene-file.md", "scenes", &markdown(["scene", "title"], scenes));
+    for (page, part, is_measured) in
+        [("docs/scene-file.md", "fields", false), ("docs/surfaces.md", "measured fields", true)]
+    {
+        let fields = FIELDS.iter().chain(LEG_FIELDS).filter(|field| field.range != Range::Group);
+        let of = fields.filter(|field| (field.variant == Some("Measured")) == is_measured).map(row_of_field);
+        check(page, part, &markdown(["field", "allowed", "means"], of));
+    }
     let pages =
         PAGES.iter().map(|(page, content)| [format!("[docs/{page}](docs/{page})"), (*content).to_owned()]);
     check("README.md", "pages", &markdown(["page", "content"], pages));
@@ -195,7 +206,7 @@ fn the_figure_of_the_regimes_shows_them() {
     let (_, commands) = readme.split_once("<!-- regimes command -->\n```sh\n").unwrap();
     commands.split("```").next().unwrap().lines().for_each(|command| drop(succeeded(folder, command)));
     compare("docs/regimes.svg", &std::fs::read_to_string(folder.join("docs/regimes.svg")).unwrap());
-    // The three sentences below the figure, and that of docs/model.md.
+    // The three sentences below the figure, and the sentence of docs/model.md.
     let summary = std::fs::read_to_string(folder.join("regimes/summary.csv")).unwrap();
     let columns: Vec<&str> = summary.lines().next().unwrap().split(',').collect();
     let column = |name: &str| columns.iter().position(|one| *one == name).unwrap();
@@ -241,7 +252,7 @@ fn intervals_hold_the_means_of_skewed_values_as_often_as_stated() {
     check("docs/studies.md", "intervals", &markdown(header, rows.into_iter()));
 }
 
-/// The table of docs/studies.md is of 2^19 springs; 2^13 have its values within their spread.
+/// The table of docs/findings.md is of 2^19 springs; 2^13 have its values within their spread.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
@@ -293,7 +304,7 @@ fn the_regimes_are_those_of_the_program() {
     let model = read("docs/model.md");
     for row in [
         format!(
-            "| pressure-insensitive | F_a(0) ≥ {INSENSITIVE_SHARE} F_a and F_a(0) ≥ {VANISHING_SHARE} F_smooth |"
+            "| pressure-insensitive | F_a(d=0) ≥ {INSENSITIVE_SHARE} F_a and F_a(d=0) ≥ {VANISHING_SHARE} F_smooth |"
         ),
         format!(
             "| non-adhesive | F_a ≤ {NEGLIGIBLE_COEFFICIENT} F_n; without a preload: F_a < {VANISHING_SHARE} F_smooth |"

@@ -58,7 +58,7 @@ fn lines_of_python_read_tables() {
     };
     let forces: Vec<f64> = table(&write(&["jkr-sphere"], "loop")).map(|point| point[2]).collect();
     let expected = format!("expected = {forces:?}\n");
-    let page = read("docs/scene-file.md");
+    let page = read("docs/results.md");
     let blocks: Vec<&str> =
         page.split("```python\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
     let [frame, rows] = blocks[..] else { panic!("not two blocks of Python") };

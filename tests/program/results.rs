@@ -5,7 +5,7 @@ use serde_json::Value;
 
 /// Keys of `run --format json` and of two of its parts.
 const KEYS: &str = "program command scene line kappa elastic_energy elastic_energy_ratio regime regime_after_zero_force \
-    ideal_adhesion_force zero_load_adhesion_force zero_force_adhesion_force preload preload_indentation adhesion_force \
+    ideal_adhesion_force first_touch_adhesion_force zero_force_adhesion_force preload preload_indentation adhesion_force \
     adhesion_coefficient pull_off_indentation dissipated_energy tabor_number curve contacts work timings";
 const LINE_KEYS: &str = "points length spacing rms_height rms_gradient modes seed";
 const CURVE_KEYS: &str = "leg,indentation,force,contact_length,fragments,stored_energy";
@@ -150,7 +150,7 @@ fn a_profile_that_is_written_and_measured_gives_the_same_loop() {
         let [made, measured] = [&made, &measured].map(|scene| json(&["run", scene, "--format", "json"]));
         assert!(number(&made["dissipated_energy"]) > 0.0);
         for key in [
-            "zero_load_adhesion_force",
+            "first_touch_adhesion_force",
             "preload_indentation",
             "adhesion_force",
             "dissipated_energy",

@@ -44,7 +44,7 @@ const SMALL: &str = r#"(
     lines: 3,
     seed: 18446744073709551614,
     record: [
-        zero_load_adhesion_force, zero_force_adhesion_force, preload_force, adhesion_force, adhesion_coefficient,
+        first_touch_adhesion_force, zero_force_adhesion_force, preload_force, adhesion_force, adhesion_coefficient,
         dissipated_energy, regime, regime_after_zero_force, stiffness_exponent, skewness, fragments, contact_fraction,
     ],
 )"#;

@@ -12,7 +12,7 @@ const PLAN: &str = r#"(
         Linear(path: "adhesion.kappa", from: 0.5, to: 6.0, count: 12),
     ],
     lines: 8,
-    record: [zero_load_adhesion_share, zero_force_adhesion_share],
+    record: [first_touch_adhesion_share, zero_force_adhesion_share],
 )"#;
 
 /// Σ k^(j−1−2H) over the modes 1 to 32.

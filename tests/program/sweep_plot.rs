@@ -22,7 +22,7 @@ const PLAN: &str = r#"(
     ],
     preloads: [0.01, 0.1, 1.0],
     lines: 4,
-    record: [zero_load_adhesion_share, adhesion_coefficient, adhesion_force, regime],
+    record: [first_touch_adhesion_share, adhesion_coefficient, adhesion_force, regime],
 )"#;
 
 fn asperity(folder: &Path, arguments: &[&str]) -> Result<String, String> {
@@ -49,7 +49,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     assert!(error.starts_with("too many axes are free for a figure: roughness.hurst (0.1, "), "{error}");
     assert!(error.trim_end().ends_with("such as --at roughness.hurst=0.1"), "{error}");
     for (arguments, expected) in [
-        (vec!["--quantity", "force"], "allowed: zero_load_adhesion_share, adhesion_coefficient"),
+        (vec!["--quantity", "force"], "allowed: first_touch_adhesion_share, adhesion_coefficient"),
         (vec!["--quantity", "regime"], "this study has no such quantity"),
         (vec!["--x", "hurst"], "no such axis; allowed: roughness.hurst, adhesion.kappa, preload"),
         (vec!["--at", "preload=0.2"], "--at preload=0.2: the study has no such value; allowed: 0.01, 0.1, 1"),

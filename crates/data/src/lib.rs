@@ -48,7 +48,7 @@ pub use read::{ReadError, into_text, open_regular, read_limited, read_regular, r
 pub use table::{Kind, Table, TableOf};
 pub use text::{
     belong_together, grouped, is_control, memory_size, path_name, per_cent, printable, printable_lines,
-    round_to, shown, si_prefix, wrap,
+    round_to, rounded_up, shown, si_prefix, wrap,
 };
 #[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};

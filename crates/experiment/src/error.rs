@@ -7,6 +7,7 @@ use thiserror::Error;
 
 /// Reason why a curve cannot be read or fitted. The caller prepends the name of the file or scene.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ExperimentError {
     /// The file cannot be read as a curve.
     #[error(transparent)]

@@ -29,6 +29,7 @@ const NORMAL: f64 = 1.96;
 
 /// A fitted parameter with its errors.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct FittedParameter {
     /// Which parameter it is.
     #[serde(skip)]
@@ -63,6 +64,7 @@ impl FittedParameter {
 
 /// Result of a fit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct FitResult {
     /// The free parameters with their errors.
     #[serde(serialize_with = "by_name")]

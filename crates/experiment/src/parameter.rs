@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 /// Parameter of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Parameter {
     /// Work of adhesion.
     Work,

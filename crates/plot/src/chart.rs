@@ -25,7 +25,7 @@ pub struct Figure {
     /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
     pub width: Option<f64>,
     /// Height of a picture, px of 1/96 inch, into which its frames are fitted; `None`: the height that its frames need, but in
-    /// a figure with a given width at most that of a page.
+    /// a figure with a given width at most the height of a page.
     pub height: Option<f64>,
     /// True for a picture without the title, which a caption has instead.
     pub untitled: bool,
@@ -58,7 +58,7 @@ impl Figure {
         Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
-    /// The figure with the chosen panels alone, which get the letters from `a` on.
+    /// The figure with only the chosen panels, which get the letters from `a` on.
     ///
     /// # Errors
     /// The letters of the panels, if one of the chosen letters is not among them.
@@ -319,7 +319,7 @@ pub struct HeatMap {
 pub struct Class {
     /// Sign of the class in a picture.
     pub sign: Sign,
-    /// Letter of the class in wide cells of a terminal; `None` if the shade alone shows the class.
+    /// Letter of the class in wide cells of a terminal; `None` if the shade shows the class.
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,

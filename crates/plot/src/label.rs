@@ -236,7 +236,7 @@ mod tests {
     fn symbols_are_split_into_runs() {
         let runs = |label: &Label| -> Vec<(Face, String)> { label.runs().to_vec() };
         assert_eq!(
-            runs(&Label::symbol("F_a(0)/F_a,max")),
+            runs(&Label::symbol("F_a(d=0)/F_a,max")),
             [
                 (Face::Italic, "F"),
                 (Face::Index, "a"),
@@ -246,7 +246,7 @@ mod tests {
             ]
             .map(|(face, text)| (face, text.to_owned()))
         );
-        assert_eq!(Label::symbol("F_a(0)/F_a,max").to_string(), "F_a(0)/F_a,max");
+        assert_eq!(Label::symbol("F_a(d=0)/F_a,max").to_string(), "F_a(d=0)/F_a,max");
         assert_eq!(Label::power_of_ten(-12).to_string(), "10⁻¹²");
         assert_eq!(runs(&Label::statement("H = 0.3"))[1], (Face::Upright, "\u{a0}=\u{a0}0.3".to_owned()));
         assert!(Label::plain("").is_empty() && Label::symbol("").is_empty());

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 pub(crate) const NAMES: [&str; 5] = [
     "adhesion force F_a",
     "share F_a/F_a,max",
-    "at first touch F_a(0)",
+    "at first touch F_a(d=0)",
     "at zero force F_a(F=0)",
     "dissipated energy",
 ];
@@ -103,7 +103,7 @@ pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
         "profiles": ensemble.profiles(),
         "adhesion_force": force,
         "adhesion_share": share,
-        "zero_load_adhesion_force": touch,
+        "first_touch_adhesion_force": touch,
         "zero_force_adhesion_force": zero_force,
         "dissipated_energy": energy,
         "regimes": from_touch,

@@ -13,10 +13,12 @@ const HURST_CHANGE: f64 = 0.05;
 /// Ratios of scatters between which the curves scatter as the profiles do.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
+/// A work of adhesion found by comparison of curves with random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
+    /// Result of the comparison.
     pub fit: &'a EnsembleFit,
     /// True if errors of the roughness were stated.
     pub has_roughness_errors: bool,
@@ -93,7 +95,7 @@ impl Report for EnsembleFitReport<'_> {
             let options = fit.roughness.map_or("", |_| ": --height-error, --hurst-error state them");
             sheet.paragraph(&format!("{text}{options}."));
         }
-        sheet.heading("Each curve alone");
+        sheet.heading("Each curve by itself");
         let header = ["curve", "pull-off", "loop area", "stiffness", "γ", "95 % interval"];
         let rows = fit.curves.iter().map(row);
         sheet.table(&std::iter::once(header.map(String::from)).chain(rows).collect::<Vec<_>>());
@@ -114,7 +116,7 @@ impl Report for EnsembleFitReport<'_> {
             } else {
                 ": the work of adhesion or the roughness may vary from place to place"
             };
-            sheet.paragraph(&format!("Scatter of the curves over that of the profiles: {ratio:.2}{why}."));
+            sheet.paragraph(&format!("Scatter of the curves over scatter of the profiles: {ratio:.2}{why}."));
         }
         self.foreign().into_iter().for_each(|text| sheet.paragraph(&text));
         sheet.paragraph(&format!("{} curves were computed. {INDEPENDENT}", grouped(fit.computed as u64)));

@@ -15,8 +15,11 @@ const MOST_LISTED: usize = 8;
 /// An answered question, with the title of its scene.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// The answer.
     pub found: &'a Found,
 }
 
@@ -79,9 +82,9 @@ pub fn found_in_words(found: &Found) -> String {
 fn at_touch_in_words(found: &Found) -> String {
     match found.answers.iter().filter(|answer| answer.at_touch).count() {
         0 => String::new(),
-        touch if touch == found.answers.len() => ", already after a turn at first touch".to_owned(),
+        touch if touch == found.answers.len() => ", and also turned at first touch".to_owned(),
         touch => {
-            format!(", on {touch} of {} profiles already after a turn at first touch", found.answers.len())
+            format!(", and on {touch} of {} profiles also turned at first touch", found.answers.len())
         }
     }
 }
@@ -119,7 +122,7 @@ impl FindReport<'_> {
             let enough = of_profiles(&|answer| answer.reached[0]);
             sentences.extend(enough.map(|on| format!("{on} {least} is enough, and counts.")));
             let touch = of_profiles(&|answer| answer.at_touch);
-            sentences.extend(touch.map(|on| format!("{on} a turn at first touch is enough.")));
+            sentences.extend(touch.map(|on| format!("{on} first touch is enough.")));
         } else {
             let larger = of_profiles(&|answer| is_free(answer) && answer.reached == [true; 2]);
             sentences

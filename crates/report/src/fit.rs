@@ -12,11 +12,14 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use serde::Serialize;
 use std::f64::consts::PI;
 
+/// A fit of a scene to one curve.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
     /// Name of the file of the curve, for the title.
     pub title: &'a str,
+    /// The measured curve.
     pub curve: &'a MeasuredCurve,
+    /// Result of the fit.
     pub fit: &'a FitResult,
 }
 
@@ -77,7 +80,9 @@ impl Report for FitReport<'_> {
         ));
         if let Some(work) = fit.work_at_most {
             let work = format_rounded(work, 2, "J/m²");
-            sheet.paragraph(&format!("γ is at most {work}: a curve without adhesion describes it as well."));
+            sheet.paragraph(&format!(
+                "γ is at most {work}: a model without adhesion describes the curve equally well."
+            ));
         }
         if let Some(force) = curve.pull_off_force() {
             let work = self.pull_off_work(force).map_or_else(String::new, |work| {
@@ -171,7 +176,7 @@ impl FitReport<'_> {
     }
 }
 
-const ROUGH: &str = "These errors leave out that of the model: the adhesion force of rough bodies differs from that in three \
+const ROUGH: &str = "These errors leave out the error of the model: the adhesion force of rough bodies differs from three \
     dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
 
 fn separation(one: Parameter, other: Parameter) -> String {

@@ -21,7 +21,9 @@ pub struct CurveRow {
     pub parameters: Vec<[f64; 3]>,
     /// Pull-off force, N, its work of adhesion, J/m², residual over noise, noise, N.
     pub facts: [Option<f64>; 4],
+    /// Number of points of the curve that are used.
     pub points: Option<u64>,
+    /// Whether the model describes the curve.
     pub described: Option<bool>,
     /// Why the model does not describe the curve.
     pub reason: String,
@@ -97,9 +99,11 @@ fn cells_of(line: &str) -> Option<Vec<String>> {
 /// Fits of one scene to many curves.
 #[derive(Clone, Copy, Debug)]
 pub struct FitsReport<'a> {
+    /// The scene that is fitted.
     pub scene: &'a Scene,
     /// The free parameters, in the order of the values.
     pub free: &'a [Parameter],
+    /// A row for each curve.
     pub rows: &'a [CurveRow],
 }
 
@@ -110,7 +114,7 @@ struct Distribution {
 }
 
 impl FitsReport<'_> {
-    /// Values of the first free parameter of curves that are described, or of those that are not.
+    /// Values of the first free parameter, of curves that are described or of curves that are not.
     fn values(&self, is_described: bool) -> Vec<f64> {
         let of = self.rows.iter().filter(|row| row.described == Some(is_described));
         of.filter_map(|row| Some(row.parameters.first()?[0])).collect()
@@ -122,7 +126,7 @@ impl FitsReport<'_> {
         (!values.is_empty()).then_some(Distribution { quartiles, count: values.len() })
     }
 
-    /// Sentences on the first parameter over the curves that are described, over all, and on those without a fit.
+    /// Sentences on the first parameter over the described curves and over all curves, and on curves without a fit.
     fn summary(&self) -> Vec<String> {
         let Some(row) = self.free.first().map(|one| one.row()) else { return Vec::new() };
         let sentence = |found: Distribution, of: &str| {

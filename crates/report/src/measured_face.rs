@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 /// Share of the squared height in long waves above which the rms height depends on the length of the scan.
 const MANY_LONG_WAVES: f64 = 0.3;
 
-/// Share of the squared height in long waves above which they are likely to be those of a body or of a bow of the scanner.
+/// Share of the squared height in long waves above which they are likely to belong to a body or to a bow of the scanner.
 const FORM: f64 = 0.9;
 
 /// Number of profiles from which on moments are as accurate as the moments of a map.
 const MANY_PROFILES: u64 = 100;
 
 /// Smallest and largest factor by which adhesion near its boundary varies between single profiles; the same as in
-/// `docs/surfaces.md`.
+/// `docs/surface-estimate.md`.
 const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
 /// Rms gradient above which slopes are not small, and smallest ratio of the rms heights of two samples of one roughness:
@@ -29,18 +29,22 @@ const FAR_APART: f64 = 30.0;
 /// Facts about a surface and its file. Lists have one number for a profile, and a number for each axis for a map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
+    /// Path of the file.
     #[serde(rename = "file", serialize_with = "in_unicode")]
     pub path: PathBuf,
     /// Name of the measurement in a container; empty if the surface is from a file of its own.
     #[serde(rename = "measurement", skip_serializing_if = "String::is_empty")]
     pub name: String,
+    /// Name of the format.
     pub format: &'static str,
     /// Number of points of a row, and number of rows.
     pub points: Vec<usize>,
+    /// Length along a row, and along a column, m.
     pub lengths: Vec<f64>,
     /// Numbers of columns and rows without measured points left out at the borders; for a profile a number of points at its
     /// ends.
     pub cropped: Vec<usize>,
+    /// Number of points with interpolated heights.
     pub interpolated: usize,
     /// Messages on oddities of the file.
     #[serde(skip)]
@@ -106,7 +110,9 @@ impl SurfaceFile {
 /// Measured surfaces of one face, with their common analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
+    /// Facts about each surface.
     pub files: Vec<SurfaceFile>,
+    /// Analysis of all surfaces of the face together.
     pub analysis: Analysis,
 }
 
@@ -174,7 +180,7 @@ impl MeasuredFace {
         if analysis.maps == 0 && analysis.profiles < MANY_PROFILES {
             let [low, high] = BOUNDARY_FACTORS;
             warnings.push(format!(
-                "from few profiles adhesion near its boundary is uncertain by a factor from {low} to {high}, up or down; \
+                "from few profiles adhesion near its boundary is known only within a factor of {low} to {high}; \
                  {MANY_PROFILES} profiles or a map are better"
             ));
         }
@@ -188,7 +194,7 @@ impl MeasuredFace {
         if analysis.offsets {
             warnings.push(
                 "rows or columns are offset against each other, or were levelled one by one: waves along that axis \
-                 alone are left out of the fit"
+                 are left out of the fit"
                     .to_owned(),
             );
         }
@@ -213,7 +219,7 @@ mod tests {
     #[test]
     fn warnings_promise_what_the_documentation_states() {
         let [low, high] = BOUNDARY_FACTORS;
-        let stated = format!("by a factor from {low} to {high} either way");
-        assert!(include_str!("../../../docs/surfaces.md").contains(&stated), "{stated}");
+        let stated = format!("within a factor of {low} to {high}");
+        assert!(include_str!("../../../docs/surface-estimate.md").contains(&stated), "{stated}");
     }
 }

@@ -18,6 +18,7 @@ pub(crate) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 /// Adhesion force against preload, on one or more profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
     /// Choice of springs for a tolerance, if one was requested.
     pub choice: Option<&'a Choice>,
@@ -100,7 +101,7 @@ impl Report for PreloadReport<'_> {
         let curves = self.staircase.filter(|_| self.curves).map(|staircase| {
             let (force, adhesion) = staircase.touch;
             object! {
-                "touch": object! { "force": force, "adhesion_force": adhesion },
+                "first_touch": object! { "force": force, "adhesion_force": adhesion },
                 "zero_force": object! { "force": 0.0, "adhesion_force": staircase.zero_force },
                 "preloads": curve_table(self.results, staircase),
             }
@@ -239,8 +240,8 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     // A force below the axis, as below zero on a logarithmic one, is marked at its left end.
     let inside = |force: f64| if scale.coordinate(force) >= x.low { force } else { scale.number(x.low) };
     for (symbol, protocol, force, adhesion, sign, ink) in [
-        ("F_a(0)", "from first touch", touch, at_touch, Sign::HollowDiamond, Ink::Loading),
-        ("F_a(F=0)", "after zero force", 0.0, staircase.zero_force, Sign::Ring, Ink::Manual),
+        ("F_a(d=0)", "turned at first touch", touch, at_touch, Sign::HollowDiamond, Ink::Loading),
+        ("F_a(F=0)", "turned at zero force", 0.0, staircase.zero_force, Sign::Ring, Ink::Manual),
     ] {
         let value =
             if has_values { format!(" {},", format_rounded(adhesion, 3, "N")) } else { String::new() };

@@ -11,8 +11,11 @@ use asperity_study::{Compared, Loaded, Reference, Statistics};
 /// A comparison, with the title of its scene.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// Comparison of the line with three dimensions.
     pub reference: &'a Reference,
 }
 

@@ -15,10 +15,14 @@ const MOST_ROWS: usize = 16;
 /// Limit of the number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
+/// Reversal curves of one profile and their Everett function.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// Forces along the reversal curves.
     pub map: &'a ReversalMap,
     /// Adhesion force against preload, with the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
     /// bodies together.

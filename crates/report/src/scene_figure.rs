@@ -1,11 +1,11 @@
 //! Figures of the contact: the profile with its contact, and contact patches over the indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
+use asperity_contact::preload_point;
 use asperity_contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use asperity_scene::Outcome;
-use asperity_scene::preload_point;
 use asperity_surface::Line;
 use std::slice;
 
@@ -42,6 +42,7 @@ impl ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
 
+    /// Takes the patches of a stage that has been computed.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);

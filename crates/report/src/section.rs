@@ -11,7 +11,9 @@ use std::ops::Range;
 pub struct SectionContact<'a> {
     /// Gaps below the highest point, m.
     pub gaps: &'a [f64],
+    /// Height of the highest point of the profile, m.
     pub summit: f64,
+    /// Indentation, m.
     pub indentation: f64,
     /// Patches in contact, from left to right.
     pub patches: &'a [Patch],
@@ -20,7 +22,9 @@ pub struct SectionContact<'a> {
 /// Springs of the profile that a chart shows, at least one, and its number of columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
+    /// Index of the first spring.
     pub first: usize,
+    /// Number of springs.
     pub springs: usize,
     /// Number of columns; if it exceeds the number of springs, a spring fills several columns.
     pub columns: usize,
@@ -39,12 +43,15 @@ pub struct LineColumns {
 /// A part of the profile and its contact, reduced to columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
+    /// Index of the first spring.
     pub first: usize,
+    /// Number of springs.
     pub springs: usize,
     /// Lowest and highest point of the profile, m.
     pub heights: (f64, f64),
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
+    /// The columns, from left to right.
     pub columns: Vec<Column>,
 }
 
@@ -91,6 +98,7 @@ impl Part {
         Part { first, springs, columns: springs }
     }
 
+    /// Springs that a column shows, by their indices.
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let start = |column: usize| {
             self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
@@ -106,6 +114,7 @@ impl SectionContact<'_> {
         self.summit - self.gaps[spring]
     }
 
+    /// Height of the undeformed elastic surface, m.
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }

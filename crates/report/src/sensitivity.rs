@@ -17,10 +17,14 @@ const LEAST: f64 = 1.0;
 /// Half the height of a bar, over the distance of bars.
 const HALF: f64 = 0.35;
 
+/// Changes of the results with the numbers of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// The changes.
     pub sensitivity: &'a Sensitivity,
 }
 
@@ -93,7 +97,7 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
 
 /// The changes of the medians in words: a heading, the medians of the scene, then a row for each change of at most `most`
 /// numbers, the one with the largest influence on the adhesion force first. The columns are name, value, change, F_a, range of
-/// the changes of F_a of single profiles, F_a(0) and dissipated energy.
+/// the changes of F_a of single profiles, F_a(d=0) and dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
@@ -186,10 +190,10 @@ impl Report for SensitivityReport<'_> {
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let values = |values: Values| {
-            object! { "adhesion_force": values[0], "zero_load_adhesion_force": values[1], "dissipated_energy": values[2] }
+            object! { "adhesion_force": values[0], "first_touch_adhesion_force": values[1], "dissipated_energy": values[2] }
         };
         let ends = |range: [Option<(f64, f64)>; 3]| {
-            object! { "adhesion_force": range[0], "zero_load_adhesion_force": range[1], "dissipated_energy": range[2] }
+            object! { "adhesion_force": range[0], "first_touch_adhesion_force": range[1], "dissipated_energy": range[2] }
         };
         let side = move |(value, changed): &(f64, Option<Changed>)| {
             changed.map(|changed| {
@@ -279,7 +283,7 @@ mod tests {
         };
         let rows = sensitivity_table(&sensitivity, 9).into_iter().map(|row| row.join("|"));
         let expected = [
-            "number|value|change|F_a|single profiles|F_a(0)|ΔW",
+            "number|value|change|F_a|single profiles|F_a(d=0)|ΔW",
             "median|||2 µN||-|1 J",
             "k_min|4|-1|+50 %|-10 % to ×4|-|0 %",
             "||+1|+25 %|-10 % to ×4|-|0 %",

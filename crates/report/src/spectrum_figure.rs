@@ -99,6 +99,7 @@ impl Spectra {
         Spectra { measured: measured(faces), line, heights: Vec::new() }
     }
 
+    /// Chart of the spectra over the wave number.
     pub fn chart(&self) -> Chart {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {

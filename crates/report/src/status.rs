@@ -48,7 +48,7 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
 
 /// Progress of a run in one line.
 pub fn progress_text(progress: &StudyProgress) -> String {
-    let StudyProgress { done, before, total, elapsed: _ } = *progress;
+    let StudyProgress { done, before, total, .. } = *progress;
     let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };
     let mut text = format!("{done} of {total} records, {share:.1} %");
     if let Some(rate) = progress.rate().filter(|_| done > before) {

@@ -119,7 +119,8 @@ fn name(quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime {}", quantity.protocol());
     }
-    let hyphenated = [("zero load", "zero-load"), ("zero force a", "zero-force a"), ("pull off", "pull-off")];
+    let hyphenated =
+        [("first touch", "first-touch"), ("zero force a", "zero-force a"), ("pull off", "pull-off")];
     let name = quantity.name().replace('_', " ");
     hyphenated.iter().fold(name, |name, (words, word)| name.replace(words, word))
 }
@@ -133,7 +134,7 @@ fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
     ChartAxis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
-/// The recorded F_a(0)/F_a,max whose vanishing is drawn in a figure of this quantity: the quantity itself, or the first
+/// The recorded F_a(d=0)/F_a,max whose vanishing is drawn in a figure of this quantity: the quantity itself, or the first
 /// recorded one.
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
@@ -229,7 +230,7 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
     layers
 }
 
-/// Coordinates on the axis across at which F_a(0)/F_a,max vanishes.
+/// Coordinates on the axis across at which F_a(d=0)/F_a,max vanishes.
 fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     let shares = means(&grid.statistics(share, false));
     let places = coordinates(&grid.across);
@@ -378,8 +379,8 @@ mod tests {
         };
         let mut study = sections();
         let own = upright(&study, SHARE);
-        assert_eq!(own.0, "F_a(0) = 0.05 F_a,max");
-        // A quantity other than a share of F_a(0) shows where F_a(0) vanishes.
+        assert_eq!(own.0, "F_a(d=0) = 0.05 F_a,max");
+        // A quantity other than a share of F_a(d=0) shows where F_a(d=0) vanishes.
         assert_eq!(upright(&study, COEFFICIENT), own);
         study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
         let shares: Vec<_> = estimates(&mut study, 0).map(|one| *one).collect();
@@ -417,7 +418,7 @@ mod tests {
         let names: Vec<String> = legend.iter().map(|entry| entry.name.to_string()).collect();
         let stage = "force of stage 1";
         let [one, two] = ["1 mN", "2 mN"].map(|force| format!("{stage} {force}"));
-        let vanishing = "F_a(0) = 0.05 F_a,max".to_owned();
+        let vanishing = "F_a(d=0) = 0.05 F_a,max".to_owned();
         assert_eq!(
             names,
             [format!("any {stage}"), vanishing, one, two, "95 % confidence of the mean".into()]

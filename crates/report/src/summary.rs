@@ -21,7 +21,7 @@ use asperity_surface::Form;
 const MOST_STAGES: usize = 8;
 
 /// Results of a scene as plain text of at most 80 columns: first over random profiles, if these are computed, then of its own
-/// profile with the estimated error of the adhesion force and the choice of springs for a tolerance, if these are given. `deviation` is that of the adhesion force by the spectrum of a measured
+/// profile with the estimated error of the adhesion force and the choice of springs for a tolerance, if these are given. `deviation` is the deviation of the adhesion force by the spectrum of a measured
 /// surface, N.
 pub(crate) fn summary(
     scene: &Scene,
@@ -63,7 +63,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     sheet.row("regime", regime(outcome));
     sheet.quantity("preload F_n", figures.preload, "N");
     sheet.row("adhesion force F_a", adhesion_force(outcome));
-    sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
+    sheet.quantity("at first touch F_a(d=0)", outcome.zero_load_adhesion_force, "N");
     dissipated_energy(&mut sheet, outcome);
     sheet.into_text()
 }
@@ -129,7 +129,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
     let share = outcome.adhesion_share().map(|share| rounded(Quantity::AdhesionShare, share, 4));
     sheet.row_of("share F_a/F_a,max", share);
-    sheet.quantity("at first touch F_a(0)", outcome.zero_load_adhesion_force, "N");
+    sheet.quantity("at first touch F_a(d=0)", outcome.zero_load_adhesion_force, "N");
     sheet.quantity("at zero force F_a(F=0)", outcome.zero_force_adhesion_force, "N");
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
     sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
@@ -165,9 +165,12 @@ fn regime(outcome: &Outcome) -> String {
             let percent = share.map_or(100.0, |(part, whole)| (100.0 * part / whole).round());
             let already =
                 if percent < 100.0 { format!("{percent} % of F_a") } else { "full adhesion".to_owned() };
-            return format!("{} from first touch; after zero net force already at {already}", regime.name());
+            return format!(
+                "{} turned at first touch; turned at zero force already at {already}",
+                regime.name()
+            );
         }
-        Some(_) => " and after zero net force",
+        Some(_) => " and at zero force",
         None => "",
     };
     let meaning = match regime {
@@ -175,7 +178,7 @@ fn regime(outcome: &Outcome) -> String {
         Regime::PressureSensitive => "adhesion is small without a preload",
         Regime::NonAdhesive => "almost no adhesion, also after the preload",
     };
-    format!("{} from first touch{both}: {meaning}", regime.name())
+    format!("{} turned at first touch{both}: {meaning}", regime.name())
 }
 
 fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
@@ -186,16 +189,16 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     let (zero_load, adhesion) = (outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
     let (zero_force, smooth) = (outcome.zero_force_adhesion_force, outcome.smooth_adhesion_force);
     let preload = outcome.figures.preload;
-    let says = ["most of it after first touch", "less than half after first touch"];
-    share(sheet, "  F_a(0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
-    let says = ["there at first touch", "vanished at first touch"];
-    share(sheet, "  F_a(0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
-    let says = ["most of it after zero force", "less than half after zero force"];
+    let says = ["most of it", "less than half"];
+    share(sheet, "  F_a(d=0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
+    let says = ["adhesion", "vanished"];
+    share(sheet, "  F_a(d=0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
+    let says = ["most of it", "less than half"];
     share(sheet, "  F_a(F=0)/F_a", zero_force, adhesion, INSENSITIVE_SHARE, says);
-    let says = ["there after zero force", "vanished after zero force"];
+    let says = ["adhesion", "vanished"];
     share(sheet, "  F_a(F=0)/F_smooth", zero_force, smooth, VANISHING_SHARE, says);
     if preload.is_some_and(|preload| preload <= 0.0) && zero_load != adhesion {
-        let says = ["there without a preload", "vanished without a preload"];
+        let says = ["adhesion without a preload", "vanished without a preload"];
         share(sheet, "  F_a/F_smooth", adhesion, smooth, VANISHING_SHARE, says);
     }
     let says = ["not negligible", "negligible"];
@@ -289,7 +292,13 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         sheet.row_of(label, (count > 0).then(|| grouped(count)));
     }
     let Timings { line, tree, passes, curve, zero_load } = *timings;
-    let stages = [("line", line), ("tree", tree), ("loop", passes), ("curve", curve), ("F_a(0)", zero_load)];
+    let stages = [
+        ("line", line),
+        ("tree", tree),
+        ("loop", passes),
+        ("curve", curve),
+        ("without preload", zero_load),
+    ];
     let stages = stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
     let total = format_quantity(timings.total(), "s");
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
@@ -303,7 +312,7 @@ fn counts(work: &Work) -> [(&'static str, u64); 15] {
         ("tree nodes", work.tree_nodes),
         ("loading passes", work.loading_passes),
         ("unloading passes", work.unloading_passes),
-        ("passes for F_a(0)", work.zero_load_passes),
+        ("passes without preload", work.zero_load_passes),
         ("rule of Hess applied", work.hess_evaluations),
         ("events sorted", work.events_sorted),
         ("springs attached", work.attached),
@@ -396,8 +405,8 @@ mod tests {
             (&[("loading", "[ToTouch]")][..], "not known: the loading does not pull the bodies off"),
             (&[("adhesion", "None")], "non-adhesive: the scene has no adhesion"),
             (&[("adhesion", "None"), ("loading", "[ToTouch]")], "none: no adhesion"),
-            (&[("adhesion.kappa", "0.1")], "pressure-insensitive from first touch and after zero"),
-            (&[("adhesion.kappa", "100.0")], "non-adhesive from first touch and after zero net"),
+            (&[("adhesion.kappa", "0.1")], "pressure-insensitive turned at first touch and at zero"),
+            (&[("adhesion.kappa", "100.0")], "non-adhesive turned at first touch and at zero"),
         ] {
             let text = summary_of(ROUGH, overrides);
             assert!(text.contains(said), "{said}: {text}");
@@ -417,13 +426,13 @@ mod tests {
         let scene = scene.map(|(path, value)| (path.to_owned(), value.to_owned()));
         let document = Document::parse(ROUGH, "test").unwrap().set_all(&scene).unwrap();
         for (work, share, said) in [
-            ("0.03", 1.0, "pressure-sensitive from first touch; after zero net force already at full"),
+            ("0.03", 1.0, "pressure-sensitive turned at first touch; turned at zero force already at full"),
             (
                 "0.03",
                 0.62,
-                "pressure-sensitive from first touch; after zero net force already at 62 % of F_a",
+                "pressure-sensitive turned at first touch; turned at zero force already at 62 % of F_a",
             ),
-            ("0.01", 1.0, "pressure-sensitive from first touch and after zero net force: adhesion is small"),
+            ("0.01", 1.0, "pressure-sensitive turned at first touch and at zero force: adhesion is small"),
         ] {
             let document = document.set("adhesion", &format!("(work: {work})")).unwrap();
             let mut outcome =

@@ -36,8 +36,11 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
 pub struct SurfaceReport {
     /// The analysed face, and the opposite face if it was measured too.
     pub faces: Vec<MeasuredFace>,
+    /// Equivalent line of all faces.
     pub line: EquivalentLine,
+    /// Effective modulus E*, Pa, if it is given.
     pub modulus: Option<f64>,
+    /// Work of adhesion γ, J/m², if it is given.
     pub work: Option<f64>,
     /// Scene of the equivalent line, if its adhesion was requested, with the results on random profiles; without them if
     /// the scene has many springs and they were not requested.
@@ -142,7 +145,7 @@ impl Report for SurfaceReport {
 impl SurfaceReport {
     /// Moments of the equivalent line, and quantities that follow from them.
     fn moments(&self) -> [MomentRow; 6] {
-        let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus } =
+        let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus, .. } =
             self.line.moments();
         let stiff = |moment: Moment| Some(moment.scaled(self.modulus?));
         let over_work = |moment: Moment| Some(moment.scaled(1.0 / self.work?));
@@ -180,7 +183,7 @@ fn preload(scene: &Scene) -> Option<f64> {
 fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
     sheet.heading("Adhesion of the equivalent line");
     let loading = preload(scene).map_or_else(
-        || "touch without force, then pull (--preload presses before)".to_owned(),
+        || "turned at first touch, d = 0 (--preload presses before)".to_owned(),
         |force| format!("to {}, then pull", format_quantity(force, "N")),
     );
     sheet.row("loading", loading);
@@ -195,7 +198,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion
     let forces = computed.adhesion_force();
     forces.and_then(|forces| forces.warning("F_a")).iter().for_each(|warning| sheet.row("", warning));
     let count = computed.profiles.len();
-    let labels = ["regime from first touch", "regime after zero force"];
+    let labels = ["regime turned at first touch", "regime turned at zero force"];
     for (label, regimes) in labels.into_iter().zip(computed.regimes()) {
         let each = regimes.present().map(|(name, some)| format!("{name} on {some} of {count}"));
         sheet.row(label, each.collect::<Vec<_>>().join(", ") + " profiles");
@@ -295,7 +298,7 @@ fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result
 }
 
 impl<'a> FaceJson<'a> {
-    /// The facts of one face alone.
+    /// The facts of one face.
     fn new(face: &'a MeasuredFace) -> Self {
         let MeasuredFace { files, analysis } = face;
         let spectrum = |(direction, bins): &'a (Along, Vec<Bin>)| SpectrumJson {

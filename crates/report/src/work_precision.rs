@@ -22,7 +22,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
         layers.push(Layer::new(Label::plain(knob.name()), ink, Shape::signs(of(true).collect(), sign)));
         if of(false).next().is_some() {
             let rings = Shape::signs(of(false).collect(), Sign::Ring);
-            layers.push(Layer::new("error below that of the reference".into(), ink, rings));
+            layers.push(Layer::new("error below the error of the reference".into(), ink, rings));
         }
     }
     let all = || series.iter().flat_map(|(_, points)| points);
@@ -41,7 +41,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{ErrorFigure, Reference, Row, Timing};
+    use asperity_scene::{CostReference, ErrorFigure, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {
@@ -54,7 +54,7 @@ mod tests {
             errors: [None, Some(ErrorFigure { error, resolved, order: None }), None, None],
         };
         let reference =
-            Reference { springs: 16, adhesion_force: None, closed_form: false, errors: [None; 4] };
+            CostReference { springs: 16, adhesion_force: None, closed_form: false, errors: [None; 4] };
         let rows = vec![row(1e-4, 1e-1, true), row(1e-2, 1e-3, false), row(1e-2, 0.0, true)];
         let (transform_seconds, left_out) = (1.0, Vec::new());
         let table = CostTable { budget: 1.0, spent: 1.0, transform_seconds, reference, rows, left_out };
@@ -66,7 +66,7 @@ mod tests {
         );
         assert_eq!(chart.y.name, "relative error of the curve");
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
-        assert_eq!(legend, [Knob::SubCellSprings.name(), "error below that of the reference"]);
+        assert_eq!(legend, [Knob::SubCellSprings.name(), "error below the error of the reference"]);
         assert!(figure.svg().contains("a &lt; b"));
         let empty = work_precision("", &CostTable { rows: Vec::new(), ..table }).svg();
         assert!(!empty.contains("NaN") && !empty.contains("inf") && !empty.contains("<circle"), "{empty}");

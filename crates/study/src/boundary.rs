@@ -92,7 +92,7 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
     let protocols: Vec<Quantity> = shares.into_iter().filter(|share| plan.record.contains(share)).collect();
     if protocols.is_empty() {
         return Err(refuse(
-            "this study records neither zero_load_adhesion_share nor zero_force_adhesion_share",
+            "this study records neither first_touch_adhesion_share nor zero_force_adhesion_share",
         ));
     }
     let others: Vec<usize> = (0..plan.axes.len()).filter(|axis| *axis != along).collect();
@@ -157,7 +157,7 @@ fn conversion(
 
 /// Name of the protocol of a recorded quantity F_a(0)/F_a,max.
 pub fn protocol_name(share: Quantity) -> &'static str {
-    if share == Quantity::ZeroLoadAdhesionShare { "touch" } else { "zero force" }
+    if share == Quantity::ZeroLoadAdhesionShare { "first touch" } else { "zero force" }
 }
 
 impl Boundaries {

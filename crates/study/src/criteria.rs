@@ -65,8 +65,8 @@ fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion
     let of =
         ensemble.map(|ensemble| format!(", median of {} profiles", ensemble.computed())).unwrap_or_default();
     let rows = [
-        ("F_a(0)/F_smooth", "from first touch", zero_load),
-        ("F_a(F=0)/F_smooth", "after zero net force", zero_force),
+        ("F_a(d=0)/F_smooth", "turned at first touch", zero_load),
+        ("F_a(F=0)/F_smooth", "turned at zero force", zero_force),
     ];
     let refusal = long_ranged(outcome.tabor_number);
     let row = |(symbol, protocol, force): (&'static str, &str, Option<f64>)| {
@@ -147,7 +147,7 @@ mod tests {
             assert_eq!(row.sticks, Some(forces[2] >= VANISHING_SHARE * smooth));
         }
         assert!(
-            found[5].words().ends_with("(from first touch, median of 5 profiles)"),
+            found[5].words().ends_with("(turned at first touch, median of 5 profiles)"),
             "{}",
             found[5].words()
         );

@@ -1,6 +1,5 @@
 //! Errors of studies.
 
-use super::plan::{ONE_PROFILE, Plan};
 use asperity_data::WriteError;
 use asperity_data::{memory_size, path_name};
 use asperity_half_space::HalfSpaceError;
@@ -9,6 +8,12 @@ use asperity_surface::SurfaceError;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+
+/// Message for a request of several profiles of a scene that has one: the fault, and which scenes have several.
+pub(super) const ONE_PROFILE: (&str, &str) = (
+    "more than one profile, and the profile of this scene is fixed",
+    "random roughness (SelfAffine, or an equivalent line)",
+);
 
 /// Error that ends the work on a study; records written before are kept.
 #[derive(Debug, Error)]
@@ -118,12 +123,6 @@ impl StudyError {
     /// Returns true if the computation was stopped rather than failed.
     pub fn is_interruption(&self) -> bool {
         matches!(self, StudyError::Run { error, .. } if error.is_interruption())
-    }
-
-    /// Error of one profile of a study that has a single cell, or one cell for each preload.
-    pub(super) fn of_profile(plan: &Plan, line: u64, error: RunError) -> StudyError {
-        let place = if plan.lines > 1 { format!("seed {}: ", plan.seed_of(line)) } else { String::new() };
-        StudyError::Run { place, error }
     }
 
     pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {

@@ -65,7 +65,7 @@ pub use preload_curve::PreloadCurve;
 pub use preloads::{PRELOADS, Staircase, parse_preloads, parse_range};
 pub use profiles::Stop;
 pub use quantity::Quantity;
-pub use question::{Answer, Question, WITHIN, parse_condition};
+pub use question::{Answer, Question, parse_condition};
 pub use reference::{Compared, Loaded, Reference, ReferenceBudget, ReferenceOptions};
 pub use results::{Merged, Results};
 pub use run::{StudyProgress, run_study};

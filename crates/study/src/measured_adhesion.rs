@@ -23,6 +23,7 @@ const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProfileAdhesion {
     /// Seed of the profile.
     pub seed: u64,

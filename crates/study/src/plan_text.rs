@@ -3,7 +3,7 @@
 use super::axis::{Axis, AxisText, Spacing};
 use super::error::StudyError;
 use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
-use super::quantity::Quantity;
+use super::quantity::{Quantity, renamed};
 use asperity_data::read_regular_text;
 use asperity_scene::{
     Document, LONGEST_TEXT, Preset, Scene, SceneErrors, built_in, did_you_mean, explain, is_file_name,
@@ -139,7 +139,9 @@ impl Plan {
         let read: PlanText = read_ron(text).map_err(|error| {
             let (offset, error) = explain(text, &error);
             let (line, column) = line_column(text, offset);
-            StudyError::Plan(vec![format!("{name}:{line}:{column}: {}", error.what())])
+            let word = text[offset..].split(|c: char| !c.is_alphanumeric() && c != '_').next();
+            let what = word.and_then(renamed).unwrap_or_else(|| error.what());
+            StudyError::Plan(vec![format!("{name}:{line}:{column}: {what}")])
         })?;
         if read.version != PLAN_VERSION {
             return Err(refused(format!(

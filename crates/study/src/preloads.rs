@@ -214,7 +214,8 @@ mod tests {
     use super::super::plan_text::Changes;
     use super::super::recorder::Recorder;
     use super::*;
-    use asperity_scene::{Document, Figures, open};
+    use asperity_contact::Figures;
+    use asperity_scene::{Document, open};
 
     fn preloads(ends: (f64, f64), count: usize) -> Axis {
         Axis::of_preloads(ends, count, AxisScale::Linear).unwrap()

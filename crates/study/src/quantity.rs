@@ -87,28 +87,28 @@ quantities! {
         symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
     }
     ZeroLoadAdhesionForce {
-        name: "zero_load_adhesion_force", meaning: "adhesion force after turning at first touch",
-        symbol: "F_a(0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load,
+        name: "first_touch_adhesion_force", meaning: "adhesion force turned at first touch",
+        symbol: "F_a(d=0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load,
     }
     ZeroLoadAdhesionShare {
-        name: "zero_load_adhesion_share",
-        meaning: "adhesion force after turning at first touch, over that of a flat face",
-        symbol: "F_a(0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
+        name: "first_touch_adhesion_share",
+        meaning: "F_a(d=0) over the ideal adhesion force",
+        symbol: "F_a(d=0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
         of: |case| case.share(case.zero_load),
     }
     ZeroForceAdhesionForce {
         name: "zero_force_adhesion_force",
-        meaning: "adhesion force after turning where the force is back at zero",
+        meaning: "adhesion force turned at zero force",
         symbol: "F_a(F=0)", unit: "N", needs: Needs::ZeroForce, of: |case| case.zero_force,
     }
     ZeroForceAdhesionShare {
         name: "zero_force_adhesion_share",
-        meaning: "adhesion force after turning where the force is back at zero, over that of a flat face",
+        meaning: "F_a(F=0) over the ideal adhesion force",
         symbol: "F_a(F=0)/F_a,max", bounds: SHARE, needs: Needs::ZeroForce,
         of: |case| case.share(case.zero_force),
     }
     PreloadForce {
-        name: "preload_force", meaning: "preload: largest force since the last separation, before the last unloading",
+        name: "preload_force", meaning: "preload",
         symbol: "F_n", unit: "N", of: |case| case.loading.figures.preload,
     }
     PreloadIndentation {
@@ -120,7 +120,7 @@ quantities! {
         symbol: "F_a", unit: "N", of: |case| case.loading.figures.adhesion_force,
     }
     AdhesionShare {
-        name: "adhesion_share", meaning: "adhesion force after the preload, over that of a flat face",
+        name: "adhesion_share", meaning: "adhesion force over the ideal adhesion force",
         symbol: "F_a/F_a,max", bounds: SHARE, of: |case| case.share(case.loading.figures.adhesion_force),
     }
     AdhesionCoefficient {
@@ -128,7 +128,7 @@ quantities! {
         symbol: "F_a/F_n", of: |case| case.loading.figures.adhesion_coefficient,
     }
     PullOffIndentation {
-        name: "pull_off_indentation", meaning: "indentation at the smallest force",
+        name: "pull_off_indentation", meaning: "indentation at the pull-off",
         symbol: "d", unit: "m", bounds: ANY, of: |case| case.loading.figures.pull_off_indentation,
     }
     DissipatedEnergy {
@@ -136,45 +136,45 @@ quantities! {
         symbol: "ΔW", unit: "J", of: |case| case.loading.figures.dissipated_energy,
     }
     TaborNumber {
-        name: "tabor_number", meaning: "Tabor number; below 5, energies come out too large",
+        name: "tabor_number", meaning: "Tabor number",
         symbol: "μ", of: |case| case.tabor_number(),
     }
     ContactFraction {
-        name: "contact_fraction", meaning: "largest length in contact over the length",
+        name: "contact_fraction", meaning: "largest contact length over the length",
         bounds: SHARE, of: |case| case.contact_fraction(),
     }
     Fragments {
-        name: "fragments", meaning: "contact patches at the preload",
+        name: "fragments", meaning: "number of patches at the preload",
         of: |case| case.loading.preload.map(|point| point.fragments as f64),
     }
     Regime {
-        name: "regime", meaning: "regime of adhesion from first touch, Fig. 4",
+        name: "regime", meaning: "regime of adhesion turned at first touch",
         unit: "", of: |case| case.regime(case.zero_load),
     }
     RegimeAfterZeroForce {
-        name: "regime_after_zero_force", meaning: "the same with F_a(F=0), after zero net force",
+        name: "regime_after_zero_force", meaning: "regime of adhesion turned at zero force",
         unit: "", of: |case| case.regime(case.zero_force),
     }
     StiffnessExponent {
         name: "stiffness_exponent",
-        meaning: "exponent of the stiffness over the force without adhesion, k ∝ F^α; 1/(1+H) is expected",
+        meaning: "exponent of the stiffness without adhesion, k ∝ F^α",
         symbol: "α", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.0),
     }
     ForceExponent {
         name: "force_exponent",
-        meaning: "exponent of the force over the indentation without adhesion, F ∝ dⁿ",
+        meaning: "exponent of the force without adhesion, F ∝ dⁿ",
         symbol: "n", needs: Needs::Stiffness, of: |case| Some(case.profile.exponents?.1),
     }
     RmsHeight {
-        name: "rms_height", meaning: "rms height of the line",
+        name: "rms_height", meaning: "rms height of the profile",
         symbol: "h", unit: "m", needs: Needs::Heights, of: |case| case.profile.rms_height,
     }
     Skewness {
-        name: "skewness", meaning: "skewness of the heights of the line",
+        name: "skewness", meaning: "skewness of the heights",
         bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.0),
     }
     ExcessKurtosis {
-        name: "excess_kurtosis", meaning: "excess kurtosis of the heights of the line",
+        name: "excess_kurtosis", meaning: "excess kurtosis of the heights",
         bounds: ANY, needs: Needs::Heights, of: |case| Some(case.profile.shape?.1),
     }
     SummitHeight {
@@ -193,12 +193,12 @@ impl Quantity {
 
     /// The protocol, in words, of the regime that a map of this quantity shows.
     pub fn protocol(self) -> &'static str {
-        if self == Quantity::RegimeAfterZeroForce { "after zero net force" } else { "from first touch" }
+        if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }
     }
 
     /// The protocol of [`Quantity::protocol`] in short, for a title or a legend.
     pub fn short_protocol(self) -> &'static str {
-        if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "touch" }
+        if self == Quantity::RegimeAfterZeroForce { "F=0" } else { "d=0" }
     }
 
     /// Returns true for a regime, which is not a number.
@@ -236,6 +236,9 @@ impl Quantity {
     /// No quantity or several quantities have this name; the possible ones are named.
     pub fn named(text: &str) -> Result<Quantity, String> {
         let text = text.trim();
+        if let Some(refused) = renamed(text) {
+            return Err(refused);
+        }
         let name = text.to_lowercase().replace([' ', '-'], "_");
         let is_named = |one: &Quantity| one.symbol() == text || one.name() == name;
         let found: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_named).collect();
@@ -272,6 +275,20 @@ impl Quantity {
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case).filter(|value| value.is_finite()).unwrap_or(f64::NAN)
     }
+}
+
+/// Former names and symbols, each with the present one.
+const RENAMED: [(&str, &str); 4] = [
+    ("zero_load_adhesion_force", "first_touch_adhesion_force"),
+    ("zero_load_adhesion_share", "first_touch_adhesion_share"),
+    ("F_a(0)", "F_a(d=0)"),
+    ("F_a(0)/F_a,max", "F_a(d=0)/F_a,max"),
+];
+
+/// A refusal of a former name or symbol, with the present one.
+pub(super) fn renamed(name: &str) -> Option<String> {
+    let (_, present) = RENAMED.iter().find(|(former, _)| *former == name)?;
+    Some(format!("{name} is now {present}"))
 }
 
 /// The regime that a recorded value means; `None` for NaN.

@@ -47,6 +47,7 @@ pub struct Question {
 
 /// Answer of one profile.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Answer {
     /// Seed of the profile; `None` for a fixed profile.
     pub seed: Option<u64>,

@@ -32,6 +32,7 @@ pub struct Results {
 
 /// What a merge found in the shard files of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Merged {
     /// Number of records, each counted once.
     pub records: u64,

@@ -16,9 +16,9 @@ const MOST_NAMED: usize = 12;
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Quantity of each panel; default: F_a(0) and F_a/F_n
+    /// Quantity of each panel; default: F_a(d=0) and F_a/F_n
     ///
-    /// Where no F_a/F_n was recorded: F_a(0) by both protocols; where neither was: the first one.
+    /// Where no F_a/F_n was recorded: F_a(d=0) by both protocols; where neither was: the first one.
     #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME"))]
     pub quantities: Vec<String>,
     /// Axis across

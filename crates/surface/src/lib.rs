@@ -27,5 +27,6 @@ pub use topography::open::{content, parse, read, unpacked};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 pub use topography::text::each_text;
-pub use topography::text::header::{Role, TextColumn, TextHeader};
+pub use topography::text::header::TextHeader;
 pub use topography::text::layout::{Decimal, ONE_MARK, Separator, TextCell};
+pub use topography::text::names::{Role, TextColumn};

@@ -1,4 +1,4 @@
-//! `asperity sweep boundary`: finds the boundary of vanishing zero-load adhesion.
+//! `asperity sweep boundary`: finds the boundary of vanishing adhesion without a preload.
 
 use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
@@ -15,10 +15,10 @@ Examples:
   asperity sweep boundary edge --where 0.05 --format csv
   asperity sweep boundary edge --x elastic_energy_ratio
 
-F_a(0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
+F_a(d=0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
 profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
 the profiles.
-A boundary in κ is one in e_el/γ as well, elastic energy of conformity over work of adhesion.";
+--x gives the boundary in e_el/γ, the elastic energy of conformity over the work of adhesion.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]
@@ -26,7 +26,7 @@ pub struct BoundaryArguments {
     /// Folder of a merged study with an axis adhesion.kappa or adhesion.elastic_energy_ratio
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// Where F_a(0) falls below this share of F_a,max: 0.05 (repeatable)
+    /// Where F_a(d=0) falls below this share of F_a,max: 0.05 (repeatable)
     #[arg(long = "where", value_name = "SHARE", value_parser = level)]
     pub levels: Vec<f64>,
     /// Parameter of boundaries: kappa or elastic_energy_ratio

@@ -19,7 +19,7 @@ Examples:
   asperity sweep my-plan.ron -o study --shard 3/8   Shard 3 of 8, wherever the folder is mounted
   asperity sweep status study                       Show progress
   asperity sweep merge study                        results.csv, summary.csv and results.json
-  asperity sweep boundary study                     κ at which F_a(0) vanishes, for each H
+  asperity sweep boundary study                     κ at which F_a(d=0) vanishes, for each H
   asperity sweep plot study -o map.svg              A phase map, or curves
   asperity sweep submit my-plan.ron -o study --jobs 100
                                                     The same on a Slurm cluster

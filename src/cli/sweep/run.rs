@@ -29,7 +29,7 @@ pub struct SweepRunArguments {
     /// Threads; default: one for each core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Compute part K of N alone; the part that completes the study merges it
+    /// Compute only part K of N; the part that completes the study merges it
     ///
     /// All parts write to the same folder, or their folders are copied into one before merging.
     #[arg(long, value_name = "K/N")]

@@ -44,7 +44,7 @@ pub fn open(app: &mut App, document: Document) {
     app.play = Player::START;
     app.view.close_up = CloseUpTarget::WHOLE;
     app.view.profile = LineView::WHOLE;
-    // The shown map is that of the scene; a study stays loaded.
+    // The map of the scene is shown; a study stays loaded.
     app.map.of_study = false;
     adopt(app, document);
     app.edit.set_saved();

@@ -64,7 +64,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
             let how = if file.content == Content::Scene { "saved" } else { "exported" };
             let mut done = format!("{how} to {path}");
             if let Some(what) = foreign_text(&app.edit).filter(|_| file.content == Content::Scene) {
-                done += &format!("; its {what} of the scene that it was made from");
+                done += &format!("; it still has the {what} of the built-in scene");
             }
             app.set_done(done);
             if file.content == Content::Scene {
@@ -92,9 +92,9 @@ fn foreign_text(edit: &Editor) -> Option<&'static str> {
     let built_in = built_in.scene();
     let is_same = |one: &str, other: &str| !one.is_empty() && one == other;
     match (is_same(&scene.title, &built_in.title), is_same(&scene.notice, &built_in.notice)) {
-        (true, true) => Some("title and notice are those"),
-        (true, false) => Some("title is that"),
-        (false, true) => Some("notice is that"),
+        (true, true) => Some("title and notice"),
+        (true, false) => Some("title"),
+        (false, true) => Some("notice"),
         (false, false) => None,
     }
 }

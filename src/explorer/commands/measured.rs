@@ -102,7 +102,7 @@ pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Changes the selected option to the next choice; forces that are given change as those of a scene do.
+/// Changes the selected option to the next choice; given forces change as the forces of a scene do.
 pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     edit::show_parameters(app);
     let Some((option, measured)) = selected(app) else { return };

@@ -109,7 +109,7 @@ fn value(found: &Found) -> Option<f64> {
     found.quantile(0.5).filter(is_needed)
 }
 
-/// Makes the found value that of the selected row; a preload that of the stage that presses most.
+/// Gives the selected row the found value; a preload goes to the stage that presses most.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     parse_condition(typed)?;
     let found = found(app, typed).ok_or("the value is still being found")?.as_ref().map_err(Clone::clone)?;

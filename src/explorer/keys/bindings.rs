@@ -75,7 +75,7 @@ impl Row {
         self.is_listed && self.contexts.iter().any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
     }
 
-    /// Group in the footer: help and quit, which even the smallest window shows; keys of this context alone; main keys;
+    /// Group in the footer: help and quit, which even the smallest window shows; keys of this context only; main keys;
     /// others.
     fn place(&self, is_manual: bool) -> u8 {
         let is_special = !self.contexts.contains(&Context::Explore);
@@ -174,16 +174,18 @@ impl Bindings {
         Ok(())
     }
 
-    /// The table as Markdown, for docs/keys.md: keys, functions, and the names of the functions in the configuration.
+    /// The table as Markdown, for docs/keys.md: keys and functions by section, with the names for the configuration.
     pub fn markdown(&self) -> String {
-        let mut text = String::from("| | key | does | action |\n| --- | --- | --- | --- |\n");
+        let mut text = String::from("| key | does |\n| --- | --- |\n");
         let mut section = "";
         for Binding { row, .. } in self.rows() {
-            let shown = if row.section == section { "" } else { row.section };
-            section = row.section;
+            if row.section != section {
+                section = row.section;
+                text += &format!("| **{section}** | |\n");
+            }
             let keys: Vec<String> = row.keys.split(' ').map(|name| format!("`{name}`")).collect();
-            let action = if row.is_rebindable() { format!("`{}`", row.name) } else { String::new() };
-            text += &format!("| {shown} | {} | {} | {action} |\n", keys.join(" "), row.help);
+            let action = if row.is_rebindable() { format!(" (`{}`)", row.name) } else { String::new() };
+            text += &format!("| {} | {}{action} |\n", keys.join(" "), row.help);
         }
         text
     }

@@ -21,8 +21,8 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(
         "Patch",
-        "close-up of a whole contact patch; ○ marks its ends. Beside the title its length δx, its force, and the stretch of \
-         its most stretched spring",
+        "close-up of a whole patch; ○ marks its ends. In the title its length ℓ, its force, and the stretch of its most \
+         stretched spring",
     )],
     ..PaneRow::EMPTY
 };

@@ -9,11 +9,12 @@ use crate::explorer::panel::{Body, Panel, meaning};
 use crate::explorer::text::counted;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction};
+use asperity_contact::{Mark, marks};
 use asperity_data::{AxisScale, format_rounded, grouped};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
+use asperity_scene::LEAST_TABOR_NUMBER;
 use asperity_scene::quoted;
-use asperity_scene::{LEAST_TABOR_NUMBER, Mark, marks};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::f64::consts::PI;
@@ -28,9 +29,8 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| fit(app).or_else(|| outcome(app)),
     help: &[(
         "Curve",
-        "F over indentation d: dotted while pressing, solid while pulling; ◇ jump-in, ▲ preload, ▼ pull-off, \
-             ◆ now; letters and colours are ghosts, dashes are the path of manual loading. A measured curve is drawn in dots \
-             under the model; below it, where there is room, its residuals in units of the noise",
+        "F over indentation d: dotted on loading, solid on unloading; ◇ jump-in, ▲ preload, ▼ pull-off, ◆ now. Letters and \
+         colours are ghosts, dashes are the path of manual loading. A measured curve is dots, with its residuals below",
     )],
     ..PaneRow::EMPTY
 };

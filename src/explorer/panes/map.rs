@@ -27,15 +27,13 @@ pub static ROW: PaneRow = PaneRow {
     help: &[
         (
             "Map",
-            "m: regime under other H and κ, of most of a few random profiles with few springs; █ adhesion at first \
-             touch (by V: after zero net force), ▒ after pressing, · hardly any, blank: not computed; ◆ is the scene, \
-             moved by the arrows",
+            "m: regime over H and κ, for most of four random profiles with few springs; █ adhesion turned at first touch (by \
+             V: at zero force), ▒ after pressing, · hardly any; ◆ is the scene",
         ),
         (
             "Study",
-            "map of a merged study, opened by the path of its folder: means over its profiles, ▓ ░ where profiles \
-             differ in their regimes; ◆ moves from cell to cell, P selects the next preload, W switches between the \
-             study and the live map",
+            "map of a merged study: means over its profiles; ▓ ░ where profiles differ in their regimes. P selects the next \
+             preload, W switches to the map of the scene",
         ),
     ],
 };
@@ -181,7 +179,7 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
             parts.push(vec![Text::raw(format!("{} {} profiles disagree", SHADES[3], SHADES[1]))]);
         }
     } else {
-        // The last name is that of the boundary.
+        // The last name belongs to the boundary.
         parts.extend(entries(chart, look).pop().filter(|_| map.contour.is_some()));
     }
     let Some(study) = app.map.shown_study() else { return filled(parts, "  ", width) };
@@ -221,7 +219,7 @@ fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
     };
     let missing = match (study, app.studies.failure::<Live>()) {
         _ if !is_of_scene => Some(
-            "the scene is no longer that of the study: it differs in more than the quantities of the axes"
+            "the scene no longer belongs to the study: it differs in more than the quantities of the axes"
                 .to_owned(),
         ),
         (None, Some(why)) => Some(format!("map incomplete: {why}")),

@@ -20,10 +20,7 @@ use ratatui::text::{Line, Span};
 pub static ROW: PaneRow = PaneRow {
     panel,
     report: outcome,
-    help: &[(
-        "Parameters",
-        "fields of the scene by use, in groups; ● marks an effect that is on, ○ one that is off, = a derived value",
-    )],
+    help: &[("Parameters", "fields of the scene in groups; ● effect on, ○ effect off, = computed value")],
     ..PaneRow::EMPTY
 };
 
@@ -231,7 +228,7 @@ fn explanation(app: &App, index: usize) -> Line<'static> {
     let Some(parameter) = app.edit.parameters.get(index) else { return Line::default() };
     let text = match parameter.setting {
         _ if parameter.path == "loading" => format!(
-            "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number alone is a force in N",
+            "{}: 10 µN, 3 loops 0 N to 10 µN, separation; a number without a unit is a force in N",
             parameter.field.meaning
         ),
         Setting::Heading if parameter.path == reading::GROUP => statements(app),

@@ -40,10 +40,9 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Preloads",
-        "i: adhesion force over preload, of this profile as the staircase that it is, and over random profiles median, \
-         quartiles and range as shaded bands, and mean; ◇ after a turn at first touch, ○ where the force is back at zero, \
-         ◆ the present preload. On the right the share of profiles up to each force, at the crosshair or the present \
-         preload. X changes the scale",
+        "i: adhesion force over preload: the staircase of this profile, and mean, median, quartiles and range (bands) over \
+         random profiles; ◇ turned at first touch, ○ at zero force, ◆ the present preload. On the right the share of profiles \
+         up to each force. X changes the scale",
     )],
 };
 

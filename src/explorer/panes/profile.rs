@@ -36,8 +36,8 @@ pub static ROW: PaneRow = PaneRow {
     report: |app| section::table(app, of_springs(app, LinePart::listed)?),
     help: &[(
         "Profile",
-        "rigid profile below, elastic surface above; in the row below ■ marks contact and [ ] the part in the close-up. On \
-         the right, where there is room, the density of heights, and dotted the normal distribution of the same rms height",
+        "rigid profile below, elastic surface above; ■ contact, [ ] the part in the close-up. On the right the density of \
+         heights, and dotted the normal distribution",
     )],
     ..PaneRow::EMPTY
 };

@@ -34,9 +34,8 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Sensitivity",
-        "Y: bars of the change of the median adhesion force over random profiles where one number of the scene is 10 % smaller \
-         or larger, a whole number by 1 at least, the largest change at the top, and the range over the profiles; beside \
-         them, where there is room, the changes of F_a, F_a(0) and the dissipated energy ΔW",
+        "Y: change of the median F_a where one number of the scene is 10 % smaller or larger, the largest change at the top, \
+         and the range over the profiles; where there is room, the changes of F_a, F_a(d=0) and ΔW",
     )],
 };
 

@@ -34,8 +34,8 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Spectrum",
-        "Q: power spectrum C over the wave number q, both logarithmic; below it, for a measured surface, rms height h, rms \
-         slope ⟨∇z⟩ and κ or e_el/γ with their standard errors, and the adhesion force F_a over random profiles",
+        "Q: power spectrum C over the wave number q; for a measured surface also h, ⟨∇z⟩ and κ or e_el/γ with their \
+         standard errors, and F_a over random profiles",
     )],
     ..PaneRow::EMPTY
 };

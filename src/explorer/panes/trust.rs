@@ -29,10 +29,8 @@ pub static ROW: PaneRow = PaneRow {
     studies: |_, computed| vec![study(computed)],
     help: &[(
         "Trust",
-        "A: what accuracy costs, as the relative error by the number of springs against the time of a run, with edges between \
-         springs or at them, and with steps of the stepwise solver; ◆ is the scene. Below it error and time of the scene, the \
-         cost of 1 % and 0.1 %, the errors of the adhesion force by their sources with the largest named, and what other theories \
-         say of adhesion without a preload",
+        "A: relative error over the time of a run, for both rules of edges and for the stepwise solver; ◆ is the scene. Below \
+         it the cost of 1 % and 0.1 %, the errors of F_a by their sources, and what other theories say",
     )],
     ..PaneRow::EMPTY
 };

@@ -85,7 +85,7 @@ fn entry(rows: &mut Vec<Line<'static>>, topic: &Topic, is_selected: bool, width:
 }
 
 pub fn draw_scenes(area: Rect, look: Appearance, prompt: &Prompt, entries: &[Entry], buffer: &mut Buffer) {
-    let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or that of a study's folder";
+    let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or ./study";
     let row = |(place, index): (usize, &usize)| {
         Some(scene((*index, entries.get(*index)?), place == prompt.selected, look.theme))
     };

@@ -34,7 +34,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
             }
         }
     }
-    // A long text takes the place of the keys as well.
+    // A long text also takes the place of the keys.
     let rows = 1 + u16::from(layout.footer.is_some());
     let status = chrome::status(app, area.width, rows);
     panel::draw_lines(&status, Rect { height: rows, ..layout.status }.intersection(area), buffer);

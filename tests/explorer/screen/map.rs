@@ -115,7 +115,7 @@ fn the_regime_has_two_protocols() {
     driver.press("V V V V V");
     driver.shows_all([
         "Map of regime (F=0)",
-        "pressure-insensitive after zero net force (3 of 4",
+        "pressure-insensitive turned at zero force (3 of 4",
         "F_a(F=0)/F_a,max",
     ]);
 }

@@ -43,7 +43,7 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
             assert_eq!(driver.text().contains("3 of 16 profiles"), profiles == 3);
             driver.shows(format!("range of {profiles} profiles"));
             // The status line and the crosshair.
-            driver.sees("*", "from first touch");
+            driver.sees("*", "turned at first touch");
             driver.shows_all(["F_n ", "this profile ", "median ", "quartiles ", "mean "]);
             driver.press("*");
         }
@@ -53,10 +53,10 @@ fn adhesion_against_preload_is_shown_beside_the_curve() {
 #[test]
 fn forces_are_shown_in_units_of_the_ideal_adhesion_force() {
     let mut driver = shown(rough(), 3);
-    driver.shows_all(["Adhesion force F_a (", "F_n (", "nN, from first touch"]);
+    driver.shows_all(["Adhesion force F_a (", "F_n (", "nN, turned at first touch"]);
     driver.press("N");
     driver.shows_all(["Adhesion force F_a/F_a,max", "F_n/F_a,max", "Force F/F_a,max", "d/h"]);
-    driver.hides("nN, from first touch");
+    driver.hides("nN, turned at first touch");
     // The crosshair reads the same place in the other unit.
     let read = |driver: &mut Driver, keys: &str| -> f64 {
         driver.press(keys);

@@ -18,7 +18,7 @@ fn bars_show_the_changes_and_the_table_has_them_all() {
     assert!(driver.app.is_shown(Pane::Sensitivity));
     driver.press("z");
     let text = driver.text();
-    for words in ["Sensitivity: each number ±10 %", "k_min", "F_a(0)", "ΔW", "profiles"] {
+    for words in ["Sensitivity: each number ±10 %", "k_min", "F_a(d=0)", "ΔW", "profiles"] {
         assert!(text.contains(words), "{words}\n{text}");
     }
     driver.press("z R");

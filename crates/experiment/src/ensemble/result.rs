@@ -17,6 +17,7 @@ pub struct EnsembleOptions {
 
 /// Work of adhesion, and effective modulus, of a rough body, from the curves of many places of it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct EnsembleFit {
     /// Work of adhesion γ, J/m².
     pub work: IntervalEstimate,
@@ -61,6 +62,7 @@ pub struct EnsembleFit {
 
 /// Shares of the squared half-width of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Shares {
     /// By the number of curves.
     pub places: f64,
@@ -72,6 +74,7 @@ pub struct Shares {
 
 /// Precision that other numbers of curves would give.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Prospect {
     /// Number of curves.
     pub curves: u64,
@@ -81,6 +84,7 @@ pub struct Prospect {
 
 /// Derivatives of the results with respect to the roughness of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct RoughnessShifts {
     /// Of ln γ with respect to the logarithm of the rms height.
     pub work_by_height: f64,
@@ -94,6 +98,7 @@ pub struct RoughnessShifts {
 
 /// One curve of an ensemble.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct CurveOfEnsemble {
     /// Name of the curve.
     pub name: String,
@@ -115,6 +120,7 @@ pub struct CurveOfEnsemble {
 
 /// Mean of a summary over the curves, compared with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct SummaryDeviation {
     /// Name of the summary.
     pub summary: &'static str,

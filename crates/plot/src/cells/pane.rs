@@ -48,7 +48,7 @@ pub struct ContactRow {
     pub marked: Option<(f64, f64)>,
 }
 
-/// Divides an area into that of a chart and that of a chart beside it, for which there may be no room.
+/// Divides an area into the area of a chart and the area of a chart beside it, for which there may be no room.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);

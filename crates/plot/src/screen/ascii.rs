@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use std::sync::LazyLock;
 
 /// ASCII characters and their patterns of dots: one letter for each of four rows, from above: `L` left, `R` right, `B`
-/// both, `0` none. Of two equally near characters the first is taken: characters that draw lines precede those that fill.
+/// both, `0` none. Of two equally near characters the first is taken: characters that draw lines precede characters that fill.
 /// The signs on curves, `^`, `v`, `*`, `o` and `@`, are left out.
 const SHAPES: [(char, &[&str]); 15] = [
     ('-', &["0B00", "00B0", "0RL0", "0LR0"]),

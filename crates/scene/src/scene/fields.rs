@@ -62,124 +62,124 @@ pub const FIELDS: &[Field] = &[
     row("version", Whole(SCENE_VERSION as u64, SCENE_VERSION as u64))
         .meaning("version of the scene file format"),
     row("title", Text { least: 0, most: 200, lines: false }).default("\"\"")
-        .meaning("title of the scene, on one line"),
+        .meaning("title of the scene"),
     row("notice", Text { least: 0, most: 4000, lines: true }).default("\"\"")
         .meaning("notes on the scene"),
     row("material", MATERIALS).step(Typed)
-        .meaning("elastic constants: Young's modulus with Poisson's ratio, or the effective modulus"),
+        .meaning("elastic constants"),
     row("material.youngs_modulus", Range::closed(1.0, 1e13)).quantity("Young's modulus", "E", "Pa").default("None")
-        .meaning("Young's modulus of the elastic body; requires Poisson's ratio"),
+        .meaning("Young's modulus, with Poisson's ratio"),
     row("material.poisson_ratio", Range::above(-1.0, 0.5)).quantity("Poisson's ratio", "ν", "1")
         .step(Linear(0.01, 0.1)).default("None")
-        .meaning("Poisson's ratio of the elastic body; 0.5 is incompressible, as rubber"),
+        .meaning("Poisson's ratio; 0.5 is incompressible, as rubber"),
     row("material.effective_modulus", Range::closed(1.0, 1e13)).quantity("effective modulus", "E*", "Pa")
         .default("None").meaning("effective modulus E/(1 − ν²), in place of E and ν"),
     row("length", Range::closed(1e-9, 10.0)).quantity("apparent diameter", "L", "m")
-        .meaning("apparent diameter of the contact: length of the profile"),
+        .meaning("length of the profile: apparent diameter of the contact"),
     row("form", FORMS).default("None").read(read_form)
-        .meaning("macroscopic shape of the rigid body; default: nominally flat"),
+        .meaning("macroscopic shape of the rigid body; none is nominally flat"),
     row("form.radius", Range::above(0.0, 1e9)).of("Paraboloid").quantity("radius of curvature", "R", "m")
-        .meaning("radius of curvature of the paraboloid at its apex"),
+        .meaning("radius of curvature at the apex"),
     row("form.angle", Range::between(0.0, FRAC_PI_2)).of("Cone").quantity("flank angle", "θ", "rad")
         .step(Linear(0.01, 0.1))
-        .meaning("angle between the flank of the cone and the surface; a small angle is blunt"),
+        .meaning("angle between flank and surface; a small angle is blunt"),
     row("form.coefficient", Range::above(0.0, 1e300)).of("Power").quantity("coefficient", "b", "m^(1−n)")
         .meaning("coefficient b of the power law b rⁿ"),
     row("form.exponent", Range::above(0.5, 100.0)).of("Power").quantity("exponent", "n", "1").step(Linear(0.1, 1.0))
-        .meaning("exponent n of the power law b rⁿ; a large n is flat in the middle and steep outside"),
+        .meaning("exponent n of the power law b rⁿ"),
     row("form.radius", Range::above(0.0, 1e9)).of("WavySphere").quantity("sphere radius", "R", "m")
         .meaning("radius of curvature of the sphere without its waves"),
     row("form.amplitude", Range::above(0.0, 1e6)).of("WavySphere").quantity("wave amplitude", "A", "m")
         .meaning("amplitude A of the concentric waves A (1 − cos 2πr/λ)"),
     row("form.wavelength", Range::above(0.0, 1e9)).of("WavySphere").quantity("wavelength", "λ", "m")
-        .meaning("distance λ from crest to crest of the waves, at least four springs"),
+        .meaning("distance λ between crests, at least four springs"),
     row("form.radius", Range::above(0.0, 5.0)).of("Punch").quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),
     row("form.file", FILE_NAME).of("Table").name("table of the form")
-        .meaning("file of the depths f of a body of revolution at ascending radii r from 0, relative to the scene file"),
+        .meaning("file of depths f of a body of revolution at ascending radii r from 0"),
     row("form.unit", UNIT).of("Table").name("unit of the table").default("\"\"")
-        .meaning("unit of lengths where the table states none: m, mm, um, nm; default: m"),
+        .meaning("unit of lengths where the table states none; m if empty"),
     row("roughness", ROUGHNESS).default("None").read(read_roughness)
-        .meaning("roughness of the rigid profile; default: smooth"),
+        .meaning("roughness of the rigid body; none is smooth"),
     row("roughness.hurst", Range::between(0.0, 1.0)).of("SelfAffine").quantity("Hurst exponent", "H", "1")
         .step(Linear(0.01, 0.1))
-        .meaning("decay of the roughness towards short waves: low H is jagged, high H is smooth; fractal dimension 3 − H"),
+        .meaning("decay of the roughness towards short waves: low H is jagged, high H is smooth"),
     row("roughness.rms_height", Range::closed(1e-30, 100.0)).of("SelfAffine").quantity("rms height", "h", "m")
         .default("None").meaning("root mean square height of the profile"),
     row("roughness.rms_gradient", Range::closed(1e-30, 1e9)).of("SelfAffine").quantity("rms gradient", "⟨∇z⟩", "1")
-        .default("None").meaning("root mean square slope of the profile, in place of the rms height"),
+        .default("None").meaning("root mean square slope, in place of the rms height"),
     row("roughness.modes", Band(1, 1 << 27)).of("SelfAffine").quantity("modes", "k", "1").default("None")
-        .meaning("first and last mode of the profile, in waves per length; the last is at most points/2"),
+        .meaning("first and last mode, in waves per length; the last is at most points/2"),
     row("roughness.wavelengths", Wavelengths(1e-15, 10.0)).of("SelfAffine").quantity("wavelengths", "λ", "m")
-        .default("None").meaning("longest and shortest wave of the profile in place of the modes, at most length and at least 2 length/points; a change of length keeps them"),
+        .default("None").meaning("longest and shortest wave, in place of the modes"),
     row("roughness.roll_off", Range::closed(1e-15, 10.0)).of("SelfAffine").quantity("roll-off wavelength", "λ_r", "m")
-        .default("None").meaning("wavelength above which the spectrum of the surface is flat, within the waves of the profile; default: self-affine up to the longest wave"),
+        .default("None").meaning("wavelength above which the spectrum of the surface is flat, within the waves of the profile"),
     row("roughness.seed", Whole(0, u64::MAX)).of("SelfAffine").name("seed").step(Integer(1, 100))
-        .meaning("seed of the random phases: the same seed gives the same profile"),
+        .meaning("seed of the random phases"),
     row("roughness.file", FILE_NAME).of("Measured").name("measured surface")
-        .meaning("file of a measured profile or map (docs/surfaces.md), relative to the scene file"),
+        .meaning("file of a measured profile or map"),
     row("roughness.further_files", List { of: &["\"other.txt\""], least: 0, most: 10_000 }).of("Measured")
         .name("further files of the surface").default("[]")
-        .meaning("further files of the same face, samples of one roughness: the spectrum is estimated from all of them"),
+        .meaning("further files of the same face, samples of one roughness"),
     row("roughness.as_line", SWITCH).of("Measured").name("profile as line").default("false")
-        .meaning("true: the measured profile is the line itself, with 29 % too little slope; false: its equivalent line is, with random phases"),
+        .meaning("true: use the heights unchanged; false: generate random profiles with the measured spectrum"),
     row("roughness.opposite", FILE_NAME).of("Measured").name("measured surface of the opposite face")
         .default("None")
-        .meaning("file of the opposite face, relative to the scene file: the spectra of both faces add; default: smooth"),
+        .meaning("file of the opposite face, whose spectrum is added; none is smooth"),
     row("roughness.row", Whole(1, 1 << 28)).of("Measured").name("row of the map")
         .step(Integer(1, 100)).default("None")
-        .meaning("row of a map that is the measured profile, from 1 on; default: the whole map"),
+        .meaning("row of a map used as the measured profile; none is the whole map"),
     row("roughness.column", Whole(1, 1 << 28)).of("Measured").name("column of the map")
         .step(Integer(1, 100)).default("None")
-        .meaning("column of a map that is the measured profile, in place of a row"),
+        .meaning("column of a map, in place of a row"),
     row("roughness.detrend", Choice(&["Nothing", "Mean", "Tilt", "Curvature"])).of("Measured")
         .name("detrending").default("None")
-        .meaning("part that is removed of the measured heights by least squares; default: Tilt, Mean of a periodic surface, Nothing of a profile as line"),
+        .meaning("what is subtracted from the heights; by default Tilt, of a periodic surface Mean, with as_line Nothing"),
     row("roughness.periodic", SWITCH).of("Measured").name("periodic surface").default("false")
-        .meaning("true: the measured surface repeats itself at its borders, and its spectrum is estimated without a window"),
+        .meaning("true: the surface repeats itself at its borders, and no window is used"),
     row("roughness.unit", UNIT).of("Measured").name("unit of the file").default("\"\"")
-        .meaning("unit of lengths where the file states none: m, mm, um, nm; default: none, and m of a profile as line"),
+        .meaning("unit of lengths where the file states none; with as_line m if empty"),
     row("roughness.height_unit", UNIT).of("Measured").name("unit of heights of the file").default("\"\"")
-        .meaning("unit of heights where the file states none; default: as roughness.unit"),
+        .meaning("unit of heights where the file states none; as roughness.unit if empty"),
     row("roughness.spacing", Range::closed(1e-18, 1e9)).of("Measured").quantity("distance between points of the file", "", "m").default("None")
         .meaning("distance between points where the file states none"),
     row("roughness.interpolate", SWITCH).of("Measured").name("interpolation of missing points")
         .default("false")
-        .meaning("true: missing points of the file get heights from their neighbours; false: they are refused"),
+        .meaning("true: missing points get heights from their neighbours; false: they are refused"),
     row("roughness.resample", SWITCH).of("Measured").name("resampling of uneven profiles").default("false")
-        .meaning("true: profiles with points at uneven distances are resampled linearly at the mean distance"),
+        .meaning("true: points at uneven distances are resampled linearly"),
     row("roughness.align_rows", SWITCH).of("Measured").name("levelling of rows").default("false")
-        .meaning("true: the median of each row of a map is subtracted, since its rows are offset against each other"),
+        .meaning("true: the median of each row is subtracted"),
     row("roughness.robust", SWITCH).of("Measured").name("replacement of outliers").default("false")
-        .meaning("true: heights far from those around them, as spikes, are replaced by heights from their neighbours"),
+        .meaning("true: outliers such as spikes get heights from their neighbours"),
     row("roughness.surface_name", FILE_NAME).of("Measured").name("surface of a container").default("None")
-        .meaning("name of a surface, or of one of its measurements, in a container with several"),
+        .meaning("name of a surface or measurement in a container"),
     row("roughness.channel", Whole(0, u32::MAX as u64)).of("Measured").name("channel of the file")
-        .step(Integer(1, 10)).default("None").meaning("number of the channel of a file that has several"),
+        .step(Integer(1, 10)).default("None").meaning("number of the channel"),
     row("roughness.continue_to", Range::closed(1e-15, 10.0)).of("Measured").quantity("shortest wavelength", "λ_s", "m").default("None")
-        .meaning("wavelength down to which the spectrum of the equivalent line continues as a power law; default: the last resolved one"),
+        .meaning("wavelength down to which the spectrum continues as a power law; none is the last resolved one"),
     row("roughness.seed", Whole(0, u64::MAX)).of("Measured").name("seed of the equivalent line")
-        .step(Integer(1, 100)).default("1").meaning("seed of the random phases of the equivalent line"),
+        .step(Integer(1, 100)).default("1").meaning("seed of the random phases of the measured spectrum"),
     row("adhesion", Choice(&["(work: 0.05)", "(kappa: 2.0)", "(elastic_energy_ratio: 0.5)"])).default("None")
         .read(read_adhesion)
-        .meaning("adhesion of the surfaces, by work of adhesion, κ or e_el/γ; default: none"),
+        .meaning("adhesion of the surfaces, by γ, κ or e_el/γ"),
     row("adhesion.work", Range::closed(0.0, 1e6)).quantity("work of adhesion", "γ", "J/m²").default("None")
-        .meaning("energy per unit area needed to separate the interface"),
+        .meaning("energy per area that opens the interface"),
     row("adhesion.closing_work", Range::closed(0.0, 1e6)).quantity("work of adhesion on closing", "γ₁", "J/m²")
         .default("None")
-        .meaning("energy per unit area gained where the interface closes, at most adhesion.work; default: the same"),
+        .meaning("energy per area gained where the interface closes, at most adhesion.work; by default the same"),
     row("adhesion.kappa", Range::closed(1e-6, 1e6)).quantity("roughness-adhesion parameter", "κ", "1").default("None")
-        .meaning("roughness-adhesion parameter sqrt(h⟨∇z⟩E*/γ): adhesion is strong for small κ"),
+        .meaning("√(h⟨∇z⟩E*/γ): adhesion is strong for small κ"),
     row("adhesion.elastic_energy_ratio", Range::closed(1e-12, 1e12)).quantity("elastic energy ratio", "e_el/γ", "1")
         .default("None")
-        .meaning("elastic energy that pressing the bodies flat takes, over the work of adhesion: adhesion is strong for small e_el/γ"),
+        .meaning("elastic energy that flattens the roughness, over γ: adhesion is strong for small e_el/γ"),
     row("adhesion.range", Range::closed(1e-12, 1e-3)).quantity("range of attraction", "z₀", "m").default("None")
-        .meaning("range of the attraction, for the Tabor number alone; default: 0.3 nm"),
+        .meaning("range of the attraction, for the Tabor number; by default 0.3 nm"),
     row("loading_stiffness", Range::closed(1e-12, 1e12)).quantity("loading stiffness", "k", "N/m").default("None")
-        .meaning("stiffness of the instrument, such as a cantilever, that moves the body: D = d + F/k; default: rigid, D = d"),
+        .meaning("stiffness of the instrument that moves the body, D = d + F/k; none is rigid"),
     row("loading", List { of: &STAGES, least: 1, most: MOST_STAGES }).default("[ToZeroForce, ToSeparation]")
         .read(read_stages)
-        .meaning("loading stages in their order, from separation"),
+        .meaning("stages in their order, from separation"),
     row("numerics", Range::Group).default("()")
         .meaning("resolution and method of the computation"),
     row("numerics.points", Whole(1, MOST_POINTS)).quantity("points", "N", "1").step(Doubling).default("16384")
@@ -187,11 +187,11 @@ pub const FIELDS: &[Field] = &[
     row("numerics.solver", Choice(&["Exact", "Stepwise(step: 1.0e-9)"])).name("solver").default("Exact")
         .meaning("exact solver, or the stepwise relaxation of the paper"),
     row("numerics.solver.step", Range::closed(1e-30, 1e6)).of("Stepwise").quantity("step", "Δd", "m")
-        .meaning("displacement of the body between two relaxations"),
+        .meaning("displacement between two relaxations"),
     row("numerics.edges", Choice(&["Grid", "SubCell"])).name("edges").default("SubCell")
-        .meaning("edge model of the contact patches: SubCell finds edges between springs, Grid counts whole springs, as the paper and the stepwise solver do"),
+        .meaning("edges of patches: SubCell finds them between springs, Grid counts whole springs, as the paper does"),
     row("numerics.samples", Whole(2, 1_000_000)).name("samples").step(Doubling).default("512")
-        .meaning("points of the force curve on each loading stage"),
+        .meaning("points of the force curve on each stage"),
     row("observe", List { of: &["Fragments", "HeightHistogram"], least: 0, most: 2 }).default("[]")
         .meaning("observed quantities beside the force curve"),
 ];

@@ -99,6 +99,33 @@ pub struct Measured {
     pub seed: u64,
 }
 
+impl Measured {
+    /// The surface of one file, with all options left out.
+    pub fn of_file(file: &str) -> Self {
+        Measured {
+            file: file.to_owned(),
+            further_files: Vec::new(),
+            as_line: false,
+            opposite: None,
+            unit: String::new(),
+            height_unit: String::new(),
+            spacing: None,
+            interpolate: false,
+            resample: false,
+            align_rows: false,
+            robust: false,
+            surface_name: None,
+            channel: None,
+            row: None,
+            column: None,
+            detrend: None,
+            periodic: false,
+            continue_to: None,
+            seed: default_seed(),
+        }
+    }
+}
+
 fn default_seed() -> u64 {
     default_of("roughness.seed")
 }

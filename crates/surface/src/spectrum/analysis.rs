@@ -56,6 +56,7 @@ pub struct AnalysisOptions {
 
 /// Statistics, spectra and equivalent line of measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Analysis {
     /// Statistics of the measured points.
     pub statistics: PointStatistics,

@@ -11,7 +11,7 @@
 //! are positive and smooth.
 //!
 //! Conventions: wave number q = 2π/wavelength in rad/m; C1D in m³ with h² = (1/π) ∫₀^∞ C1D dq; C2D in m⁴ with
-//! h² = (1/2π) ∫₀^∞ q C2D dq. Steps are described in `docs/surfaces.md`.
+//! h² = (1/2π) ∫₀^∞ q C2D dq. Steps are described in `docs/surface-estimate.md`.
 
 pub(crate) mod analysis;
 pub(crate) mod fit;

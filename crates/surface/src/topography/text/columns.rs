@@ -1,6 +1,6 @@
 //! Meaning of the columns of a table: heights alone, a profile, points of a map, or rows of a map.
 
-use super::header::{Role, TextColumn};
+use super::names::{Role, TextColumn};
 use crate::error::{Place, SurfaceError, refused, shortened};
 
 /// Limit of the number of columns of positions and heights; more columns are rows of a map, unless their names say otherwise.

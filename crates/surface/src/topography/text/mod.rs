@@ -8,6 +8,7 @@ pub(crate) mod columns;
 pub(crate) mod header;
 pub(crate) mod layout;
 pub(crate) mod matrix;
+pub(crate) mod names;
 pub(crate) mod table;
 pub(crate) mod warnings;
 use header::TextHeader;
