@@ -292,13 +292,8 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         sheet.row_of(label, (count > 0).then(|| grouped(count)));
     }
     let Timings { line, tree, passes, curve, zero_load } = *timings;
-    let stages = [
-        ("line", line),
-        ("tree", tree),
-        ("loop", passes),
-        ("curve", curve),
-        ("without preload", zero_load),
-    ];
+    let stages =
+        [("line", line), ("tree", tree), ("loop", passes), ("curve", curve), ("without preload", zero_load)];
     let stages = stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
     let total = format_quantity(timings.total(), "s");
     sheet.row("time", format!("{total}: {}", stages.join(", ")));

@@ -37,8 +37,8 @@ pub struct SurfaceReport {
     pub line: EquivalentLine,
     pub modulus: Option<f64>,
     pub work: Option<f64>,
-    /// Scene of the equivalent line, if its adhesion was requested, with the results on random profiles; without them if
-    /// the scene has many springs and they were not requested.
+    /// Scene of the equivalent line, if its adhesion was requested. The results on random profiles are absent if the
+    /// scene has many springs and they were not requested.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
