@@ -7,12 +7,11 @@
 //! `--hurst 0.2` and `--kappa 100` take other lines and another adhesion, with ten times this κ beside it. Without
 //! `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
+use asperity::contact::ideal_adhesion_force;
 use asperity::contact::{
-    Body, Contact, ContactTree, Foundation, HessRule, Leg, LegRecord, Solver, Springs, Work,
+    Body, Contact, ContactTree, Edges, Leg, LegRecord, Modulus, Move, MovingBody, Profile, Work,
 };
-use asperity::contact::{Edges, Move};
 use asperity::scene::Simulation;
-use asperity::scene::ideal_adhesion_force;
 use asperity::scene::{Adhesion, CheckedScene, Document, RoughnessParameter};
 use asperity::surface::{Line, SelfAffine, Synthesizer};
 use asperity_fourier::{Complex64, RealToComplex, plan_real_forward};
@@ -105,7 +104,6 @@ struct Rough {
     spectrum: SelfAffine,
     points: usize,
     line: Line,
-    foundation: Foundation,
     rms_gradient: f64,
     scene: CheckedScene,
     kappas: [f64; 2],
@@ -116,7 +114,6 @@ impl Rough {
         let points = 1_usize << exponent;
         let spectrum = SelfAffine { hurst, first: 1, last: points as u64 / 4, roll_off_mode: 0.0 };
         let line = synthesize(spectrum, points);
-        let foundation = Foundation::endless(line.spacing, EFFECTIVE_MODULUS);
         let last = spectrum.last;
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
         let scene = format!(
@@ -129,7 +126,7 @@ impl Rough {
         );
         let scene = Document::parse(&scene, "bench").expect("a valid scene").scene().clone();
         let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
-        Rough { spectrum, points, line, foundation, rms_gradient, scene, kappas }
+        Rough { spectrum, points, line, rms_gradient, scene, kappas }
     }
 
     /// γ = h⟨∇z⟩E*/κ², eq. (11).
@@ -198,18 +195,15 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
         best.next_line = best.next_line.min(lines.seconds(rough, 1 + run as u64));
 
         let clock = Instant::now();
-        let springs = Springs::new(Arc::clone(gaps));
-        black_box(springs.tree(Edges::SubCell).expect("memory for the tree"));
+        let profile = Profile::from_gaps(Arc::clone(gaps), rough.line.spacing).expect("a finite line");
+        profile.build_tree(Edges::SubCell, ContactTree::default()).expect("memory for the tree");
+        black_box(profile);
         best.fresh_tree = best.fresh_tree.min(seconds_since(clock));
 
         for one in &mut best.loops {
-            let hess = HessRule::from_works(
-                rough.foundation,
-                rough.work_of_adhesion(one.kappa),
-                rough.work_of_adhesion(one.kappa),
-            );
+            let work = rough.work_of_adhesion(one.kappa);
             for (edges, timed) in EDGES.into_iter().zip(&mut one.edges) {
-                tree = timed.measure(tree, edges, hess, rough);
+                tree = timed.measure(tree, edges, work, rough);
             }
         }
         best.edits.measure(rough, run);
@@ -308,9 +302,9 @@ impl Timed {
     }
 
     /// Builds the tree in the memory of another, loads to a force and pulls off.
-    fn measure(&mut self, tree: ContactTree, edges: Edges, hess: HessRule, rough: &Rough) -> ContactTree {
+    fn measure(&mut self, tree: ContactTree, edges: Edges, work: f64, rough: &Rough) -> ContactTree {
         let whole = Instant::now();
-        let contact = contact(tree, edges, hess, rough);
+        let contact = contact(tree, edges, work, rough);
         self.tree = self.tree.min(seconds_since(whole));
         let mut solver = Body::new(&contact, SAMPLES);
         let legs = [Move::ToForce(LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT), Move::ToSeparation];
@@ -322,7 +316,7 @@ impl Timed {
         self.passes = self.passes.min(legs_seconds - solver.curve_seconds());
         self.work = solver.work();
         drop(solver);
-        self.measure_reversals(tree_of(contact), edges, hess, rough)
+        self.measure_reversals(tree_of(contact), edges, work, rough)
     }
 
     /// Builds the tree and unloads from as many preloads up to that of the loop.
@@ -330,13 +324,13 @@ impl Timed {
         &mut self,
         tree: ContactTree,
         edges: Edges,
-        hess: HessRule,
+        work: f64,
         rough: &Rough,
     ) -> ContactTree {
         let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT / f64::from(REVERSALS);
         let turns: Vec<Move> = (1..=REVERSALS).map(|turn| Move::ToForce(force * f64::from(turn))).collect();
         let clock = Instant::now();
-        let contact = contact(tree, edges, hess, rough);
+        let contact = contact(tree, edges, work, rough);
         let mut solver = Body::new(&contact, SAMPLES);
         let mut see = |_, reversal| {
             black_box(reversal);
@@ -350,17 +344,19 @@ impl Timed {
 }
 
 /// The contact of a line, with its tree in the memory of another one.
-fn contact(tree: ContactTree, edges: Edges, hess: HessRule, rough: &Rough) -> Contact {
-    let contact = Contact::new(Arc::clone(&rough.line.gaps), edges, rough.foundation, Some(hess));
-    contact.springs().tree_in(tree, edges).expect("memory for the tree");
-    contact
+fn contact(tree: ContactTree, edges: Edges, work: f64, rough: &Rough) -> Contact {
+    let profile =
+        Profile::from_gaps(Arc::clone(&rough.line.gaps), rough.line.spacing).expect("a finite line");
+    profile.build_tree(edges, tree).expect("memory for the tree");
+    let modulus = Modulus::effective(EFFECTIVE_MODULUS).expect("a modulus");
+    Contact::builder(&profile, modulus).work_of_adhesion(work).edges(edges).build().expect("a contact")
 }
 
 /// The memory of the tree of a contact.
 fn tree_of(contact: Contact) -> ContactTree {
-    let springs = Arc::clone(contact.springs());
+    let profile = contact.profile().clone();
     drop(contact);
-    Arc::into_inner(springs).map(Springs::into_tree).unwrap_or_default()
+    profile.into_tree()
 }
 
 /// A real Fourier transform, planned, with its buffers.

@@ -8,7 +8,7 @@
 use asperity::contact::Move;
 use asperity::scene::Simulation;
 use asperity::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
-use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
+use asperity::study::{Changes, Folder, Plan, Shard, merge, run_study};
 use asperity_fourier::plan_real_forward;
 use std::hint::black_box;
 use std::path::PathBuf;
@@ -178,7 +178,7 @@ fn processor_time() -> f64 {
 fn study(plan: &Plan, jobs: usize) {
     let place = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
     let done = Folder::create(place.path(), plan).and_then(|folder| {
-        run(&folder, Options { jobs, shard: Shard::WHOLE }, &|| false, &mut |_| ())?;
+        run_study(&folder, Shard::WHOLE, jobs, &|| false, &mut |_| ())?;
         merge(&folder)
     });
     done.unwrap_or_else(|error| panic!("{error}"));

@@ -2,16 +2,17 @@
 //!
 //! `cargo run --release --example adhesion_against_preload`
 
-use asperity::{Contact, Material, Move, Profile, SelfAffine};
+use asperity::{Contact, Modulus, Move, ProfileBuilder};
 
 fn main() -> Result<(), asperity::Error> {
-    let spectrum = SelfAffine { hurst: 0.6, first: 2, last: 4096, roll_off_mode: 0.0 };
-    let profile = Profile::self_affine(spectrum, 2.0e-7, 1.0e-4, 1 << 14, 7)?;
-    let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(1.0e-3).build()?;
+    let rough =
+        ProfileBuilder::new(1.0e-4, 1 << 14).self_affine(0.6).rms_height(2.0e-7).modes(2, 4096).seed(7);
+    let contact =
+        Contact::builder(&rough.build()?, Modulus::effective(1.0e6)?).work_of_adhesion(1.0e-3).build()?;
     println!("preload, µN   pull-off force, µN");
     let mut before = 0.0;
     let preloads = [0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 6.0];
-    let reversals = contact.reversals(&preloads.map(|preload| Move::ToForce(1.0e-6 * preload)))?;
+    let reversals = contact.reversals(&preloads.map(|preload| Move::ToForce(1.0e-6 * preload)), &[])?;
     for (preload, reversal) in preloads.iter().zip(reversals) {
         let pull_off = reversal.adhesion_force().unwrap_or(0.0);
         println!("{preload:>11}   {:.4}", 1.0e6 * pull_off);

@@ -4,12 +4,12 @@
 //! `cargo run --release --example minor_loop`
 
 use asperity::contact::CurvePoint;
-use asperity::{Contact, Material, Move, Profile, SelfAffine};
+use asperity::{Contact, Modulus, Move, ProfileBuilder};
 
 fn main() -> Result<(), asperity::Error> {
-    let spectrum = SelfAffine { hurst: 0.7, first: 1, last: 1024, roll_off_mode: 0.0 };
-    let profile = Profile::self_affine(spectrum, 1.0e-7, 1.0e-4, 1 << 14, 1)?;
-    let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(2.0e-5).build()?;
+    let rough = ProfileBuilder::new(1.0e-4, 1 << 14).self_affine(0.7).rms_height(1.0e-7).modes(1, 1024);
+    let contact =
+        Contact::builder(&rough.build()?, Modulus::effective(1.0e6)?).work_of_adhesion(2.0e-5).build()?;
     let preload = 4.0e-6; // N
     let history = [
         Move::ToForce(preload),
@@ -21,7 +21,7 @@ fn main() -> Result<(), asperity::Error> {
     ];
     let cycle = contact.load(&history)?;
     println!("leg   force at its end, µN   indentation, nm   work, fJ   stored, fJ   released, fJ");
-    for (index, leg) in cycle.legs().iter().enumerate() {
+    for (index, leg) in cycle.stages().iter().enumerate() {
         let area = |ends: &[CurvePoint]| {
             0.5 * (ends[0].force + ends[1].force) * (ends[1].indentation - ends[0].indentation)
         };
@@ -38,7 +38,7 @@ fn main() -> Result<(), asperity::Error> {
     }
     println!("all: {:.3} fJ", 1.0e15 * cycle.dissipated_energy().unwrap_or(0.0));
     // The second turn follows the first: the contact remembers its turning points.
-    let [first, second] = [&cycle.legs()[2], &cycle.legs()[4]];
+    let [first, second] = [&cycle.stages()[2], &cycle.stages()[4]];
     assert!((first.end() - second.end()).abs() <= 1.0e-12 * first.end().abs());
     Ok(())
 }

@@ -11,11 +11,11 @@
 //! # A contact in five lines
 //!
 //! ```
-//! use asperity::{Contact, Material, Move, Profile};
+//! use asperity::{Contact, Modulus, Move, Profile};
 //!
 //! let heights: Vec<f64> = (0..1024).map(|i| 1.0e-7 * (0.3 * f64::from(i)).sin()).collect(); // m
-//! let profile = Profile::from_heights(&heights, 1.0e-7)?; // spacing, m
-//! let contact = Contact::builder(&profile, Material::effective(1.0e6)).work_of_adhesion(0.05).build()?;
+//! let profile = Profile::from_heights(heights, 1.0e-7)?; // spacing, m
+//! let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
 //! let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?; // N
 //! println!("{:?} N, {:?} J", cycle.pull_off_force(), cycle.dissipated_energy());
 //! # assert!(cycle.pull_off_force().unwrap() > 0.0);
@@ -63,11 +63,11 @@ pub mod cli;
 pub mod explorer;
 
 pub use asperity_contact as contact;
-pub use asperity_contact::{Edges, Move};
+pub use asperity_contact::{Contact, Cycle, Edges, LoadOptions, Modulus, Move, Profile};
 pub use asperity_data as data;
 pub use asperity_experiment as experiment;
 pub use asperity_scene as scene;
-pub use asperity_scene::{Contact, ContactBuilder, Cycle, Document, Error, Material, Profile, Scene, run};
+pub use asperity_scene::{Document, Error, ProfileBuilder, Scene, run};
 pub use asperity_study as study;
 pub use asperity_surface as surface;
 pub use asperity_surface::SelfAffine;

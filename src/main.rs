@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    asperity::cli::main(std::env::args_os())
+    ExitCode::from(asperity::cli::main(std::env::args_os()))
 }

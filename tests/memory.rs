@@ -6,7 +6,7 @@ mod allocations;
 #[path = "common/peak.rs"]
 mod peak;
 
-use asperity::contact::{Body, Contact, Foundation, HessRule};
+use asperity::contact::{Body, Contact, ContactTree, Modulus, Profile};
 use asperity::contact::{Edges, Move};
 use asperity::scene::{Document, open};
 use asperity::scene::{Simulation, Workload};
@@ -175,14 +175,14 @@ fn memory_of_512_reversals_is_that_of_a_few() {
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: springs as u64 / 4, roll_off_mode: 0.0 };
     let rough = spectrum.heights(1, springs).unwrap();
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
-    let foundation = Foundation::endless(line.spacing, 2e6);
+    let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).unwrap();
+    let contact = || Contact::builder(&profile, Modulus::effective(2e6).unwrap());
     let rms_gradient = 5e-7 * spectrum.gradient_per_height(1e-3);
     for kappa in [2.0_f64, 20.0] {
         let work = 5e-7 * rms_gradient * 2e6 / (kappa * kappa);
         for closing in [work, 0.25 * work] {
-            let hess = HessRule::from_works(foundation, closing, work);
-            let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
-            contact.springs().tree(Edges::SubCell).unwrap();
+            let contact = contact().works_of_adhesion([closing, work]).build().unwrap();
+            profile.build_tree(Edges::SubCell, ContactTree::default()).unwrap();
             let most = |count: u32| {
                 let deepest = 0.4 * 2e6 * 1e-3 * 5e-7;
                 let turn = |turn: u32| Move::ToForce(deepest * f64::from(turn) / f64::from(count));
@@ -216,11 +216,11 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
     let spectrum = SelfAffine { hurst: 0.1, first: 1, last: springs as u64 / 2, roll_off_mode: 0.0 };
     let rough = spectrum.heights(1, springs).unwrap();
     let line = Line::new(1e-3, springs, None, Some(&rough), 5e-7).unwrap();
-    let foundation = Foundation::endless(line.spacing, 2e6);
+    let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).unwrap();
+    let contact = || Contact::builder(&profile, Modulus::effective(2e6).unwrap());
     let work = 5e-7 * 5e-7 * spectrum.gradient_per_height(1e-3) * 2e6 / 1e6;
-    let hess = HessRule::from_works(foundation, work, work);
-    let contact = Contact::new(Arc::clone(&line.gaps), Edges::SubCell, foundation, Some(hess));
-    contact.springs().tree(Edges::SubCell).unwrap();
+    let contact = contact().work_of_adhesion(work).build().unwrap();
+    profile.build_tree(Edges::SubCell, ContactTree::default()).unwrap();
     let turns = [0.01, 0.1, 1.0].map(|share| Move::ToForce(share * 2e6 * 1e-3 * 5e-7));
     let held = allocations::most_held(|| {
         Body::new(&contact, 2).reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();

@@ -1,7 +1,7 @@
 //! Overrides in the form of `--set`.
 
 use super::{assert_document, assert_errors, text};
-use asperity::scene::{DEFAULT, Document, Origin, SceneErrors, find};
+use asperity::scene::{DEFAULT, Document, Origin, SceneErrors, find_scene};
 
 /// Most overrides at a time; for each of them the whole text is read again.
 const MOST: usize = 16;
@@ -13,7 +13,7 @@ const MOST: usize = 16;
 pub fn overrides(bytes: &[u8]) {
     let text = text(bytes);
     let mut lines = text.lines();
-    let preset = lines.next().and_then(|name| find(name.trim())).or_else(|| find(DEFAULT));
+    let preset = lines.next().and_then(|name| find_scene(name.trim())).or_else(|| find_scene(DEFAULT));
     let Some(base) = preset.and_then(|preset| Document::parse(preset.text, preset.name).ok()) else {
         panic!("{DEFAULT} is a scene")
     };

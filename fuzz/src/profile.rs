@@ -2,7 +2,7 @@
 
 use super::{assert_message, text};
 use asperity::surface::{Amplitude, MeasuredOptions, MeasuredProfile};
-use asperity::surface::{ReadOptions, TopographyError, Unit};
+use asperity::surface::{ReadOptions, SurfaceError, Unit};
 
 /// An accepted profile has finite points in ascending order and can be sampled; a refusal is one line that states the
 /// allowed values.
@@ -31,7 +31,7 @@ pub fn profile(bytes: &[u8]) {
     }
 }
 
-fn parse(text: &str) -> Result<MeasuredProfile, TopographyError> {
+fn parse(text: &str) -> Result<MeasuredProfile, SurfaceError> {
     let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
     MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
 }
@@ -79,7 +79,7 @@ fn assert_samples(profile: &MeasuredProfile) {
     let refused =
         [profile.sample(length, usize::MAX / 4, 0.0), profile.sample(1.01 * covered + 1e-300, 2, 0.0)];
     for message in refused.map(|sampled| sampled.map(|_| ()).unwrap_err()) {
-        assert_message(&message);
+        assert_message(&message.to_string());
     }
 }
 

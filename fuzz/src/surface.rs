@@ -1,8 +1,8 @@
 //! Measured surfaces.
 
 use super::assert_message;
-use asperity::surface::{Options, analyse};
-use asperity::surface::{ReadOptions, Topography, TopographyError, Unit, parse};
+use asperity::surface::{AnalysisOptions, analyse};
+use asperity::surface::{ReadOptions, SurfaceError, Topography, Unit, parse};
 
 /// Most points of an analysed surface, so that no input takes long.
 const MOST_ANALYSED: usize = 128;
@@ -41,10 +41,10 @@ pub fn surface(bytes: &[u8]) {
     }
 }
 
-fn assert_error(error: &TopographyError) {
+fn assert_error(error: &SurfaceError) {
     let message = error.to_string();
     assert_message(&message);
-    assert!(!matches!(error, TopographyError::Refused { allowed, .. } if allowed.is_empty()), "{message}");
+    assert!(!matches!(error, SurfaceError::Refused { allowed, .. } if allowed.is_empty()), "{message}");
 }
 
 fn assert_surface(surface: &Topography) {
@@ -62,7 +62,7 @@ fn assert_surface(surface: &Topography) {
 }
 
 fn assert_analysis(surface: Topography) {
-    match analyse(&[surface], &Options { tip_radius: Some(1e-8), ..Options::default() }) {
+    match analyse(&[surface], &AnalysisOptions { tip_radius: Some(1e-8), ..AnalysisOptions::default() }) {
         Ok(analysis) => {
             let line =
                 [analysis.line.rms_height, analysis.line.rms_gradient, analysis.line.energy_per_modulus];

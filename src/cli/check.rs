@@ -5,7 +5,7 @@ use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
 use super::progress::ProgressLine;
 use super::removed;
 use asperity_report::Format;
-use asperity_study::{Case, Check, Verdict, catalogue, checks, judge};
+use asperity_study::{Case, Check, Verdict, catalogue, checks, judge_case};
 use clap::Args;
 use std::io::Write;
 
@@ -51,7 +51,7 @@ pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Resul
     let (mut progress, count) = (ProgressLine::default(), chosen.len());
     let run = |(index, check): (usize, Check)| {
         progress.show(&format!("{}/{count} {}", index + 1, check.case.name), None);
-        judge(check)
+        judge_case(check)
     };
     let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
     progress.clear();

@@ -6,12 +6,11 @@ use super::output::Origin;
 use super::progress::ProgressLine;
 use super::scene::{open_scene, threads};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{grouped, parse_quantity, path_name};
+use asperity_data::{Control, grouped, parse_quantity, path_name};
 use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
 use clap::Args;
 use std::io::Write;
-use std::sync::Mutex;
 
 /// Number of random profiles without a number of one's own.
 const LINES: &str = "128";
@@ -52,7 +51,7 @@ fn is_modulus_free(free: &[Free]) -> Result<bool, CliError> {
     use Parameter::{Modulus, Offset, Work};
     let allowed = "allowed with --lines: work, modulus, offset, each without a range";
     for one in free {
-        if ![Work, Modulus, Offset].contains(&one.parameter) || one.range.is_some() {
+        if ![Work, Modulus, Offset].contains(&one.parameter) || one.range().is_some() {
             return Err(CliError::named("--free", format!("{}; {allowed}", one.parameter.name())));
         }
     }
@@ -90,23 +89,12 @@ pub(super) fn ensemble(
         .map(read)
         .collect::<Result<Vec<_>, _>>()?;
     let EnsembleArguments { height_error, hurst_error, .. } = *compared;
-    let options = EnsembleOptions {
-        lines: u64::from(lines),
-        is_modulus_free,
-        height_error,
-        hurst_error,
-        jobs: threads(arguments.jobs),
-    };
-    let progress = Mutex::new(ProgressLine::default());
-    let report = |computed: usize| {
-        if let Ok(mut line) = progress.try_lock() {
-            line.show(&format!("{} curves computed", grouped(computed as u64)), None);
-        }
-    };
-    let found = fit_ensemble(&curves, &document, &options, &|| false, &report);
-    if let Ok(line) = progress.lock() {
-        line.clear();
-    }
+    let options = EnsembleOptions { lines: u64::from(lines), is_modulus_free, height_error, hurst_error };
+    let mut progress = ProgressLine::default();
+    let mut report = |computed: u64| progress.show(&format!("{} curves computed", grouped(computed)), None);
+    let control = Control::default().on_threads(threads(arguments.jobs)).reporting_to(&mut report);
+    let found = fit_ensemble(&curves, &document, &options, control);
+    progress.clear();
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     let report = EnsembleFitReport {
         title: document.title(),

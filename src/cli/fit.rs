@@ -6,9 +6,9 @@ use super::fits::{Curves, fit_all};
 use super::output::{Origin, OutputArguments, check_file};
 use super::scene::{Overrides, open_scene};
 use crate::explorer::recognition::no_curve;
-use asperity_data::path_name;
 use asperity_data::write_new;
-use asperity_experiment::{CurveOptions, Free, MeasuredCurve, fit as find};
+use asperity_data::{Control, path_name};
+use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve};
 use asperity_report::FitReport;
 use asperity_report::named_from;
 use asperity_report::{Format, Report};
@@ -91,7 +91,8 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
     let reading = curves.reading_for(&document);
     let curve = MeasuredCurve::read(path, &reading)
         .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
-    let found = find(&curve, &document, &arguments.free, &|| false, &mut |_| ());
+    let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
+    let found = fit.run(&curve, Control::default());
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
     if let Some(file) = &arguments.scene {
         let folder = file.parent().unwrap_or(Path::new(""));

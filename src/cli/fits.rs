@@ -5,9 +5,9 @@ use super::output::{Origin, OutputArguments, command};
 use super::progress::ProgressLine;
 use super::scene::{Overrides, threads};
 use asperity_data::{
-    check_writable, grouped, on_threads, path_name, printable, read_regular_text, write_new,
+    Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text, write_new,
 };
-use asperity_experiment::{CurveOptions, Free, MeasuredCurve, Parameter, fit as find};
+use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
 use asperity_report::FitReport;
 use asperity_report::scene_provenance;
 use asperity_report::{CurveRow, FitsReport};
@@ -169,7 +169,8 @@ impl Batch<'_> {
 
     fn row(&self, path: &Path, name: String) -> CurveRow {
         let fitted = MeasuredCurve::read(path, &self.reading).and_then(|curve| {
-            let fit = find(&curve, &self.document, self.curves.free, &|| false, &mut |_| ())?;
+            let fit = self.curves.free.iter().copied().fold(Fit::of(&self.document), Fit::free);
+            let fit = fit.run(&curve, Control::default())?;
             Ok(CurveRow::of(name.clone(), &FitReport { title: &name, curve: &curve, fit: &fit }))
         });
         fitted.unwrap_or_else(|error| CurveRow {

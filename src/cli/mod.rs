@@ -27,6 +27,7 @@ mod scene;
 mod sensitivity;
 mod surface;
 mod sweep;
+mod typed;
 
 use arguments::{Arguments, Command};
 
@@ -41,16 +42,16 @@ use std::ffi::OsString;
 use std::io;
 use std::io::{BufWriter, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Size in bytes of the buffer before standard output.
 const BUFFER: usize = 1 << 18;
 
+const SUCCESS: u8 = 0;
 const WRONG_USAGE: u8 = 2;
 
-/// Runs the program with these arguments, the first of which is the program name.
-pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let typed: Vec<OsString> = arguments.into_iter().collect();
+/// Runs the program with these arguments, the first of which is its name, and returns the exit code.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let typed = typed::TYPED.get_or_init(|| arguments.into_iter().collect());
     if let Some(word) = typed.iter().skip(1).find(|word| word.to_str().is_none()) {
         // Scenes, tables and messages name files as text.
         let word = printable(&word.to_string_lossy()).into_owned();
@@ -58,12 +59,12 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             io::stderr(),
             "{word}: this argument is not UTF-8 text; allowed: names of files in UTF-8"
         );
-        return ExitCode::from(WRONG_USAGE);
+        return WRONG_USAGE;
     }
-    let arguments = match Arguments::try_parse_from(&typed) {
+    let arguments = match Arguments::try_parse_from(typed) {
         Ok(arguments) => arguments,
         Err(error) => {
-            let error = explained(error, &typed);
+            let error = explained(error, typed);
             // Also for help and version. An error that repeats control characters of an argument is printed without
             // colours.
             let printed = match printable_lines(&error.render().to_string()) {
@@ -71,26 +72,26 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
                 _ => error.print(),
             };
             return match printed.map_err(CliError::from) {
-                _ if error.use_stderr() => ExitCode::from(WRONG_USAGE),
+                _ if error.use_stderr() => WRONG_USAGE,
                 Err(failed) if !failed.is_closed_pipe => {
                     let _ = writeln!(io::stderr(), "{failed}");
-                    ExitCode::from(failed.exit_code)
+                    failed.exit_code
                 }
-                _ => ExitCode::SUCCESS,
+                _ => SUCCESS,
             };
         }
     };
     let mut stdout = BufWriter::with_capacity(BUFFER, io::stdout().lock());
     let done = dispatch(&arguments, &mut stdout).and_then(|()| Ok(stdout.flush()?));
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => SUCCESS,
         // The reader has closed the pipe: `asperity run … | head`.
-        Err(error) if error.is_closed_pipe => ExitCode::SUCCESS,
+        Err(error) if error.is_closed_pipe => SUCCESS,
         Err(error) => {
             let _ = stdout.flush();
             // Errors contain file names and excerpts of files.
             let _ = writeln!(io::stderr(), "{}", printable_lines(&error.to_string()));
-            ExitCode::from(error.exit_code)
+            error.exit_code
         }
     }
 }
@@ -112,7 +113,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let Some(first) = words.first() else { return error };
     // A second word without a dash, which the parser takes for a command.
     let second = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
-    let is_scene = || asperity_scene::find(first).is_some() || Path::new(&**first).exists();
+    let is_scene = || asperity_scene::find_scene(first).is_some() || Path::new(&**first).exists();
     let message = match (words.iter().find(is_command), &refused, &second) {
         (Some(misplaced), ..)
             if misplaced != first

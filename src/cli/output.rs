@@ -1,6 +1,7 @@
 //! Formats and destinations of the results of commands.
 
 use super::error::CliError;
+use super::typed::TYPED;
 use asperity_data::parse_quantity;
 use asperity_data::path_name;
 use asperity_data::{check_writable, write_new};
@@ -246,14 +247,15 @@ impl AnswerFormat {
 /// The command of this process, for a POSIX shell, without the options for format and destination.
 pub(super) fn command() -> String {
     let mut words = vec!["asperity".to_owned()];
-    let mut typed = std::env::args().skip(1);
+    let typed = TYPED.get().into_iter().flatten();
+    let mut typed = typed.skip(1).map(|word| word.to_string_lossy());
     while let Some(word) = typed.next() {
-        if ["-o", "--output", "--format"].contains(&word.as_str()) {
+        if ["-o", "--output", "--format"].contains(&&*word) {
             typed.next();
         } else if word != "--force"
             && !["-o", "--output=", "--format="].iter().any(|one| word.starts_with(one))
         {
-            words.push(quoted(&word));
+            words.push(quoted(&*word));
         }
     }
     words.join(" ")

@@ -13,7 +13,7 @@ use asperity_report::SurfaceReport;
 use asperity_report::named_from;
 use asperity_report::{MeasuredFace, SurfaceFile};
 use asperity_scene::equivalent_springs;
-use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, SCENE_VERSION, Scene};
+use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, Scene};
 use asperity_study::MeasuredAdhesion;
 use asperity_surface::analyse;
 use asperity_surface::{EquivalentLine, MeasuredOptions};
@@ -171,18 +171,12 @@ impl SurfaceArguments {
         // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
         let length = round_to(length, 12);
         Scene {
-            version: SCENE_VERSION,
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
-            notice: String::new(),
-            material: Material::effective(modulus),
-            length,
-            form: None,
             roughness: Some(Roughness::Measured(measured)),
             adhesion: self.work.map(Adhesion::by_work),
-            loading_stiffness: None,
             loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
             numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
-            observe: Vec::new(),
+            ..Scene::new(Material::effective(modulus), length)
         }
     }
 }
@@ -231,7 +225,7 @@ fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, Cl
         surfaces.extend(read);
     }
     let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
-        let file = facts.get(error.surface());
+        let file = facts.get(error.surface().unwrap_or(0));
         CliError::named(file.map(|file| path_name(&file.path)).unwrap_or_default(), error)
     })?;
     Ok(MeasuredFace { files: facts, analysis })

@@ -18,13 +18,14 @@ use super::studies::Findings;
 use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::LegRecord;
+use asperity_contact::marks;
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::LoopQuantities;
 use asperity_report::Section;
+use asperity_scene::Governing;
 use asperity_scene::Outcome;
 use asperity_scene::{Document, ron_float};
-use asperity_scene::{Governing, marks};
-use asperity_study::{Axis, Ensemble, Grid, Place, Quantity};
+use asperity_study::{Axis, Ensemble, Grid, GridPlace, Quantity};
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -246,7 +247,7 @@ impl App {
 
     /// Position of the scene on the map: its values on the axes. `None` if the scene has no such quantity, or its value is
     /// not known yet.
-    pub fn place(&self) -> Option<Place> {
+    pub fn place(&self) -> Option<GridPlace> {
         let scene = self.edit.document.scene();
         let (across, up) = self.map_axes()?;
         let governing = self.governing();

@@ -2,8 +2,8 @@
 
 use super::app::App;
 use super::request::Drive;
+use asperity_contact::Branch;
 use asperity_contact::{CurvePoint, Direction, LegRecord};
-use asperity_scene::Branch;
 
 /// Share of the indentation range of a branch within which a state counts as its end or its smallest force.
 const NEAR: f64 = 0.01;

@@ -3,11 +3,11 @@
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, PatchFacts};
 use asperity_contact::{Leg, Patch};
-use asperity_report::{Contact, LineColumns, Part};
+use asperity_report::{LineColumns, Part, SectionContact};
 
 /// Makes the close-up of the requested part of the line, with the patch nearest to its middle.
 pub fn close_up(
-    contact: &Contact<'_>,
+    contact: &SectionContact<'_>,
     leg: &Leg,
     request: &SnapshotRequest,
     line: &mut LineColumns,
@@ -56,7 +56,7 @@ fn shown(count: usize, centre: usize, patch: Option<Patch>, springs: Option<usiz
     (middle.saturating_sub(springs / 2).min(count.saturating_sub(springs)), springs)
 }
 
-fn centre(contact: &Contact<'_>, focus: Focus) -> usize {
+fn centre(contact: &SectionContact<'_>, focus: Focus) -> usize {
     let (count, patches) = (contact.gaps.len(), contact.patches);
     let summit = || (0..count).find(|&spring| contact.gaps[spring] == 0.0).unwrap_or(count / 2);
     match focus {

@@ -3,9 +3,9 @@
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
 use asperity_contact::Move;
-use asperity_contact::{Body, CurvePoint, Direction, Leg, Motion, Solver};
+use asperity_contact::{Body, CurvePoint, Direction, Leg, Motion, MovingBody};
 use asperity_data::round_to;
-use asperity_scene::{Reach, out_of_reach};
+use asperity_scene::Reach;
 
 /// Number of points of the curve for one move.
 const POINTS: u32 = 16;
@@ -72,7 +72,7 @@ impl ManualBody {
         if let Some(why) = self.reach.refusal(target) {
             return Err(why);
         }
-        let moved = self.body.move_to(target).map_err(|error| out_of_reach(&error, target))?;
+        let moved = self.body.move_to(target).map_err(|error| error.in_words(target))?;
         let Some(Motion { leg, low, high, .. }) = moved else { return Ok(()) };
         let to = self.body.point();
         let way = to.indentation - from.indentation;

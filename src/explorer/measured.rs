@@ -3,7 +3,7 @@
 use super::studies::Findings;
 use asperity_contact::CurvePoint;
 use asperity_data::path_name;
-use asperity_experiment::{CurveOptions, ExperimentError, Fit, Free, MeasuredCurve};
+use asperity_experiment::{CurveOptions, ExperimentError, FitResult, Free, MeasuredCurve};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -58,16 +58,16 @@ impl Measured {
 #[derive(Clone, Debug)]
 pub struct Fitting {
     pub free: Vec<Free>,
-    pub evaluations: usize,
-    pub found: Option<Result<Arc<Fit>, String>>,
+    pub evaluations: u64,
+    pub found: Option<Result<Arc<FitResult>, String>>,
 }
 
 /// The fit to the present scene, of the position of the curve only, or of parameters too; `None` if not known yet.
-pub fn fitted(studies: &Findings) -> Option<&Fit> {
-    studies.value::<Arc<Fit>>().map(|fit| &**fit)
+pub fn fitted(studies: &Findings) -> Option<&FitResult> {
+    studies.value::<Arc<FitResult>>().map(|fit| &**fit)
 }
 
 /// Reason why the scene cannot be compared with the curve, if it cannot.
 pub fn failure(studies: &Findings) -> Option<&str> {
-    studies.failure::<Arc<Fit>>()
+    studies.failure::<Arc<FitResult>>()
 }

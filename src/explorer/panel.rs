@@ -5,7 +5,7 @@ use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
 use super::theme::{Appearance, Meaning};
 use asperity_data::{format_range, format_rounded};
-use asperity_plot::{Axis, CellStyle, Chart, Colours, Ink, PaneChart, Shape, key, legend};
+use asperity_plot::{CellStyle, Chart, ChartAxis, Colours, Ink, PaneChart, Shape, key, legend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
@@ -60,7 +60,7 @@ impl Panel {
         let Chart { x: across, y: up, layers, .. } = &mut plot.chart;
         let at = across.span.low + share * across.span.width();
         let x = across.scale.number(at);
-        let value = |axis: &Axis, number| format_rounded(number, 3, &axis.unit);
+        let value = |axis: &ChartAxis, number| format_rounded(number, 3, &axis.unit);
         let mut parts = vec![format!("{} {}", across.symbol_or_name(), value(across, x))];
         for layer in layers.iter().filter(|layer| !layer.name.is_empty()) {
             let read = |points: &[(f64, f64)]| {
@@ -329,7 +329,7 @@ mod tests {
     #[test]
     fn the_crosshair_reads_curves_and_both_ends_of_bands() {
         let axis =
-            |symbol: &str| Axis::new(AxisScale::Linear, Range { low: 0.0, high: 4.0 }, "", symbol, "1");
+            |symbol: &str| ChartAxis::new(AxisScale::Linear, Range { low: 0.0, high: 4.0 }, "", symbol, "1");
         let layers = vec![
             Layer::new("quartiles".into(), Ink::Kept, Shape::Band(vec![(0.0, 1.0, 2.0), (4.0, 3.0, 4.0)])),
             Layer::new("median".into(), Ink::Kept, Shape::line(vec![(0.0, 2.0), (4.0, 3.0)], Stroke::Solid)),

@@ -3,9 +3,9 @@
 
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use asperity_contact::Move;
-use asperity_contact::{CurvePoint, Patch, PatchState, Springs};
+use asperity_contact::{CurvePoint, Patch, PatchState};
 use asperity_report::Section;
-use asperity_report::{Contact, LineColumns, Part};
+use asperity_report::{LineColumns, Part, SectionContact};
 use asperity_scene::CheckedScene;
 use asperity_scene::Reach;
 use asperity_scene::{LineFacts, Outcome};
@@ -43,7 +43,7 @@ pub struct ContactSnapshot {
 /// solver begins another profile.
 #[derive(Clone, Debug, Default)]
 pub struct SpringsInContact {
-    pub springs: Weak<Springs>,
+    pub gaps: Weak<Vec<f64>>,
     pub patches: Vec<Patch>,
 }
 
@@ -67,7 +67,7 @@ pub struct Probe {
 
 impl Probe {
     /// Reads profile and contact at a share of the profile; `None` for a profile without springs.
-    pub fn at(contact: &Contact<'_>, position: f64) -> Option<Self> {
+    pub fn at(contact: &SectionContact<'_>, position: f64) -> Option<Self> {
         let last = contact.gaps.len().checked_sub(1)?;
         let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
         let next = contact.patches.partition_point(|patch| patch.last < spring);
@@ -83,9 +83,9 @@ impl Probe {
 impl ContactSnapshot {
     /// A part of the profile and its contact, reduced to columns; `None` if the springs are gone.
     pub fn section(&self, part: Part) -> Option<Section> {
-        let SpringsInContact { springs, patches } = &self.springs;
-        let (springs, indentation) = (springs.upgrade()?, self.point.indentation);
-        let contact = Contact { gaps: springs.gaps(), summit: self.line.summit, indentation, patches };
+        let SpringsInContact { gaps, patches } = &self.springs;
+        let (gaps, indentation) = (gaps.upgrade()?, self.point.indentation);
+        let contact = SectionContact { gaps: &gaps, summit: self.line.summit, indentation, patches };
         Some(contact.section(part, &mut LineColumns::default()))
     }
 }

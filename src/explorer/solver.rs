@@ -8,7 +8,7 @@ use super::request::{Drive, ManualMove, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Reply, SolvedScene, SpringsInContact, profile_part};
 use asperity_contact::Move;
 use asperity_contact::{ContactError, CurvePoint, Direction, Leg, LegRecord};
-use asperity_report::{Contact, LineColumns};
+use asperity_report::{LineColumns, SectionContact};
 use asperity_scene::Reach;
 use asperity_scene::{AfterLeg, Outcome, RunError, Simulation};
 use asperity_scene::{CheckedScene, Observer, Solver as SceneSolver};
@@ -175,7 +175,7 @@ impl Solver {
         let patches = if point.springs == 0 { Vec::new() } else { leg.patches(point.indentation) };
         let CurvePoint { indentation, .. } = point;
         let gaps = leg.contact().gaps();
-        let contact = Contact { gaps, summit: line.summit, indentation, patches: &patches };
+        let contact = SectionContact { gaps, summit: line.summit, indentation, patches: &patches };
         let close_up = close_up(&contact, &leg, request, columns);
         let part = profile_part(request, gaps.len());
         Some(ContactSnapshot {
@@ -184,12 +184,15 @@ impl Solver {
             line,
             focus: request.focus,
             point,
-            contact_radius: leg.contact().foundation().contact_radius(&patches, point),
+            contact_radius: leg.contact().contact_radius(&patches, point),
             profile: contact.section(part, profile),
             close_up,
             probe: request.crosshair.and_then(|position| Probe::at(&contact, position)),
             manual: body.as_mut().map(ManualBody::travel),
-            springs: SpringsInContact { springs: Arc::downgrade(leg.contact().springs()), patches },
+            springs: SpringsInContact {
+                gaps: Arc::downgrade(leg.contact().profile().shared_gaps()),
+                patches,
+            },
         })
     }
 

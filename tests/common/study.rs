@@ -1,6 +1,6 @@
 //! A small study over κ and H at three preloads, finished.
 
-use asperity::study::{Changes, Folder, Options, Plan, Shard, merge, run};
+use asperity::study::{Changes, Folder, Plan, Shard, merge, run_study};
 use std::path::Path;
 
 pub const PLAN: &str = r#"(
@@ -26,7 +26,7 @@ pub const PLAN: &str = r#"(
 /// Creates the study of a plan in a folder, computed and merged.
 pub fn merged(folder: &Path, plan: &str) {
     let study = begun(folder, plan);
-    run(&study, Options { jobs: 2, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+    run_study(&study, Shard::WHOLE, 2, &|| false, &mut |_| ()).unwrap();
     merge(&study).unwrap();
 }
 

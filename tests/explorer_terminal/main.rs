@@ -1,7 +1,7 @@
 //! The program in a terminal: keys are typed, the screen is read, the window is resized or closed, and in the end the
 //! terminal is as before.
 //!
-//! The engine that panics is the example `panicking_engine`, in `examples/` beside the program: `cargo test` builds
+//! The engine that panics is the tool `panicking_engine`, in `tests/tools`, built into `examples/` beside the program: `cargo test` builds
 //! both, `cargo test --test explorer_terminal` builds the example only after `cargo build --examples`.
 #![cfg(target_os = "linux")]
 

@@ -5,7 +5,7 @@ mod generate;
 
 use super::documentation::markdown;
 use super::generated::check;
-use asperity::surface::{Analysis, End, Moment, Options, PowerLaw, analyse};
+use asperity::surface::{Analysis, AnalysisOptions, End, Moment, SelfAffineFit, analyse};
 use asperity::surface::{ReadOptions, Topography, Unit, parse};
 use generate::{Normal, Profiles, Spectrum, cut, map, read, topography};
 use std::f64::consts::TAU;
@@ -51,7 +51,7 @@ fn ratios(spectrum: &Spectrum, found: &[Analysis]) -> [Ratio; 3] {
 }
 
 fn estimated(surfaces: &[Topography]) -> Analysis {
-    analyse(surfaces, &Options::default()).unwrap()
+    analyse(surfaces, &AnalysisOptions::default()).unwrap()
 }
 
 /// Kinds of surfaces with the analyses of several samples.
@@ -75,7 +75,7 @@ fn bounds(kind: &str, has_roll_off: bool) -> [(f64, f64); 3] {
     }
 }
 
-fn assert_fit(fit: PowerLaw, spectrum: &Spectrum, has_roll_off: bool) {
+fn assert_fit(fit: SelfAffineFit, spectrum: &Spectrum, has_roll_off: bool) {
     assert!((fit.hurst.value - spectrum.hurst).abs() < 0.02, "H = {}: {fit:?}", spectrum.hurst);
     assert!(fit.hurst.error > 0.001 && fit.hurst.error < 0.02, "{fit:?}");
     let is_right = |found: f64| (found / (TAU * spectrum.roll_off) - 1.0).abs() < 0.08;
@@ -205,7 +205,7 @@ fn a_spectrum_that_continues_keeps_the_gradient_of_point_samples() {
         let spectrum = Spectrum { hurst, roll_off: 16.0, last: 4.0 * LAST };
         let profiles = Profiles::new(&spectrum, POINTS);
         let gradient = |end: End| {
-            let options = Options { end, ..Options::default() };
+            let options = AnalysisOptions { end, ..AnalysisOptions::default() };
             let found = (0..60).map(|seed| analyse(&[profiles.profile(seed)], &options).unwrap());
             ratios(&spectrum, &found.collect::<Vec<_>>())[1]
         };
@@ -290,7 +290,7 @@ fn aliased_waves_of_maps_are_part_of_the_model() {
     let heights: Vec<f64> = (0..few * few).map(|index| whole.heights[place(index)]).collect();
     let sampled = [topography(&heights, few)];
     let end = End::Continues(TAU * LAST);
-    let continued = analyse(&sampled, &Options { end, ..Options::default() }).unwrap();
+    let continued = analyse(&sampled, &AnalysisOptions { end, ..AnalysisOptions::default() }).unwrap();
     assert_right("continued", &spectrum, &continued, 0.08);
     // Without short waves the longer ones have the power of all, as the last column states.
     let ends = estimated(&sampled);

@@ -6,8 +6,8 @@ use asperity::scene::Regime;
 use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
 use asperity::scene::{Outcome, Simulation};
 use asperity::study::{
-    Changes, Folder, Options, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status,
-    StudyMap, merge, run,
+    Changes, Folder, Plan, Quantity, RESULTS, Results, SUMMARY, Shard, Spread, Statistics, Status, StudyMap,
+    merge, run_study,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -60,7 +60,7 @@ fn study(plan: &Plan) -> (TempDir, Folder) {
 }
 
 fn compute(folder: &Folder, jobs: usize, shard: Shard) {
-    let ended = run(folder, Options { jobs, shard }, &|| false, &mut |_| ()).unwrap();
+    let ended = run_study(folder, shard, jobs, &|| false, &mut |_| ()).unwrap();
     assert!(ended.is_complete());
 }
 

@@ -1,18 +1,20 @@
 //! The exact solver: a body moved along any loading history, leg by leg, in linear time and without a step error; and
 //! reversals, the unloadings from many turning points of one loading.
 
+use super::adhesive::tree::TWO_THREADS;
+use super::contact::Contact;
 use super::contact_state::{ContactState, Extreme, Grid};
-use super::history::{CurvePoint, Direction, History, LegRecord, Move, Work};
+use super::error::ContactError;
+use super::history::{CurvePoint, Direction, History, LegRecord, Work};
 use super::history::{Goal, plan};
 use super::leg::Leg;
 use super::leg::forces::SEARCH_INTERVALS;
-use super::springs::Contact;
-use super::{ContactError, TWO_THREADS};
+use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
 /// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
-pub trait Solver {
+pub trait MovingBody {
     /// Moves the body to a target and records the motion.
     ///
     /// # Errors
@@ -302,7 +304,7 @@ impl Body {
     }
 }
 
-impl Solver for Body {
+impl MovingBody for Body {
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let here = self.point();
         match self.plan(target)? {
@@ -337,8 +339,8 @@ impl Solver for Body {
 ///
 /// # Errors
 /// The first stage that fails ends the run.
-pub fn run(
-    solver: &mut dyn Solver,
+pub fn load_body(
+    solver: &mut dyn MovingBody,
     targets: &[Move],
     mut after: impl FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
 ) -> Result<History, ContactError> {

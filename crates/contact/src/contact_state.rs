@@ -1,9 +1,9 @@
 //! The contact at one indentation and along a grid of indentations, and bounds of the force between two indentations.
 
-use super::ContactError;
 use super::adhesive::levels::{EdgeCells, EdgeSum, Slider};
+use super::error::ContactError;
+use super::foundation::Foundation;
 use super::history::CurvePoint;
-use super::springs::Foundation;
 use super::totals::{ContactTotals, GapScale};
 use asperity_data::resized;
 use std::ops::Range;

@@ -1,8 +1,9 @@
 //! Loading histories: targets, records of motions with their force curves, contact patches and work counts.
 
-use super::ContactError;
+use super::error::ContactError;
+use super::target::Move;
 #[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -243,25 +244,6 @@ impl From<Patch> for (usize, usize) {
     fn from(patch: Patch) -> (usize, usize) {
         (patch.first, patch.last)
     }
-}
-
-/// Target of a body: one loading stage.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-pub enum Move {
-    /// Until the force first reaches this value, N (compression positive).
-    ToForce(f64),
-    /// To this indentation, m (0 at first touch).
-    ToIndentation(f64),
-    /// Until the displacement of the instrument D = d + F/k first reaches this value, m, where k is the loading stiffness
-    /// of the contact. For a rigid instrument D is the indentation.
-    ToDisplacement(f64),
-    /// To the indentation of first touch, d = 0.
-    ToTouch,
-    /// Until the force is zero; from separation, past first touch until the force is back at zero.
-    ToZeroForce,
-    /// To separation.
-    ToSeparation,
 }
 
 #[derive(Clone, Copy, Debug)]

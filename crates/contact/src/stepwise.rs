@@ -4,14 +4,15 @@
 //! rules and the sums with the exact solver.
 
 use super::adhesive::levels::EdgeCells;
-use super::body::Solver;
+use super::body::MovingBody;
+use super::contact::Contact;
 use super::contact_state::{ContactState, Grid};
-use super::history::{CurvePoint, Direction, LegRecord, Move, Work};
+use super::error::{ContactError, STEP_LIMIT};
+use super::history::{CurvePoint, Direction, LegRecord, Work};
 use super::history::{Goal, plan};
 use super::leg::Leg;
-use super::springs::Contact;
+use super::target::Move;
 use super::totals::ContactTotals;
-use super::{ContactError, STEP_LIMIT};
 use asperity_data::resized;
 
 /// A body that moves by small steps and relaxes after each.
@@ -64,7 +65,7 @@ impl<'a> Stepwise<'a> {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;
         self.thresholds[index] = at;
-        let spring = ContactTotals::of_patch(&[gap], false, self.contact.springs.scale());
+        let spring = ContactTotals::of_patch(&[gap], false, self.contact.profile.springs.scale());
         let squared_stretch = (gap - at).max(0.0).powi(2);
         self.totals += if attaches { spring } else { -spring };
         self.squared_stretch += if attaches { -squared_stretch } else { squared_stretch };
@@ -140,7 +141,8 @@ impl<'a> Stepwise<'a> {
         let fragments = self.holds.chunk_by(PartialEq::eq).filter(|run| run[0]).count();
         let totals = ContactTotals { fragments: fragments as i64, ..self.totals };
         let edges = EdgeCells::default();
-        let state = ContactState::new(false, self.indentation, totals, edges, &self.contact.springs.scale());
+        let state =
+            ContactState::new(false, self.indentation, totals, edges, &self.contact.profile.springs.scale());
         state.point(self.contact.foundation)
     }
 
@@ -232,7 +234,7 @@ impl<'a> Stepwise<'a> {
     }
 }
 
-impl Solver for Stepwise<'_> {
+impl MovingBody for Stepwise<'_> {
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let here = self.point();
         // Its instrument is rigid: no goal is a displacement.

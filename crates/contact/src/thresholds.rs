@@ -6,12 +6,12 @@
 //! exactly, as whole numbers of quanta; a partly filled cell adds its part at each point inside it, which is accurate for
 //! any slope and indentation.
 
-use super::ContactError;
 use super::adhesive::levels::Edges;
 use super::adhesive::levels::Slider;
+use super::contact::Contact;
 use super::contact_state::{ContactState, Grid, Tally};
+use super::error::ContactError;
 use super::interval::{Intervals, Piece};
-use super::springs::Contact;
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ pub struct Thresholds<'a> {
 impl<'a> Thresholds<'a> {
     pub fn new(contact: &'a Contact, thresholds: &'a [f64]) -> Self {
         let slides = contact.edges == Edges::SubCell;
-        Thresholds { gaps: contact.gaps(), thresholds, slides, scale: contact.springs.scale() }
+        Thresholds { gaps: contact.gaps(), thresholds, slides, scale: contact.profile.springs.scale() }
     }
 
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {

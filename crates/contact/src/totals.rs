@@ -44,6 +44,7 @@ impl GapScale {
     }
 
     /// Size of a quantum, m; a gap in a sum is rounded by less than a quantum.
+    #[cfg(test)]
     pub fn quantum(&self) -> f64 {
         self.quantum
     }

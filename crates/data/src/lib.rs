@@ -3,6 +3,7 @@
 #![doc = include_str!("../README.md")]
 
 mod axis_scale;
+mod control;
 #[cfg(feature = "files")]
 mod hash;
 #[cfg(feature = "files")]
@@ -23,6 +24,7 @@ mod text;
 mod write;
 
 pub use axis_scale::AxisScale;
+pub use control::Control;
 #[cfg(feature = "files")]
 pub use hash::{hexadecimal, sha256_of};
 #[cfg(feature = "files")]
@@ -34,7 +36,7 @@ pub use numerics::{
     standard_deviation, student_quantile,
 };
 #[cfg(feature = "files")]
-pub use object::{Entry, Object, Optional};
+pub use object::{Object, ObjectEntry, Optional};
 pub use parallel::{in_parallel, on_this_thread, on_threads};
 pub use quantity::{
     QuantityError, exact_quantity, format_quantity, format_range, format_rounded, format_within, in_unit,
@@ -46,7 +48,7 @@ pub use read::{ReadError, into_text, open_regular, read_limited, read_regular, r
 pub use table::{Kind, Table, TableOf};
 pub use text::{
     belong_together, grouped, is_control, memory_size, path_name, per_cent, printable, printable_lines,
-    round_to, shown, si_prefix, wrap,
+    round_to, rounded_up, shown, si_prefix, wrap,
 };
 #[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};

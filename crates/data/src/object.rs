@@ -17,12 +17,12 @@ impl Entries for () {
 }
 
 /// A key with its value.
-pub struct Entry<T>(pub &'static str, pub T);
+pub struct ObjectEntry<T>(pub &'static str, pub T);
 
 /// A key with an optional value; the entry is omitted for `None`.
 pub struct Optional<T>(pub &'static str, pub Option<T>);
 
-impl<T: Serialize, R: Entries> Entries for (Entry<T>, R) {
+impl<T: Serialize, R: Entries> Entries for (ObjectEntry<T>, R) {
     fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         map.serialize_entry(self.0.0, &self.0.1)?;
         self.1.write(map)
@@ -51,7 +51,7 @@ impl<E: Entries> Serialize for Object<E> {
 macro_rules! object {
     (@entries) => { () };
     (@entries $key:literal: $value:expr $(, $($rest:tt)*)?) => {
-        ($crate::Entry($key, $value), $crate::object!(@entries $($($rest)*)?))
+        ($crate::ObjectEntry($key, $value), $crate::object!(@entries $($($rest)*)?))
     };
     (@entries $key:literal?: $value:expr $(, $($rest:tt)*)?) => {
         ($crate::Optional($key, $value), $crate::object!(@entries $($($rest)*)?))

@@ -39,6 +39,13 @@ pub fn round_to(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
+/// The smallest number of four digits that is not below a value.
+pub fn rounded_up(value: f64) -> f64 {
+    let nearest = round_to(value, 4);
+    let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
+    if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
+}
+
 /// Returns true for characters with an effect on their display: controls (C0, DEL, C1), bidirectional controls and marks,
 /// separators of lines and paragraphs, and invisible characters, which terminals give different widths.
 pub fn is_control(c: char) -> bool {

@@ -3,8 +3,8 @@
 use crate::metadata::Metadata;
 use crate::options::CurveOptions;
 use asperity_data::{format_quantity, parse_quantity};
-use asperity_surface::Column;
-use asperity_surface::{Place, TopographyError, refused, shown};
+use asperity_surface::TextColumn;
+use asperity_surface::{Place, SurfaceError, refused, shortened};
 
 /// Term, SI unit and example unit of displacement and force, and the names of their columns as letters, preferred names
 /// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the
@@ -80,17 +80,17 @@ pub(crate) struct Stated<'a> {
 impl Choice {
     /// Chooses among columns with these names and units.
     pub fn new(
-        columns: &[Column],
+        columns: &[TextColumn],
         stated: Stated<'_>,
         options: &CurveOptions,
-    ) -> Result<Self, TopographyError> {
+    ) -> Result<Self, SurfaceError> {
         let count = columns.len();
         let is_unnamed = columns.iter().all(|column| column.name.is_empty());
         let has_units = !options.units.is_empty() || columns.iter().any(|column| column.unit.is_some());
         let units = if is_unnamed && !has_units { UNITS } else { "" };
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS.to_owned() + units);
         let names = columns.iter().map(|column| &*column.name).filter(|name| !name.is_empty());
-        let all = match &*names.map(shown).collect::<Vec<_>>().join(", ") {
+        let all = match &*names.map(shortened).collect::<Vec<_>>().join(", ") {
             "" => format!("{count} columns without names"),
             names => format!("{count} columns {names}"),
         };
@@ -98,11 +98,11 @@ impl Choice {
         let known = known(&named);
         let place = |wanted: &String| {
             let letters = letters(wanted);
-            let is_it = |column: &Column| !letters.is_empty() && self::letters(&column.name) == letters;
+            let is_it = |column: &TextColumn| !letters.is_empty() && self::letters(&column.name) == letters;
             let found = columns.iter().position(is_it);
             let number = || wanted.parse().ok().filter(|number| (1..=count).contains(number));
             let place = found.or_else(|| Some(number()? - 1));
-            place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
+            place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shortened(wanted))))
         };
         let is_unknown = !named.iter().any(|one| QUANTITIES.iter().any(|row| is_one_of(&one.rest, row.3)));
         let ramp = options.ramp.or(stated.metadata.ramp).filter(|_| count == 1);
@@ -134,7 +134,7 @@ impl Choice {
         let mut statements = Vec::new();
         let name = |place: usize| match &*columns[place].name {
             "" => (place + 1).to_string(),
-            name => shown(name),
+            name => shortened(name),
         };
         if let (Ok(by_name), false) = (&known, options.columns.is_empty())
             && *by_name != places
@@ -162,7 +162,7 @@ impl Choice {
             }
             Ok(Pair { places, units })
         };
-        let pairs = places.iter().map(|places| pair(*places)).collect::<Result<_, TopographyError>>()?;
+        let pairs = places.iter().map(|places| pair(*places)).collect::<Result<_, SurfaceError>>()?;
         statements.dedup();
         let mut assumed = format!("Columns: {}", words[..2].join(", "));
         if let Some(beside) = words.get(2..).filter(|beside| !beside.is_empty()) {
@@ -184,7 +184,7 @@ fn of_one(
     file: Stated<'_>,
     options: &CurveOptions,
     statements: &mut Vec<String>,
-) -> Result<(f64, String), TopographyError> {
+) -> Result<(f64, String), SurfaceError> {
     let (term, si, example, _) = QUANTITIES[quantity];
     let option = options.units.get(quantity).map(String::as_str);
     let wrong = |fault: String, allowed: &str| refused(Place::File, fault, allowed);
@@ -196,7 +196,7 @@ fn of_one(
         && let Some(of_one) = of_deflection(text, file.metadata)
     {
         let (value, by) = of_one?;
-        return Ok((value, format!("{} by {by}", shown(text))));
+        return Ok((value, format!("{} by {by}", shortened(text))));
     }
     let is_multiple = text.starts_with(|first: char| first.is_ascii_digit());
     let value = if is_multiple && option.is_some() {
@@ -206,29 +206,30 @@ fn of_one(
     };
     let value = value.ok_or_else(|| {
         wrong(
-            format!("{:?} is not a unit of the {term}", shown(text)),
+            format!("{:?} is not a unit of the {term}", shortened(text)),
             &format!("{example} and the like, or the value of 1, such as --units nm,3.01nN"),
         )
     })?;
     let other = stated.or(file.is_si.then_some(si)).filter(|other| unit(other, si) != Some(value));
     if let Some((other, option)) = other.zip(option) {
-        let other = shown(other);
+        let other = shortened(other);
         statements
-            .push(format!("Unit of the {term} by --units: {}; the file states {other}.", shown(option)));
+            .push(format!("Unit of the {term} by --units: {}; the file states {other}.", shortened(option)));
     }
-    Ok((value, shown(text)))
+    Ok((value, shortened(text)))
 }
 
 /// SI value of 1 in a column of a deflection in this unit, a length or a voltage, and what makes it a force; `None` for
 /// another unit.
-fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String), TopographyError>> {
+fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String), SurfaceError>> {
     let (of_length, of_voltage) = (unit(text, "m"), unit(text, "V"));
     let stiffness = metadata.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
     let sensitivity = of_voltage.and(metadata.sensitivity);
     let deflection =
         of_length.or(of_voltage.zip(sensitivity).map(|(volts, sensitivity)| volts * sensitivity));
     let missing = |what: &str| {
-        let fault = format!("the force is a deflection in {}, and the file states no {what}", shown(text));
+        let fault =
+            format!("the force is a deflection in {}, and the file states no {what}", shortened(text));
         Err(refused(Place::File, fault, "the force of 1 in the column, such as --units nm,3.01nN"))
     };
     Some(match (of_length.or(of_voltage)?, deflection, stiffness) {
@@ -254,7 +255,7 @@ struct Named {
 }
 
 impl Named {
-    fn of(column: &Column) -> Named {
+    fn of(column: &TextColumn) -> Named {
         let words: Vec<&str> =
             column.name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
         let is_unit = |word: &&&str| {

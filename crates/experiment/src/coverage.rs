@@ -1,7 +1,7 @@
 //! The intervals of many fits of curves with known values hold these values.
 
 use crate::error::ExperimentError;
-use crate::fit::{Fit, FittedParameter};
+use crate::fit::{FitResult, FittedParameter};
 use crate::made::{fitted, free, measured, noise, random, truth};
 use crate::parameter::Parameter;
 use asperity_data::on_threads;
@@ -51,7 +51,7 @@ fn intervals_hold_the_truth_of_most_spheres() {
         seconds.push(of_seed);
         // The zero of the reading is off by the mean of the noise before contact.
         let zero = -noise(&made, seed)[..curve.free].iter().sum::<f64>() / curve.free as f64;
-        let count_held = |held: &mut Held, fit: &Fit, one: &FittedParameter| {
+        let count_held = |held: &mut Held, fit: &FitResult, one: &FittedParameter| {
             let truth = if one.parameter == Parameter::Zero { zero } else { truth(&made, one.parameter) };
             let holds = one.interval.0 <= truth && truth <= one.interval.1;
             (held.held, held.all) = (held.held + usize::from(holds), held.all + 1);

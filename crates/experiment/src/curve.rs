@@ -77,6 +77,33 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
     }
 
+    /// Takes a curve from displacements (m) and forces (N) in the order of time. A point with a value that is not finite is
+    /// left out. The options of files have no effect: columns, units and the ramp.
+    ///
+    /// # Errors
+    /// Numbers of values that differ, and as [`MeasuredCurve::read`].
+    ///
+    /// ```
+    /// use asperity_experiment::{CurveOptions, MeasuredCurve};
+    ///
+    /// // A spring of 10 N/m that is pressed from 0 to 50 nm and released.
+    /// let way = |i: i32| 1e-9 * f64::from(if i < 150 { i - 100 } else { 200 - i });
+    /// let displacement: Vec<f64> = (0..300).map(way).collect();
+    /// let force: Vec<f64> = displacement.iter().map(|d| 10.0 * d.max(0.0)).collect();
+    /// let curve = MeasuredCurve::from_columns(&displacement, &force, &CurveOptions::default())?;
+    /// assert_eq!((curve.points, curve.segment[299]), (300, 1));
+    /// assert!(curve.touch.abs() < 2e-9 && curve.pull_off_force().is_none());
+    /// assert!(MeasuredCurve::from_columns(&displacement, &force[1..], &CurveOptions::default()).is_err());
+    /// # Ok::<(), asperity_experiment::ExperimentError>(())
+    /// ```
+    pub fn from_columns(
+        displacement: &[f64],
+        force: &[f64],
+        options: &CurveOptions,
+    ) -> Result<Self, ExperimentError> {
+        MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
+    }
+
     /// Returns true if a file has displacements and forces, whether or not they are used as a curve.
     pub fn is_in(path: &Path) -> bool {
         let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());

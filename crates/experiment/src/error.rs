@@ -2,15 +2,16 @@
 
 use asperity_contact::ContactError;
 use asperity_scene::RunError;
-use asperity_surface::TopographyError;
+use asperity_surface::SurfaceError;
 use thiserror::Error;
 
 /// Reason why a curve cannot be read or fitted. The caller prepends the name of the file or scene.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ExperimentError {
     /// The file cannot be read as a curve.
     #[error(transparent)]
-    File(#[from] TopographyError),
+    File(#[from] SurfaceError),
     /// The curve or the scene cannot be fitted.
     #[error("{found}; allowed: {allowed}")]
     Refused {

@@ -12,7 +12,7 @@ use crate::scene::{with_values, wrong};
 use crate::search::{Found, MISFIT, Search};
 use crate::space::Space;
 use crate::statistics::{block_error, correlated, correlation, spread, widen};
-use asperity_data::format_within;
+use asperity_data::{Control, format_within};
 use asperity_scene::Document;
 use asperity_scene::Simulation;
 use asperity_scene::scene_tabor_number;
@@ -29,6 +29,7 @@ const NORMAL: f64 = 1.96;
 
 /// A fitted parameter with its errors.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct FittedParameter {
     /// Which parameter it is.
     #[serde(skip)]
@@ -63,7 +64,8 @@ impl FittedParameter {
 
 /// Result of a fit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Fit {
+#[non_exhaustive]
+pub struct FitResult {
     /// The free parameters with their errors.
     #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
@@ -109,7 +111,7 @@ fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, 
     document.scene().serialize(serializer)
 }
 
-impl Fit {
+impl FitResult {
     /// Returns true if the model describes the curve.
     pub fn describes(&self) -> bool {
         self.misfit <= MISFIT
@@ -122,19 +124,66 @@ impl Fit {
     }
 }
 
-/// Fits parameters of a scene to a curve. `stop` is polled before each computed curve, and `report` receives the number of
-/// curves so far.
+/// A fit to be made: a scene and its free parameters.
 ///
-/// # Errors
-/// Options or values of the curve are not allowed, the scene lacks a free parameter, a computation fails, or `stop`
-/// returned true.
-pub fn fit(
+/// ```
+/// use asperity_data::Control;
+/// use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
+/// use asperity_scene::{Document, open, run};
+///
+/// // The computed curve of a sphere with a work of adhesion of 0.05 J/m², by a rigid instrument.
+/// let scene = open("jkr-sphere")?.set("numerics.points", "256")?;
+/// let legs = run(&scene)?.history.legs;
+/// let points = legs.iter().flat_map(|leg| leg.curve.iter().map(|point| (point.indentation, point.force)));
+/// let free = (0..100).map(|i| (1e-8 * f64::from(i - 100), 0.0));
+/// let (displacement, force): (Vec<f64>, Vec<f64>) = free.chain(points).unzip();
+/// let curve = MeasuredCurve::from_columns(&displacement, &force, &CurveOptions { noise: Some(1e-8), ..CurveOptions::default() })?;
+///
+/// let start = scene.set("adhesion.work", "0.03")?;
+/// let fit = Fit::of(&start).free(Parameter::Work).free(Free::within(Parameter::Offset, (-1e-7, 1e-7))?);
+/// let found = fit.run(&curve, Control::default())?;
+/// assert!((found.parameters[0].value / 0.05 - 1.0).abs() < 0.01);
+/// assert!(Fit::of(&start).run(&curve, Control::default()).is_err(), "no free parameter");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Fit<'a> {
+    document: &'a Document,
+    free: Vec<Free>,
+}
+
+impl<'a> Fit<'a> {
+    /// A fit of this scene, without a free parameter so far.
+    pub fn of(document: &'a Document) -> Self {
+        Fit { document, free: Vec::new() }
+    }
+
+    /// Frees a parameter, in a range of its own if it is a [`Free::within`].
+    #[must_use]
+    pub fn free(mut self, free: impl Into<Free>) -> Self {
+        self.free.push(free.into());
+        self
+    }
+
+    /// Fits the free parameters to a curve, on one thread. The progress is the number of curves computed so far.
+    ///
+    /// # Errors
+    /// No free parameter or one given twice, a scene that lacks one, values of the curve that are not allowed, a computation
+    /// that fails, or a stop.
+    pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
+        let stop = control.stop();
+        find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))
+    }
+}
+
+/// Fits parameters of a scene to a curve; `report` receives the number of computed curves.
+fn find(
     curve: &MeasuredCurve,
     document: &Document,
     free: &[Free],
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(usize),
-) -> Result<Fit, ExperimentError> {
+) -> Result<FitResult, ExperimentError> {
     let given = document;
     let mut simulation = Simulation::new(given.resolve(""));
     let instrument = curve.with_instrument(given).map_err(wrong)?.1;
@@ -143,8 +192,8 @@ pub fn fit(
         searched(curve, &document, &mut simulation, &space, report)?;
     if let Some(free) = space.extended(&found.best.at, free) {
         let mut report = |computed: usize| report(evaluations + computed);
-        let fit = fit(curve, given, &free, stop, &mut report)?;
-        return Ok(Fit { evaluations: evaluations + fit.evaluations, ..fit });
+        let fit = find(curve, given, &free, stop, &mut report)?;
+        return Ok(FitResult { evaluations: evaluations + fit.evaluations, ..fit });
     }
     let values = space.values(&found.best.at);
     let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
@@ -200,7 +249,7 @@ pub fn fit(
         (misfit > MISFIT).then(|| reason(curve, found.scene(), &mut simulation, (&values, &free), tabor));
     let residual_over_noise = (dot(&rests, &rests) / rests.len() as f64).sqrt();
     let beyond = rests.iter().filter(|rest| rest.abs() > WRONG_SIDE).count();
-    Ok(Fit {
+    Ok(FitResult {
         parameters,
         residual: curve.noise * residual_over_noise,
         misfit,
@@ -218,7 +267,7 @@ pub fn fit(
     })
 }
 
-/// The result of the search, with the residuals of all points of the curve, their [`Fit::misfit`], and the number of curves
+/// The result of the search, with the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
 /// computed.
 struct Searched {
     found: Found,
@@ -268,7 +317,7 @@ mod tests {
 
     /// Asserts that the values differ from the truth by at most a few standard errors, and that the residuals are as large
     /// as the noise.
-    fn assert_found(made: &Made, fit: &Fit) {
+    fn assert_found(made: &Made, fit: &FitResult) {
         assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
         for one in &fit.parameters {
             let truth = truth(made, one.parameter);
@@ -343,7 +392,7 @@ mod tests {
         let Free { parameter, .. } = "work".parse().unwrap();
         let given = [Free { parameter, range: Some((0.0, 30.0 * work.start)) }, "offset".parse().unwrap()];
         let document = Document::from_scene(&made.scene, "made").unwrap();
-        let bounded = super::fit(&curve, &document, &given, &|| false, &mut |_| ()).unwrap();
+        let bounded = find(&curve, &document, &given, &|| false, &mut |_| ()).unwrap();
         assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
     }
 

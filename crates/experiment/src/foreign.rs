@@ -1,6 +1,6 @@
 //! Binary files of instruments, which are refused with the way to a text.
 
-use asperity_surface::{Place, TopographyError, refused};
+use asperity_surface::{Place, SurfaceError, refused};
 use std::path::Path;
 
 /// Ends of the names of binary files, the first bytes that identify them, what they are, and how the curve becomes a text.
@@ -35,7 +35,7 @@ const FORMATS: [(&[&str], &[u8], &str, &str); 12] = [
 ];
 
 /// Returns an error for a file that is no text: what it is, and how its curve becomes a text.
-pub(crate) fn check_is_text(path: &Path, bytes: &[u8]) -> Result<(), TopographyError> {
+pub(crate) fn check_is_text(path: &Path, bytes: &[u8]) -> Result<(), SurfaceError> {
     let is_wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     if is_wide || !bytes.contains(&0) {
         return Ok(());

@@ -34,12 +34,12 @@ mod made;
 
 pub use curve::MeasuredCurve;
 pub use ensemble::find::fit_ensemble;
-pub use ensemble::posterior::Estimate;
+pub use ensemble::posterior::IntervalEstimate;
 pub use ensemble::result::{
     CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares, SummaryDeviation,
 };
 pub use error::ExperimentError;
-pub use fit::{Fit, FittedParameter, fit};
+pub use fit::{Fit, FitResult, FittedParameter};
 pub use options::{CurveOptions, Drift, Negate, Tilt};
-pub use parameter::{Free, Parameter, Row};
+pub use parameter::{Free, Parameter, ParameterRow};
 pub use reason::Reason;

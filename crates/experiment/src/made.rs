@@ -1,12 +1,13 @@
 //! Curves of scenes with known values, for tests.
 
 use crate::curve::MeasuredCurve;
-use crate::fit::{Fit, fit};
+use crate::fit::{Fit, FitResult};
 use crate::options::{CurveOptions, Drift};
 use crate::parameter::{Free, Parameter};
 use crate::scene::radius_of;
 use asperity_contact::CurvePoint;
 use asperity_contact::Move;
+use asperity_data::Control;
 use asperity_scene::Simulation;
 use asperity_scene::{Adhesion, Document, Material, Scene, open};
 use rand::{RngExt, SeedableRng};
@@ -197,13 +198,14 @@ pub(crate) fn truth(made: &Made, parameter: Parameter) -> f64 {
     }
 }
 
-pub(crate) fn fit_from(curve: &MeasuredCurve, document: &Document, free: &str) -> Fit {
+pub(crate) fn fit_from(curve: &MeasuredCurve, document: &Document, free: &str) -> FitResult {
     let free: Vec<Free> = free.split(',').map(|one| one.parse().unwrap()).collect();
-    fit(curve, document, &free, &|| false, &mut |_| ()).unwrap()
+    let fit = free.into_iter().fold(Fit::of(document), Fit::free);
+    fit.run(curve, Control::default()).unwrap()
 }
 
 /// The fit of free parameters whose search begins far from the truth.
-pub(crate) fn fitted(curve: &MeasuredCurve, made: &Made, free: &str) -> Fit {
+pub(crate) fn fitted(curve: &MeasuredCurve, made: &Made, free: &str) -> FitResult {
     let mut scene = made.scene.clone();
     scene.adhesion = Some(Adhesion::by_work(3.0 * truth(made, Parameter::Work)));
     if free.contains("modulus") {

@@ -1,7 +1,7 @@
 //! What the lines above the numbers of a curve state about its instrument.
 
 use asperity_data::parse_quantity;
-use asperity_surface::{Cell, Decimal, Separator};
+use asperity_surface::{Decimal, Separator, TextCell};
 
 /// Names of the stiffness of the instrument, of the deflection for 1 V, and of the travel of the piezo, as letters.
 const STIFFNESS: [&str; 6] =
@@ -36,7 +36,7 @@ impl Metadata {
         let value = value.strip_prefix("V ").unwrap_or(value).trim();
         let end = value.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c))).unwrap_or(value.len());
         let (number, of_value) = value.split_at(end);
-        let Cell::Number(number) = Decimal::default().read(number, Separator::SPACE) else { return };
+        let TextCell::Number(number) = Decimal::default().read(number, Separator::SPACE) else { return };
         if number <= 0.0 {
             return;
         }

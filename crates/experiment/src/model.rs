@@ -4,7 +4,7 @@ use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::parameter::{Parameter, Values};
-use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Foundation, HessRule, Leg};
+use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Leg, Modulus};
 use asperity_scene::Scene;
 use asperity_scene::Simulation;
 use asperity_scene::{DisplacementCurve, DisplacementPoint};
@@ -63,14 +63,9 @@ impl<'a> Model<'a> {
         let Some((contact, _)) = &self.contact else {
             return Err(ContactError::Internal("the contact of the scene has not been made").into());
         };
-        let foundation =
-            Foundation { effective_modulus: values[Parameter::Modulus as usize], ..contact.foundation() };
-        let rule = HessRule::from_works(
-            foundation,
-            values[Parameter::ClosingWork as usize],
-            values[Parameter::Work as usize],
-        );
-        Ok(contact.with_rule(foundation, (values[Parameter::Work as usize] > 0.0).then_some(rule)))
+        let [modulus, closing, work] = [Parameter::Modulus, Parameter::ClosingWork, Parameter::Work]
+            .map(|parameter| values[parameter as usize]);
+        Ok(contact.with(Modulus::effective(modulus)?).works_of_adhesion([closing, work]).build()?)
     }
 
     /// Computes the forces at the points of the curve, N.

@@ -1,5 +1,6 @@
 //! Parameters of a fit: names, units, ranges, and the coordinates in which they are searched.
 
+use crate::error::{ExperimentError, refused};
 use asperity_data::parse_quantity;
 use asperity_scene::did_you_mean;
 use serde::{Serialize, Serializer};
@@ -7,6 +8,7 @@ use std::str::FromStr;
 
 /// Parameter of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Parameter {
     /// Work of adhesion.
     Work,
@@ -35,7 +37,7 @@ pub(crate) type Values = [f64; 7];
 
 /// Names, symbol and unit of a parameter.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct ParameterRow {
     /// Name on the command line and in JSON.
     pub name: &'static str,
     /// Name in words.
@@ -54,8 +56,8 @@ impl Parameter {
     };
 
     /// Names, symbol and unit of the parameter.
-    pub fn row(self) -> Row {
-        let row = |name, term, symbol, unit| Row { name, term, symbol, unit };
+    pub fn row(self) -> ParameterRow {
+        let row = |name, term, symbol, unit| ParameterRow { name, term, symbol, unit };
         match self {
             Parameter::Work => row("work", "work of adhesion", "γ", "J/m²"),
             Parameter::ClosingWork => row("closing_work", "work of adhesion on closing", "γ₁", "J/m²"),
@@ -123,12 +125,46 @@ impl Parameter {
 }
 
 /// A free parameter of a fit, with a range if one is given.
+///
+/// ```
+/// use asperity_experiment::{Free, Parameter};
+///
+/// assert_eq!("work=10mJ/m^2..1J/m^2".parse(), Free::within(Parameter::Work, (0.01, 1.0)).map_err(|error| error.to_string()));
+/// let error = Free::within(Parameter::Modulus, (2e6, 1e6)).unwrap_err();
+/// assert_eq!(error.to_string(), "modulus: 2000000.0..1000000.0 Pa; allowed: two values above 0, the first below the second");
+/// assert_eq!(Free::from(Parameter::Offset).range(), None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
     /// Which parameter is free.
     pub parameter: Parameter,
     /// Ends of the range in SI units; `None` for a range around the start.
-    pub range: Option<(f64, f64)>,
+    pub(crate) range: Option<(f64, f64)>,
+}
+
+impl Free {
+    /// A free parameter that is searched from the first to the second value, in the SI unit of the parameter.
+    ///
+    /// # Errors
+    /// The first value is not below the second one, a value is not finite, or the parameter does not allow it.
+    pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
+        if parameter.allows(range) {
+            return Ok(Free { parameter, range: Some(range) });
+        }
+        let ParameterRow { name, unit, .. } = parameter.row();
+        refused(format!("{name}: {:?}..{:?} {unit}", range.0, range.1), parameter.ranges())
+    }
+
+    /// Ends of the range in the SI unit of the parameter; `None` for a range around the start.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        self.range
+    }
+}
+
+impl From<Parameter> for Free {
+    fn from(parameter: Parameter) -> Self {
+        Free { parameter, range: None }
+    }
 }
 
 impl FromStr for Free {

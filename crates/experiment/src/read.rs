@@ -9,8 +9,8 @@ use crate::options::CurveOptions;
 use crate::segment::Label;
 use crate::text::{Above, Shape, beginning, is_comment, segment_of};
 use asperity_data::{PROVENANCE, grouped, npy};
-use asperity_surface::{Cell, Column, Decimal, ONE_MARK, each_text};
-use asperity_surface::{Place, TopographyError, columns as npy_columns, refused, shown, unpacked};
+use asperity_surface::{Decimal, ONE_MARK, TextCell, TextColumn, each_text};
+use asperity_surface::{Place, SurfaceError, columns as npy_columns, refused, shortened, unpacked};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -61,6 +61,22 @@ impl Columns {
         Ok(columns)
     }
 
+    /// Takes displacements, m, and forces, N; a point with a missing value, which is not finite, is left out.
+    pub fn of_arrays(displacement: &[f64], force: &[f64]) -> Result<Self, ExperimentError> {
+        if displacement.len() != force.len() {
+            let found = format!("{} displacements and {} forces", displacement.len(), force.len());
+            return crate::error::refused(found, "one force for each displacement");
+        }
+        let mut columns =
+            Columns { assumed: "displacements in m, forces in N".to_owned(), ..Columns::default() };
+        let pair = Pair { places: [0, 1], units: [1.0; 2] };
+        for (index, (displacement, force)) in displacement.iter().zip(force).enumerate() {
+            columns.push([*displacement, *force], &pair, Place::Point(index + 1))?;
+        }
+        columns.check_displacements(Place::Point)?;
+        Ok(columns)
+    }
+
     /// Points left out, in words; empty if there are none.
     pub fn left_out(&self) -> Vec<String> {
         let count = |count: usize| grouped(count as u64);
@@ -108,7 +124,7 @@ impl Columns {
 
     /// Adds a point with these values of displacement and force in the units of the file, unless a value is missing or the
     /// point repeats the one before. Returns true if it was added.
-    fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<bool, TopographyError> {
+    fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<bool, SurfaceError> {
         if !values.iter().all(|value| value.is_finite()) {
             self.missing += 1;
             return Ok(false);
@@ -140,7 +156,7 @@ impl Columns {
     }
 
     /// Returns an error for a few displacements far from all others: mistakes in a file that would determine the range.
-    fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), TopographyError> {
+    fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), SurfaceError> {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
         let count = sorted.len();
@@ -179,7 +195,7 @@ struct Points {
 }
 
 impl Points {
-    fn new(columns: &[Column], stated: Stated<'_>, options: &CurveOptions) -> Result<Self, TopographyError> {
+    fn new(columns: &[TextColumn], stated: Stated<'_>, options: &CurveOptions) -> Result<Self, SurfaceError> {
         let mut choice = Choice::new(columns, stated, options)?;
         let mut parts: Vec<_> = choice.pairs.iter().map(|_| Columns::default()).collect();
         parts[0].statements = std::mem::take(&mut choice.statements);
@@ -202,9 +218,9 @@ impl Points {
     fn take<'a>(
         &mut self,
         place: &Place,
-        mut value: impl FnMut(usize) -> Result<f64, TopographyError>,
+        mut value: impl FnMut(usize) -> Result<f64, SurfaceError>,
         text: impl Fn(usize) -> Cow<'a, str>,
-    ) -> Result<(), TopographyError> {
+    ) -> Result<(), SurfaceError> {
         if let Some(column) = self.choice.segment {
             self.begin_segment(&text(column));
         }
@@ -247,11 +263,11 @@ impl Points {
     }
 }
 
-fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, TopographyError> {
+fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let (names, values) = npy_columns(bytes)?;
     // A force curve or a fit of this program, in SI units.
     let is_si = names.iter().any(|name| ["contact_length", "residual"].contains(&name.as_str()));
-    let mut columns = vec![Column::default(); values.len()];
+    let mut columns = vec![TextColumn::default(); values.len()];
     columns.iter_mut().zip(names).for_each(|(column, name)| column.name = name);
     let mut points = Points::new(&columns, Stated { metadata: &Metadata::default(), is_si }, options)?;
     (0..values.first().map_or(0, Vec::len)).try_for_each(|point| {
@@ -262,7 +278,7 @@ fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogr
     Ok(points.parts)
 }
 
-fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, TopographyError> {
+fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let Some((first, shape)) = beginning(bytes)? else { return Ok(Vec::new()) };
     let (mut above, mut points, mut decimal) = (Above::default(), None::<Points>, Decimal::default());
     // Name of a segment above its points.
@@ -287,7 +303,8 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Topogra
             }
         };
         let cells: Vec<&str> = shape.separator.split(line).collect();
-        let is_word = |cell: &&str| matches!(Decimal::default().read(cell, shape.separator), Cell::NoNumber);
+        let is_word =
+            |cell: &&str| matches!(Decimal::default().read(cell, shape.separator), TextCell::NoNumber);
         if cells.len() != shape.count || cells.iter().all(is_word) {
             if cells.iter().all(is_word) && names_segment(line) {
                 line.clone_into(&mut name);
@@ -319,18 +336,18 @@ fn number_in(
     shape: &Shape,
     decimal: &mut Decimal,
     place: &Place,
-) -> Result<f64, TopographyError> {
+) -> Result<f64, SurfaceError> {
     let (fault, allowed) = match decimal.read(cell, shape.separator) {
         // A number of hundreds of digits is not the word for infinity, which marks a missing value.
-        Cell::Number(value) if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) => {
+        TextCell::Number(value) if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) => {
             ("beyond all numbers", "displacements and forces, NaN for a missing value")
         }
-        Cell::Number(value) => return Ok(value),
-        Cell::Missing => return Ok(f64::NAN),
-        Cell::OtherMark => ("a number with another decimal mark than the numbers before", ONE_MARK),
-        Cell::NoNumber => ("not a number", "numbers of one decimal mark, NaN for a missing value"),
+        TextCell::Number(value) => return Ok(value),
+        TextCell::Missing => return Ok(f64::NAN),
+        TextCell::OtherMark => ("a number with another decimal mark than the numbers before", ONE_MARK),
+        TextCell::NoNumber => ("not a number", "numbers of one decimal mark, NaN for a missing value"),
     };
-    Err(refused(place.clone(), format!("column {}: {:?} is {fault}", column + 1, shown(cell)), allowed))
+    Err(refused(place.clone(), format!("column {}: {:?} is {fault}", column + 1, shortened(cell)), allowed))
 }
 
 #[cfg(test)]

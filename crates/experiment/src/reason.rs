@@ -38,6 +38,7 @@ const CUT: f64 = 5.0;
 
 /// Why a model does not describe a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum Reason {
     /// The contact fills the profile of this length, m.
     #[error("The contact fills the profile of {}: it needs a larger length.", format_quantity(*.0, "m"))]

@@ -4,7 +4,7 @@
 use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
-use asperity_contact::{Contact, Foundation, Leg};
+use asperity_contact::{Contact, Leg, Modulus};
 use std::f64::consts::PI;
 
 /// Pull-off force of a smooth body, over the pull-off force of the curve, up to which the coordinate of the work of
@@ -49,8 +49,7 @@ impl Starts {
         let way = curve.turns[0] - curve.touch;
         let deflection = known.stiffness.map_or(0.0, |stiffness| pressed / stiffness);
         let indentation = (way - deflection).max(LEAST * way);
-        let foundation = Foundation { effective_modulus: 1.0, ..contact.foundation() };
-        let leg = Leg::approach(&contact.with_rule(foundation, None))?;
+        let leg = Leg::approach(&contact.with(Modulus::effective(1.0)?).build()?)?;
         let modulus = (pressed + 2.0 * pull_off) / leg.point(indentation)?.force;
         let modulus = known.modulus.unwrap_or(modulus);
         let smooth = |force: f64| {

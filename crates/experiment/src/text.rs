@@ -2,7 +2,7 @@
 
 use crate::columns::is_unit;
 use crate::metadata::Metadata;
-use asperity_surface::{Cell, Column, Decimal, Header, Separator, TopographyError, each_text};
+use asperity_surface::{Decimal, Separator, SurfaceError, TextCell, TextColumn, TextHeader, each_text};
 
 /// Number of like rows of numbers from which on they are points: lines of metadata with numbers are not as many.
 const RUN: usize = 5;
@@ -26,8 +26,8 @@ impl Shape {
         let (mut words, mut count, mut numbers) = (Vec::new(), 0, 0);
         for cell in separator.split(line) {
             match Decimal::default().read(cell, separator) {
-                Cell::Number(_) => numbers += 1,
-                Cell::Missing => {}
+                TextCell::Number(_) => numbers += 1,
+                TextCell::Missing => {}
                 _ => words.push(count),
             }
             count += 1;
@@ -38,7 +38,7 @@ impl Shape {
 
 /// The line at which the points begin, and their form: that of the first few like rows, or else of the first row. `None`
 /// without a row of numbers.
-pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, TopographyError> {
+pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, SurfaceError> {
     for least in [2, 1] {
         let (mut first, mut run) = (None, None::<(usize, Shape)>);
         let (mut length, mut has_found) = (0, false);
@@ -81,7 +81,7 @@ pub(crate) fn segment_of(comment: &str) -> Option<&str> {
 /// The lines above the points.
 #[derive(Default)]
 pub(crate) struct Above {
-    pub header: Header,
+    pub header: TextHeader,
     pub metadata: Metadata,
     /// Names of columns with the first numbers behind the last name, in a file without a line end between them.
     merged: Option<String>,
@@ -93,7 +93,7 @@ impl Above {
         self.metadata.take(line);
         let cells: Vec<&str> = shape.separator.split(line.trim_start_matches(COMMENT)).collect();
         let is_number =
-            |cell: &&str| matches!(Decimal::default().read(cell, shape.separator), Cell::Number(_));
+            |cell: &&str| matches!(Decimal::default().read(cell, shape.separator), TextCell::Number(_));
         let is_merged = is_comment(line)
             && cells.len() == (2 * shape.count).saturating_sub(1)
             && !cells[..shape.count].iter().any(is_number)
@@ -106,12 +106,12 @@ impl Above {
     }
 
     /// Names and units of the columns.
-    pub fn columns(&self, shape: &Shape) -> Vec<Column> {
-        let of = |header: &Header| header.columns(shape.count, shape.count, shape.separator, is_unit);
+    pub fn columns(&self, shape: &Shape) -> Vec<TextColumn> {
+        let of = |header: &TextHeader| header.columns(shape.count, shape.count, shape.separator, is_unit);
         match &self.merged {
             None => of(&self.header),
             Some(names) => {
-                let mut header = Header::default();
+                let mut header = TextHeader::default();
                 header.take(names);
                 of(&header)
             }

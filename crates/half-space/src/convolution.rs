@@ -2,38 +2,46 @@
 
 use asperity_data::{OutOfMemory, resized};
 use asperity_fourier::{
-    Complex64, ComplexToReal, Fft, RealToComplex, plan_forward, plan_inverse, plan_real_forward,
+    Complex, ComplexToReal, Fft, FftNum, RealToComplex, plan_forward, plan_inverse, plan_real_forward,
     plan_real_inverse,
 };
 use std::sync::Arc;
 
-/// Columns that are transformed together: memory is read in rows, columns are computed contiguously.
-const BLOCK: usize = 8;
+/// Bytes of the columns of one row that are transformed together: memory is read in rows, columns are computed
+/// contiguously.
+const BLOCK: usize = 128;
 
-/// A planned convolution. Rows are transformed first; then each block of columns is gathered, transformed, multiplied,
-/// transformed back and stored, in one pass over the memory.
-pub struct Convolution {
+/// A planned convolution of numbers of the type T. Rows are transformed first; then each block of columns is gathered,
+/// transformed, multiplied, transformed back and stored, in one pass over the memory.
+pub struct Convolution<T> {
     /// Rows and columns of the grid.
     cells: usize,
     /// Rows and columns of the grid with its margin of zeros.
     padded: usize,
     /// Transform of the kernel over the number of padded cells, column by column.
-    transfer: Vec<f64>,
-    rows: (Arc<dyn RealToComplex<f64>>, Arc<dyn ComplexToReal<f64>>),
-    columns: (Arc<dyn Fft<f64>>, Arc<dyn Fft<f64>>),
-    /// Distance of the rows of the half spectra: no power of two, which would fall on the same lines of the cache.
-    stride: usize,
-    spectra: Vec<Complex64>,
-    row: Vec<f64>,
-    block: Vec<Complex64>,
-    scratch: Vec<Complex64>,
+    transfer: Vec<T>,
+    rows: (Arc<dyn RealToComplex<T>>, Arc<dyn ComplexToReal<T>>),
+    columns: (Arc<dyn Fft<T>>, Arc<dyn Fft<T>>),
+    spectra: Vec<Complex<T>>,
+    row: Vec<T>,
+    block: Vec<Complex<T>>,
+    scratch: Vec<Complex<T>>,
 }
 
-impl Convolution {
-    /// Bytes of a planned convolution.
+impl<T: FftNum + Default> Convolution<T> {
+    /// Columns that are transformed together.
+    const TOGETHER: usize = BLOCK / size_of::<Complex<T>>();
+
+    /// Bytes of a planned convolution, and of its planning beside it.
     pub fn bytes(cells: usize, padded: usize) -> u64 {
-        let complex = stride(padded) * cells + (2 * BLOCK + 4) * padded;
-        (8 * padded * (padded / 2 + 1) + 16 * complex) as u64
+        let half = padded / 2 + 1;
+        let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * padded;
+        (size_of::<T>() * (padded * half + 2 * complex) + 8 * half * half) as u64
+    }
+
+    /// Distance of the rows of the half spectra: no power of two, which would fall on the same lines of the cache.
+    fn stride(padded: usize) -> usize {
+        (padded / 2 + 1).next_multiple_of(Self::TOGETHER) + Self::TOGETHER / 2
     }
 
     /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves over the padded
@@ -47,7 +55,7 @@ impl Convolution {
         let scale = 1.0 / (padded * padded) as f64;
         for (column, values) in planned.transfer.chunks_exact_mut(padded).enumerate() {
             for (row, value) in values.iter_mut().enumerate() {
-                *value = scale * transform(column as f64, row.min(padded - row) as f64);
+                *value = number(scale * transform(column as f64, row.min(padded - row) as f64));
             }
         }
         Ok(planned)
@@ -62,19 +70,23 @@ impl Convolution {
     ) -> Result<Self, OutOfMemory> {
         let mut planned = Convolution::plan(cells, padded)?;
         let half = padded / 2 + 1;
-        let mut rows = resized(Vec::new(), padded * half, Complex64::default())?;
-        let apart = |index: usize| index.min(padded - index);
-        for (y, spectrum) in rows.chunks_exact_mut(half).enumerate() {
-            (0..padded).zip(&mut planned.row).for_each(|(x, value)| *value = kernel(apart(x), apart(y)));
+        // An even kernel has a real transform, and its rows beyond the half are those before it.
+        let mut rows = resized(Vec::new(), half * half, 0.0)?;
+        let (mut row, mut spectrum) = (vec![0.0; padded], vec![Complex::default(); half]);
+        let plan = plan_real_forward::<f64>(padded);
+        let mut scratch = plan.make_scratch_vec();
+        for (y, values) in rows.chunks_exact_mut(half).enumerate() {
+            (0..padded).zip(&mut row).for_each(|(x, value)| *value = kernel(x.min(padded - x), y));
             // The lengths are those of the plan.
-            let _ = planned.rows.0.process_with_scratch(&mut planned.row, spectrum, &mut planned.scratch);
+            let _ = plan.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
+            values.iter_mut().zip(&spectrum).for_each(|(value, of)| *value = of.re);
         }
         let scale = 1.0 / (padded * padded) as f64;
-        let column = &mut planned.block[..padded];
         for (k, values) in planned.transfer.chunks_exact_mut(padded).enumerate() {
-            column.iter_mut().zip(rows.chunks_exact(half)).for_each(|(value, row)| *value = row[k]);
-            planned.columns.0.process_with_scratch(column, &mut planned.scratch);
-            values.iter_mut().zip(&*column).for_each(|(value, of)| *value = scale * of.re);
+            (0..padded).zip(&mut row).for_each(|(y, value)| *value = rows[y.min(padded - y) * half + k]);
+            let _ = plan.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
+            let of = |y: usize| number(scale * spectrum[y.min(padded - y)].re);
+            values.iter_mut().enumerate().for_each(|(y, value)| *value = of(y));
         }
         Ok(planned)
     }
@@ -88,59 +100,60 @@ impl Convolution {
         Ok(Convolution {
             cells,
             padded,
-            transfer: resized(Vec::new(), padded * (padded / 2 + 1), 0.0)?,
-            stride: stride(padded),
-            spectra: resized(Vec::new(), stride(padded) * cells, Complex64::default())?,
-            row: resized(Vec::new(), padded, 0.0)?,
-            block: resized(Vec::new(), BLOCK * padded, Complex64::default())?,
-            scratch: resized(Vec::new(), scratch.max().unwrap_or(0), Complex64::default())?,
+            transfer: resized(Vec::new(), padded * (padded / 2 + 1), T::zero())?,
+            spectra: resized(Vec::new(), Self::stride(padded) * cells, Complex::default())?,
+            row: resized(Vec::new(), padded, T::zero())?,
+            block: resized(Vec::new(), Self::TOGETHER * padded, Complex::default())?,
+            scratch: resized(Vec::new(), scratch.max().unwrap_or(0), Complex::default())?,
             rows,
             columns,
         })
     }
 
     /// Convolves the grid `from` into `to`, both row by row.
-    pub fn apply(&mut self, from: &[f64], to: &mut [f64]) {
+    pub fn apply(&mut self, from: &[T], to: &mut [T]) {
         let (cells, padded, half) = (self.cells, self.padded, self.padded / 2 + 1);
-        for (values, spectrum) in from.chunks_exact(cells).zip(self.spectra.chunks_exact_mut(self.stride)) {
-            if values.iter().all(|value| *value == 0.0) {
-                spectrum[..half].fill(Complex64::default());
+        let stride = Self::stride(padded);
+        for (values, spectrum) in from.chunks_exact(cells).zip(self.spectra.chunks_exact_mut(stride)) {
+            if values.iter().all(T::is_zero) {
+                spectrum[..half].fill(Complex::default());
                 continue;
             }
             self.row[..cells].copy_from_slice(values);
-            self.row[cells..].fill(0.0);
+            self.row[cells..].fill(T::zero());
             // The lengths are those of the plan.
             let _ = self.rows.0.process_with_scratch(&mut self.row, &mut spectrum[..half], &mut self.scratch);
         }
-        for first in (0..half).step_by(BLOCK) {
-            let width = BLOCK.min(half - first);
-            for (row, spectrum) in self.spectra.chunks_exact(self.stride).enumerate() {
+        for first in (0..half).step_by(Self::TOGETHER) {
+            let width = Self::TOGETHER.min(half - first);
+            for (row, spectrum) in self.spectra.chunks_exact(stride).enumerate() {
                 let values = spectrum[first..first + width].iter().enumerate();
                 values.for_each(|(column, value)| self.block[column * padded + row] = *value);
             }
             let block = &mut self.block[..width * padded];
-            block.chunks_exact_mut(padded).for_each(|column| column[cells..].fill(Complex64::default()));
+            block.chunks_exact_mut(padded).for_each(|column| column[cells..].fill(Complex::default()));
             self.columns.0.process_with_scratch(block, &mut self.scratch);
             let transfer = &self.transfer[first * padded..];
-            block.iter_mut().zip(transfer).for_each(|(value, factor)| *value *= *factor);
+            block.iter_mut().zip(transfer).for_each(|(value, factor)| *value = *value * *factor);
             self.columns.1.process_with_scratch(block, &mut self.scratch);
-            for (row, spectrum) in self.spectra.chunks_exact_mut(self.stride).enumerate() {
+            for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
                 let values = spectrum[first..first + width].iter_mut().enumerate();
                 values.for_each(|(column, value)| *value = block[column * padded + row]);
             }
         }
-        for (values, spectrum) in to.chunks_exact_mut(cells).zip(self.spectra.chunks_exact_mut(self.stride)) {
+        for (values, spectrum) in to.chunks_exact_mut(cells).zip(self.spectra.chunks_exact_mut(stride)) {
             // Rounding leaves an imaginary part, which the spectrum of real numbers does not have.
-            spectrum[0].im = 0.0;
-            spectrum[half - 1].im = 0.0;
+            spectrum[0].im = T::zero();
+            spectrum[half - 1].im = T::zero();
             let _ = self.rows.1.process_with_scratch(&mut spectrum[..half], &mut self.row, &mut self.scratch);
             values.copy_from_slice(&self.row[..cells]);
         }
     }
 }
 
-fn stride(padded: usize) -> usize {
-    (padded / 2 + 1).next_multiple_of(BLOCK) + 4
+/// The number of the type T next to another one.
+fn number<T: FftNum>(value: f64) -> T {
+    T::from_f64(value).unwrap_or_else(T::zero)
 }
 
 #[cfg(test)]
@@ -155,7 +168,7 @@ mod tests {
     fn a_kernel_is_summed_over_all_pairs_of_cells() {
         for cells in [4, 6, 16] {
             let kernel = |x: usize, y: usize| 1.0 / (1.0 + (3 * x + x * y + 2 * y * y) as f64);
-            let mut planned = Convolution::by_kernel(cells, 2 * cells + 2, kernel).unwrap();
+            let mut planned = Convolution::<f64>::by_kernel(cells, 2 * cells + 2, kernel).unwrap();
             let (from, mut to) = (numbers(cells * cells), vec![0.0; cells * cells]);
             planned.apply(&from, &mut to);
             for (at, found) in to.iter().enumerate() {
@@ -172,7 +185,7 @@ mod tests {
     fn a_wave_is_multiplied_by_its_transform() {
         let cells = 12;
         let transform = |x: f64, y: f64| 1.0 / (1.0 + x * x + 3.0 * y);
-        let mut planned = Convolution::by_transform(cells, cells, transform).unwrap();
+        let mut planned = Convolution::<f64>::by_transform(cells, cells, transform).unwrap();
         for (kx, ky) in [(0, 0), (2, 5), (6, 1), (1, 6), (3, 0)] {
             let phase = |at: usize| {
                 std::f64::consts::TAU * ((kx * (at % cells) + ky * (at / cells)) as f64) / cells as f64

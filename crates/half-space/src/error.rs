@@ -5,6 +5,7 @@ use thiserror::Error;
 
 /// Reason why a contact is not computed.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum HalfSpaceError {
     /// The number of cells along a side.
     #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]

@@ -49,12 +49,12 @@ pub struct Grid {
     pub pressure: Vec<f64>,
     pub displacement: Vec<f64>,
     /// 1 off the contact, 0 on it.
-    pub outside: Vec<f64>,
-    /// Displacement less depth on the contact, which is to be uniform.
+    pub outside: Vec<f32>,
+    /// Displacement and depth on the contact, which is to be uniform.
     pub level: f64,
-    residual: Vec<f64>,
-    former: Vec<f64>,
-    gradient: Vec<f64>,
+    residual: Vec<f32>,
+    former: Vec<f32>,
+    gradient: Vec<f32>,
     direction: Vec<f64>,
     image: Vec<f64>,
 }
@@ -62,22 +62,23 @@ pub struct Grid {
 impl Grid {
     /// Bytes of a grid and its operators.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
-        Operators::bytes(cells, boundary) + 9 * 8 * (cells * cells) as u64
+        Operators::bytes(cells, boundary) + (5 * 8 + 4 * 4) * (cells * cells) as u64
     }
 
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
         let zeros = || resized(Vec::new(), cells * cells, 0.0);
+        let singles = || resized(Vec::new(), cells * cells, 0.0_f32);
         Ok(Grid {
             cells,
             operators: Operators::new(cells, boundary)?,
             depths: zeros()?,
             pressure: zeros()?,
             displacement: zeros()?,
-            outside: zeros()?,
+            outside: singles()?,
             level: 0.0,
-            residual: zeros()?,
-            former: zeros()?,
-            gradient: zeros()?,
+            residual: singles()?,
+            former: singles()?,
+            gradient: singles()?,
             direction: zeros()?,
             image: zeros()?,
         })
@@ -102,7 +103,7 @@ impl Grid {
             }
             Given::Indentation(depth) => {
                 self.pressure.fill(0.0);
-                let outside = |of: &f64| f64::from(u8::from(*of >= depth));
+                let outside = |of: &f64| f32::from(u8::from(*of >= depth));
                 self.outside.iter_mut().zip(&self.depths).for_each(|(out, of)| *out = outside(of));
             }
         }
@@ -140,7 +141,7 @@ impl Grid {
                 let at = row * cells + column;
                 let is_on = mean(&signed) > 0.0;
                 any |= is_on;
-                self.outside[at] = f64::from(u8::from(!is_on));
+                self.outside[at] = f32::from(u8::from(!is_on));
                 self.pressure[at] = if is_on { mean(&|at: usize| coarse.pressure[at]).max(0.0) } else { 0.0 };
             }
         }
@@ -156,8 +157,7 @@ impl Grid {
     /// Brings the pressures to the given mean, and computes the displacements.
     fn load(&mut self, given: Given) {
         if let Given::MeanPressure(mean) = given {
-            let sum: f64 = self.pressure.iter().sum();
-            let factor = mean * self.pressure.len() as f64 / sum;
+            let factor = mean * self.pressure.len() as f64 / sum(&self.pressure);
             self.pressure.iter_mut().for_each(|pressure| *pressure *= factor);
         }
         self.operators.displace(&self.pressure, &mut self.displacement);
@@ -165,36 +165,39 @@ impl Grid {
 
     /// Level of the contact: the given indentation, or the mean over the contact.
     fn find_level(&mut self, given: Given) {
+        let mean = || {
+            let [total, count] = sums([&self.displacement, &self.depths], [&self.outside], |[u, z], [out]| {
+                let on = 1.0 - f64::from(out);
+                [on * (u + z), on]
+            });
+            total / f64::max(count, 1.0)
+        };
         self.level = match given {
             Given::Indentation(depth) => depth,
-            Given::MeanPressure(_) => {
-                let (mut sum, mut count) = (0.0, 0.0);
-                for ((displacement, depth), out) in
-                    self.displacement.iter().zip(&self.depths).zip(&self.outside)
-                {
-                    let on = 1.0 - out;
-                    sum += on * (displacement + depth);
-                    count += on;
-                }
-                sum / f64::max(count, 1.0)
-            }
+            Given::MeanPressure(_) => mean(),
         };
     }
 
     /// Residuals on the contact; returns the largest of them, the deepest penetration elsewhere and the lowest pressure.
     fn judge(&mut self) -> [f64; 3] {
         std::mem::swap(&mut self.residual, &mut self.former);
-        let (mut on_contact, mut beyond, mut lowest) = (0.0_f64, 0.0_f64, 0.0_f64);
         let level = self.level;
-        let given = self.displacement.iter().zip(&self.depths).zip(&self.outside).zip(&self.pressure);
-        for (residual, (((displacement, depth), out), pressure)) in self.residual.iter_mut().zip(given) {
-            let missing = level - displacement - depth;
-            *residual = (1.0 - out) * missing;
-            on_contact = on_contact.max(residual.abs());
-            beyond = beyond.max(out * missing);
-            lowest = lowest.min(*pressure);
+        let mut found = [[0.0; LANES]; 3];
+        let [displacement, depths, pressure] = [&self.displacement, &self.depths, &self.pressure].map(lanes);
+        let cells = displacement.iter().zip(depths).zip(pressure).zip(lanes(&self.outside));
+        for (residual, (((u, z), p), out)) in self.residual.as_chunks_mut::<LANES>().0.iter_mut().zip(cells) {
+            for lane in 0..LANES {
+                let missing = level - u[lane] - z[lane];
+                let out = f64::from(out[lane]);
+                let on = (1.0 - out) * missing;
+                residual[lane] = on as f32;
+                for (most, of) in found.iter_mut().zip([on.abs(), out * missing, -p[lane]]) {
+                    most[lane] = if of > most[lane] { of } else { most[lane] };
+                }
+            }
         }
-        [on_contact, beyond, lowest]
+        let [on_contact, beyond, pull] = found.map(|lanes| lanes.into_iter().fold(0.0, f64::max));
+        [on_contact, beyond, -pull]
     }
 
     /// Removes cells that pull or carry nothing, and adds cells that penetrate. Returns true if a pressure was removed.
@@ -279,29 +282,24 @@ impl Grid {
     /// One step of the gradients on the present contact; returns the product that the next step needs.
     fn step(&mut self, given: Given, last: Option<f64>) -> f64 {
         self.operators.precondition(&self.residual, &self.outside, &mut self.gradient);
-        if let Given::MeanPressure(_) = given {
-            // The mean of the residual over the contact is zero, and so is the mean of the step.
-            let (mut sum, mut count) = (0.0, 0.0);
-            self.gradient.iter().zip(&self.outside).for_each(|(value, out)| {
-                sum += value;
-                count += 1.0 - out;
-            });
-            let mean = sum / f64::max(count, 1.0);
-            self.gradient.iter_mut().zip(&self.outside).for_each(|(value, out)| *value -= (1.0 - out) * mean);
-        }
-        let (mut product, mut turned) = (0.0, 0.0);
-        for ((gradient, residual), former) in self.gradient.iter().zip(&self.residual).zip(&self.former) {
-            product += gradient * residual;
-            turned += gradient * (residual - former);
-        }
+        let singles = [&self.gradient, &self.residual, &self.former, &self.outside];
+        let [product, former, total, count] = sums([], singles, |[], [gradient, residual, former, out]| {
+            let of = |value: f32| f64::from(gradient) * f64::from(value);
+            [of(residual), of(former), f64::from(gradient), 1.0 - f64::from(out)]
+        });
+        // Under a force the mean of the residual over the contact is zero, and so is the mean of the step.
+        let mean = if matches!(given, Given::MeanPressure(_)) { total / f64::max(count, 1.0) } else { 0.0 };
+        let turned = product - former;
         let carried = last.map_or(0.0, |last| if last > 0.0 { (turned / last).max(0.0) } else { 0.0 });
-        self.direction.iter_mut().zip(&self.gradient).for_each(|(to, of)| *to = of + carried * *to);
-        self.operators.displace(&self.direction, &mut self.image);
-        let (mut along, mut curvature) = (0.0, 0.0);
-        for ((direction, residual), image) in self.direction.iter().zip(&self.residual).zip(&self.image) {
-            along += direction * residual;
-            curvature += direction * image;
+        let singles = self.gradient.iter().zip(&self.outside);
+        for (direction, (gradient, out)) in self.direction.iter_mut().zip(singles) {
+            *direction = f64::from(*gradient) - (1.0 - f64::from(*out)) * mean + carried * *direction;
         }
+        self.operators.displace(&self.direction, &mut self.image);
+        let [along, curvature] =
+            sums([&self.direction, &self.image], [&self.residual], |[direction, image], [residual]| {
+                [direction * f64::from(residual), direction * image]
+            });
         if curvature > 0.0 {
             let length = along / curvature;
             self.pressure.iter_mut().zip(&self.direction).for_each(|(to, of)| *to += length * of);
@@ -309,6 +307,39 @@ impl Grid {
         }
         product
     }
+}
+
+/// Numbers that are summed side by side, in an order of their own.
+const LANES: usize = 4;
+
+/// The numbers in groups; those of a grid, whose side is even, without a rest.
+fn lanes<T>(of: &Vec<T>) -> &[[T; LANES]] {
+    of.as_chunks().0
+}
+
+fn sum(of: &Vec<f64>) -> f64 {
+    let [total] = sums([of], [], |[value], []| [value]);
+    total
+}
+
+/// Sums over all cells of what a function makes of their numbers, `double` and `single` ones.
+fn sums<const D: usize, const S: usize, const N: usize>(
+    double: [&Vec<f64>; D],
+    single: [&Vec<f32>; S],
+    each: impl Fn([f64; D], [f32; S]) -> [f64; N],
+) -> [f64; N] {
+    let (double, single) = (double.map(lanes), single.map(lanes));
+    let groups = double.iter().map(|of| of.len()).chain(single.iter().map(|of| of.len())).min().unwrap_or(0);
+    let (double, single) = (double.map(|of| &of[..groups]), single.map(|of| &of[..groups]));
+    let mut totals = [[0.0; LANES]; N];
+    for group in 0..groups {
+        let (double, single) = (double.map(|of| &of[group]), single.map(|of| &of[group]));
+        for lane in 0..LANES {
+            let of = each(double.map(|of| of[lane]), single.map(|of| of[lane]));
+            totals.iter_mut().zip(of).for_each(|(total, of)| total[lane] += of);
+        }
+    }
+    totals.map(|[a, b, c, d]| a + b + (c + d))
 }
 
 /// Solves a contact on nested grids, the finest one last, whose depths are set.

@@ -10,7 +10,7 @@ const SHORT: (f64, f64) = (1e-3, 1e6);
 
 /// An axis: its scale, its range and the quantity along it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct ChartAxis {
     /// Scale of the axis.
     pub scale: AxisScale,
     /// Range of coordinates along the axis.
@@ -27,18 +27,18 @@ pub struct Axis {
     pub counts: bool,
 }
 
-impl Axis {
+impl ChartAxis {
     /// Creates an axis of a quantity with this name, symbol and SI unit.
-    pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> Axis {
+    pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> ChartAxis {
         let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
-        Axis { scale, span, name, symbol, unit, names: Vec::new(), counts: false }
+        ChartAxis { scale, span, name, symbol, unit, names: Vec::new(), counts: false }
     }
 
     /// Creates an axis with names in place of numbers: the first at the coordinate 0, each in the middle of a range of
     /// width 1.
-    pub fn of_names(names: Vec<Label>) -> Axis {
+    pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span { low: -0.5, high: names.len() as f64 - 0.5 };
-        Axis { names, ..Axis::new(AxisScale::Linear, span, "", "", "") }
+        ChartAxis { names, ..ChartAxis::new(AxisScale::Linear, span, "", "", "") }
     }
 
     /// Position of a number along the axis, from 0 at the lower end to 1 at the upper end; not finite if the scale has no
@@ -69,10 +69,10 @@ impl Axis {
     }
 
     /// The axis with its numbers divided by a unit with this symbol.
-    pub(super) fn over(&self, unit: f64, symbol: &str) -> Axis {
+    pub(super) fn over(&self, unit: f64, symbol: &str) -> ChartAxis {
         let end = |at: f64| self.scale.coordinate(self.scale.number(at) / unit);
         let span = Span { low: end(self.span.low), high: end(self.span.high) };
-        Axis { span, symbol: format!("{}/{symbol}", self.symbol), unit: "1".to_owned(), ..self.clone() }
+        ChartAxis { span, symbol: format!("{}/{symbol}", self.symbol), unit: "1".to_owned(), ..self.clone() }
     }
 
     /// Label of the axis: name and symbol, with the prefixed unit in brackets.
@@ -122,8 +122,8 @@ pub(super) type Share = (f64, f64);
 
 #[derive(Clone, Copy)]
 pub(super) struct Axes<'a> {
-    pub x: &'a Axis,
-    pub y: &'a Axis,
+    pub x: &'a ChartAxis,
+    pub y: &'a ChartAxis,
 }
 
 impl Axes<'_> {
@@ -177,20 +177,20 @@ mod tests {
     #[test]
     fn numbers_have_a_position_and_a_unit() {
         let span = Span { low: -2.0, high: 0.0 };
-        let axis = Axis::new(AxisScale::Logarithmic, span, "preload", "F_n", "N");
+        let axis = ChartAxis::new(AxisScale::Logarithmic, span, "preload", "F_n", "N");
         assert_eq!(axis.share(0.1), 0.5);
         assert!(!axis.share(0.0).is_finite() && !axis.share(-1.0).is_finite());
         assert_eq!(axis.label_with_unit().to_string(), "preload F_n (N)");
         assert_eq!(axis.symbol_with_unit().to_string(), "F_n (N)");
-        let unnamed = Axis::new(AxisScale::Linear, span, "relative error", "", "1");
+        let unnamed = ChartAxis::new(AxisScale::Linear, span, "relative error", "", "1");
         assert_eq!(unnamed.symbol_with_unit(), unnamed.label_with_unit());
-        let axis = Axis::new(AxisScale::Linear, Span { low: -3e-6, high: 1e-6 }, "", "F", "N");
+        let axis = ChartAxis::new(AxisScale::Linear, Span { low: -3e-6, high: 1e-6 }, "", "F", "N");
         assert_eq!(axis.label_with_unit().to_string(), "F (µN)");
-        let share = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 7e18 }, "", "F_a/F_n", "1");
+        let share = ChartAxis::new(AxisScale::Linear, Span { low: 0.0, high: 7e18 }, "", "F_a/F_n", "1");
         assert_eq!(share.label_with_unit().to_string(), "F_a/F_n (10¹⁸)");
         let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();
         assert_eq!(labels.iter().map(Label::to_string).collect::<Vec<_>>(), ["-3", "-2", "-1", "0", "1"]);
-        let hurst = Axis::new(AxisScale::Linear, Span { low: 0.075, high: 0.925 }, "", "H", "1");
+        let hurst = ChartAxis::new(AxisScale::Linear, Span { low: 0.075, high: 0.925 }, "", "H", "1");
         assert_eq!(hurst.ticks(3).into_iter().filter(|tick| tick.label.is_some()).count(), 4);
     }
 
@@ -198,7 +198,7 @@ mod tests {
     fn an_axis_over_a_unit_keeps_the_places_of_its_numbers() {
         let ends = Span { low: -3.0, high: 1.0 };
         for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
-            let axis = Axis::new(scale, ends, "force", "F", "N");
+            let axis = ChartAxis::new(scale, ends, "force", "F", "N");
             let over = axis.over(0.5, "F_a,max");
             assert_eq!(over.label_with_unit().to_string(), "force F/F_a,max");
             for number in [0.01, 0.7, 2.0] {

@@ -1,7 +1,7 @@
 //! Content of a figure: charts with axes and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
 //! decides on the appearance.
 
-use super::axis::Axis;
+use super::axis::ChartAxis;
 use super::colour::{Ink, Rgb, Shades};
 use super::label::Label;
 use super::scale::Span;
@@ -91,16 +91,16 @@ pub struct Chart {
     /// Heading, shown in figures of several charts; may be empty.
     pub heading: Label,
     /// Horizontal axis.
-    pub x: Axis,
+    pub x: ChartAxis,
     /// Vertical axis.
-    pub y: Axis,
+    pub y: ChartAxis,
     /// Layers, the lowest first.
     pub layers: Vec<Layer>,
 }
 
 impl Chart {
     /// Creates a chart of layers over two axes.
-    pub fn new(x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
+    pub fn new(x: ChartAxis, y: ChartAxis, layers: Vec<Layer>) -> Chart {
         Chart { heading: Label::default(), x, y, layers }
     }
 
@@ -303,7 +303,7 @@ pub struct HeatMap {
     /// Values of the cells in SI units, row by row; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
     /// Axis of the colour scale of the values.
-    pub key: Axis,
+    pub key: ChartAxis,
     /// Colours of the values.
     pub shades: Shades,
     /// Class of each cell as an index of `class_names`; empty if the values have no classes.

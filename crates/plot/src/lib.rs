@@ -18,15 +18,15 @@ mod screen;
 mod svg;
 mod ticks;
 
-pub use axis::Axis;
+pub use axis::ChartAxis;
 pub use cells::legend::legend;
 pub use cells::map::{SHADES, key};
 pub use cells::pane::{ContactRow, PaneChart, split};
 pub use cells::plot::{CellPlot, Name};
-pub use cells::style::{CellStyle, Colours, glyph};
+pub use cells::style::{CellStyle, Colours};
 pub use cells::text::figure_text;
 pub use chart::{Chart, Class, Contour, Figure, HeatMap, Layer, Shape, Sign, Stroke};
-pub use colour::{Ink, Palette, Rgb, Shades, hex};
+pub use colour::{Ink, Palette, Rgb, Shades};
 pub use label::{Label, prefixed, statement, value_label};
 pub use scale::Span;
 pub use screen::ascii::to_ascii;

@@ -4,7 +4,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{Kind, Table};
 use asperity_scene::RoughnessParameter;
-use asperity_study::{Boundaries, Boundary, Crossing, protocol_name};
+use asperity_study::{AdhesionBoundary, Boundaries, Crossing, protocol_name};
 use serde_json::{Map, Value, json};
 use std::cmp::Ordering;
 
@@ -13,7 +13,7 @@ impl Report for Boundaries {
         let mut heading: Vec<String> = self.others.iter().map(|axis| axis.symbol_or_path()).collect();
         heading.extend(["protocol", "level", self.symbol(), "95 %"].map(String::from));
         let mut rows = vec![heading];
-        for Boundary { others, protocol, level, crossing } in &self.found {
+        for AdhesionBoundary { others, protocol, level, crossing } in &self.found {
             let Crossing { value, side, interval } = *crossing;
             let beyond = ["< ", "", "> "][(side as i8 + 1) as usize];
             let interval = interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
@@ -36,7 +36,7 @@ impl Report for Boundaries {
 
     /// In JSON a boundary beyond the study has the end of the studied range in place of its value.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let object = |boundary: &Boundary| {
+        let object = |boundary: &AdhesionBoundary| {
             let mut object = Map::new();
             let mut set = |name: &str, value: Value| drop(object.insert(name.to_owned(), value));
             for (axis, value) in self.others.iter().zip(&boundary.others) {
@@ -71,7 +71,7 @@ impl Report for Boundaries {
             .with("protocol", Kind::Text("zero force".len()), |one| protocol_name(one.protocol))
             .real("level", |one| one.level);
         table = table.real(self.over.name(), |one| one.crossing.known().map(|(value, _)| value));
-        let beyond = |one: &Boundary, side| (one.crossing.side == side).then_some(one.crossing.value);
+        let beyond = |one: &AdhesionBoundary, side| (one.crossing.side == side).then_some(one.crossing.value);
         table = table
             .real("low", |one| Some(one.crossing.interval?.0))
             .real("high", |one| Some(one.crossing.interval?.1))

@@ -17,8 +17,10 @@ const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 /// Cost of accuracy for a scene. JSON has the fields in this order.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
+    /// Title of the scene.
     #[serde(skip)]
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
     answer: Vec<String>,
     #[serde(flatten)]
@@ -26,6 +28,7 @@ pub struct CostReport<'a> {
 }
 
 impl<'a> CostReport<'a> {
+    /// A report of the measured cost of a scene with this title.
     pub fn new(title: &'a str, scene: &'a Scene, table: &'a CostTable) -> CostReport<'a> {
         CostReport { title, scene, answer: table.answer(), table }
     }

@@ -4,8 +4,8 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{AxisScale, Kind, Table};
 use asperity_data::{format_quantity, format_range, format_rounded, grouped, per_cent};
-use asperity_experiment::{CurveOfEnsemble, EnsembleFit, Estimate, SummaryDeviation};
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 
 /// Changes of the roughness whose effect is stated.
 const HEIGHT_CHANGE: f64 = 0.05;
@@ -13,10 +13,12 @@ const HURST_CHANGE: f64 = 0.05;
 /// Ratios of scatters between which the curves scatter as the profiles do.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
+/// A work of adhesion found by comparison of curves with random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
+    /// Result of the comparison.
     pub fit: &'a EnsembleFit,
     /// True if errors of the roughness were stated.
     pub has_roughness_errors: bool,
@@ -146,7 +148,7 @@ impl Report for EnsembleFitReport<'_> {
             let of = places().filter(|(_, curve)| curve.foreign == is_foreign);
             of.map(|(place, curve)| (place, curve.work.value)).collect()
         };
-        let Estimate { value, low, high } = fit.work;
+        let IntervalEstimate { value, low, high } = fit.work;
         let band = Shape::Band([0.5, last + 0.5].map(|place| (place, low, high)).to_vec());
         let bars = places().map(|(place, curve)| {
             let ends = vec![(place, curve.work.low), (place, curve.work.high)];
@@ -166,9 +168,14 @@ impl Report for EnsembleFitReport<'_> {
         let ends = fit.curves.iter().flat_map(|curve| [curve.work.low, curve.work.high]).chain([low, high]);
         let scale = AxisScale::Logarithmic;
         let span = Span::around(ends.map(|work| scale.coordinate(work)), 0.06);
-        let x =
-            Axis::new(AxisScale::Linear, Span { low: 0.5, high: last + 0.5 }, "number of the curve", "", "1");
-        let y = Axis::new(scale, span, "work of adhesion", "γ", "J/m²");
+        let x = ChartAxis::new(
+            AxisScale::Linear,
+            Span { low: 0.5, high: last + 0.5 },
+            "number of the curve",
+            "",
+            "1",
+        );
+        let y = ChartAxis::new(scale, span, "work of adhesion", "γ", "J/m²");
         let note = format!("all curves: γ = {}", with_interval(&fit.work, "J/m²"));
         let charts = vec![Chart::new(x, y, layers)];
         let notes = vec![Label::plain(&note)];
@@ -180,7 +187,7 @@ const INDEPENDENT: &str = "Each curve counts as a place with a profile of its ow
     longest wave are fewer than they seem.";
 
 /// `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
-fn with_interval(of: &Estimate, unit: &str) -> String {
+fn with_interval(of: &IntervalEstimate, unit: &str) -> String {
     let value = format_rounded(of.value, 3, unit);
     format!("{value}, {} (95 %)", format_range((of.low, of.high), 3, unit))
 }

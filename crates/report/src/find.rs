@@ -15,8 +15,11 @@ const MOST_LISTED: usize = 8;
 /// An answered question, with the title of its scene.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// The answer.
     pub found: &'a Found,
 }
 

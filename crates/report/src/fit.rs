@@ -7,24 +7,27 @@ use asperity_data::AxisScale;
 use asperity_data::Table;
 use asperity_data::grouped;
 use asperity_data::{format_quantity, format_rounded};
-use asperity_experiment::{Fit, FittedParameter, MeasuredCurve, Parameter};
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
 use std::f64::consts::PI;
 
+/// A fit of a scene to one curve.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
     /// Name of the file of the curve, for the title.
     pub title: &'a str,
+    /// The measured curve.
     pub curve: &'a MeasuredCurve,
-    pub fit: &'a Fit,
+    /// Result of the fit.
+    pub fit: &'a FitResult,
 }
 
 /// A fit in SI units, with facts about its curve.
 #[derive(Serialize)]
 struct FitJson<'a> {
     #[serde(flatten)]
-    fit: &'a Fit,
+    fit: &'a FitResult,
     described: bool,
     noise: f64,
     pull_off_force: Option<f64>,
@@ -53,7 +56,7 @@ impl Report for FitReport<'_> {
         }
         sheet.heading(&format!("Curve {title}"));
         curve.statements.iter().chain(&fit.instrument).for_each(|sentence| sheet.paragraph(sentence));
-        sheet.heading(&format!("Fit of {}", fit.document.title()));
+        sheet.heading(&format!("FitResult of {}", fit.document.title()));
         let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
         let header = ["", "value", "95 % interval", "standard error", "start"];
         let row = |one: &FittedParameter| {
@@ -141,9 +144,9 @@ impl Report for FitReport<'_> {
         let model = points(&|index| fit.model[index]);
         let span = |points: &[(f64, f64)]| Span::around(points.iter().map(|point| point.1), 0.06);
         let x = Span::around(measured.iter().map(|point| point.0), 0.03);
-        let x = || Axis::new(AxisScale::Linear, x, "displacement", "D", "m");
-        let force = Axis::new(AxisScale::Linear, span(&measured), "force", "F", "N");
-        let rest = Axis::new(AxisScale::Linear, span(&residuals), "residual over noise", "", "1");
+        let x = || ChartAxis::new(AxisScale::Linear, x, "displacement", "D", "m");
+        let force = ChartAxis::new(AxisScale::Linear, span(&measured), "force", "F", "N");
+        let rest = ChartAxis::new(AxisScale::Linear, span(&residuals), "residual over noise", "", "1");
         let layers = vec![
             Layer::new("measured".into(), Ink::Kept, Shape::signs(measured, Sign::Dot)),
             Layer::new("model".into(), Ink::Contact, Shape::line(model, Stroke::Solid)),

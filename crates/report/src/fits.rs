@@ -6,7 +6,7 @@ use crate::sheet::Sheet;
 use asperity_data::{AxisScale, Kind, Table};
 use asperity_data::{format_quantity, format_range, format_within, grouped, object, one_unit, quantile};
 use asperity_experiment::Parameter;
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Span};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
 use asperity_scene::Scene;
 
 /// Smallest and largest number of bars of a histogram.
@@ -21,7 +21,9 @@ pub struct CurveRow {
     pub parameters: Vec<[f64; 3]>,
     /// Pull-off force, N, its work of adhesion, J/m², residual over noise, noise, N.
     pub facts: [Option<f64>; 4],
+    /// Number of points of the curve that are used.
     pub points: Option<u64>,
+    /// Whether the model describes the curve.
     pub described: Option<bool>,
     /// Why the model does not describe the curve.
     pub reason: String,
@@ -97,9 +99,11 @@ fn cells_of(line: &str) -> Option<Vec<String>> {
 /// Fits of one scene to many curves.
 #[derive(Clone, Copy, Debug)]
 pub struct FitsReport<'a> {
+    /// The scene that is fitted.
     pub scene: &'a Scene,
     /// The free parameters, in the order of the values.
     pub free: &'a [Parameter],
+    /// A row for each curve.
     pub rows: &'a [CurveRow],
 }
 
@@ -245,14 +249,15 @@ impl Report for FitsReport<'_> {
             upper.extend((other > 0.0).then_some((edges(bar), (one, one + other))));
             most = most.max(one + other);
         }
-        let x = Axis::new(
+        let x = ChartAxis::new(
             AxisScale::Linear,
             Span::around(all.iter().copied(), 0.06),
             row.term,
             row.symbol,
             row.unit,
         );
-        let y = Axis::new(AxisScale::Linear, Span::around([0.0, most].into_iter(), 0.06), "curves", "", "1");
+        let y =
+            ChartAxis::new(AxisScale::Linear, Span::around([0.0, most].into_iter(), 0.06), "curves", "", "1");
         let mut layers = Vec::new();
         let named = [("described", Ink::Contact, lower), ("not described", Ink::Quiet, upper)];
         layers.extend(

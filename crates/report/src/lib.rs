@@ -1,4 +1,5 @@
 #![forbid(unsafe_code)]
+#![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
 
 mod boundary;
@@ -53,7 +54,7 @@ pub use run::{PathReport, RunReport};
 pub use scene_figure::ContactSets;
 pub use scene_spectra::SceneSpectra;
 pub use scenes::{ComparedScene, ScenesReport};
-pub use section::{Contact, LineColumns, Part, Section};
+pub use section::{LineColumns, Part, Section, SectionContact};
 pub use sensitivity::{SensitivityReport, sensitivity_chart, sensitivity_table};
 pub use sheet::Sheet;
 pub use spectrum_figure::Spectra;

@@ -1,18 +1,23 @@
 //! The chart of force loops, the same in figures of scenes and in the explorer.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord};
+use asperity_contact::{Mark, marks};
 use asperity_data::{AxisScale, format_rounded};
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke, value_label};
 use asperity_scene::Outcome;
-use asperity_scene::{DisplacementCurve, DisplacementPoint, Mark, marks};
+use asperity_scene::{DisplacementCurve, DisplacementPoint};
 
 /// The two quantities of a chart of loops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoopQuantities {
+    /// Force over the indentation.
     #[default]
     ForceIndentation,
+    /// Force over the displacement of the instrument.
     ForceDisplacement,
+    /// Contact length over the force.
     LengthForce,
+    /// Number of contact patches over the indentation.
     FragmentsIndentation,
 }
 
@@ -63,6 +68,7 @@ impl Quantity {
 }
 
 impl LoopUnits {
+    /// SI units for these quantities.
     pub fn si(quantities: LoopQuantities) -> LoopUnits {
         LoopUnits { quantities, ..LoopUnits::default() }
     }
@@ -137,7 +143,7 @@ impl LoopUnits {
         }
     }
 
-    fn axes(&self, places: &[(f64, f64)]) -> [Axis; 2] {
+    fn axes(&self, places: &[(f64, f64)]) -> [ChartAxis; 2] {
         let x = Span::around(places.iter().map(|place| place.0), 0.06);
         let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
         // There is no negative length or number.
@@ -145,8 +151,8 @@ impl LoopUnits {
         let low = if up.symbol == "F" { y.low } else { 0.0 };
         [(x, across), (Span { low, ..y }, up)].map(|(span, one)| {
             let (symbol, unit) = one.symbol_and_unit();
-            let axis = Axis::new(AxisScale::Linear, span, one.name, &symbol, unit);
-            Axis { counts: one.symbol == "n", ..axis }
+            let axis = ChartAxis::new(AxisScale::Linear, span, one.name, &symbol, unit);
+            ChartAxis { counts: one.symbol == "n", ..axis }
         })
     }
 }
@@ -160,10 +166,13 @@ pub struct ForceLoop<'a> {
     pub stiffness: Option<f64>,
     /// Marked points; the legend has them if the loop has no name.
     pub marks: Vec<(Mark, CurvePoint)>,
+    /// Name of the loop in the legend, if it has one.
     pub name: Option<Label>,
     /// True if the legend, which several charts share, leaves out the forces of marks.
     pub without_forces: bool,
+    /// Ink of the loop; `None` for the inks of loading and unloading.
     pub ink: Option<Ink>,
+    /// Stroke of the loop; `None` for a solid one.
     pub stroke: Option<Stroke>,
     /// Stroke of the unloading, if it has its own.
     pub unloading: Option<Stroke>,
@@ -292,6 +301,7 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure::of_panels(scenes.iter().map(figure).collect())
 }
 
+/// Sign of a mark in charts.
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,

@@ -3,7 +3,7 @@
 use crate::report::Report;
 use asperity_data::{Kind, Table};
 use asperity_scene::Regime;
-use asperity_study::{Cell, Grid, Quantity, Statistics};
+use asperity_study::{Grid, GridCell, Quantity, Statistics};
 
 impl Report for Grid {
     /// The computed cells: values of the axes by their paths, profiles, regimes, and statistics of each quantity, in SI
@@ -14,7 +14,7 @@ impl Report for Grid {
             let cells = self.cells.iter().enumerate();
             cells.filter_map(|(index, cell)| Some((index, cell.as_ref()?.as_ref().ok()?)))
         });
-        table = table.with(self.across.path.clone(), Kind::Real, move |(index, _): &(usize, &Cell)| {
+        table = table.with(self.across.path.clone(), Kind::Real, move |(index, _): &(usize, &GridCell)| {
             self.across.values[index % columns]
         });
         if let Some(up) = &self.up {

@@ -29,18 +29,22 @@ const FAR_APART: f64 = 30.0;
 /// Facts about a surface and its file. Lists have one number for a profile, and a number for each axis for a map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
+    /// Path of the file.
     #[serde(rename = "file", serialize_with = "in_unicode")]
     pub path: PathBuf,
     /// Name of the measurement in a container; empty if the surface is from a file of its own.
     #[serde(rename = "measurement", skip_serializing_if = "String::is_empty")]
     pub name: String,
+    /// Name of the format.
     pub format: &'static str,
     /// Number of points of a row, and number of rows.
     pub points: Vec<usize>,
+    /// Length along a row, and along a column, m.
     pub lengths: Vec<f64>,
     /// Numbers of columns and rows without measured points left out at the borders; for a profile a number of points at its
     /// ends.
     pub cropped: Vec<usize>,
+    /// Number of points with interpolated heights.
     pub interpolated: usize,
     /// Messages on oddities of the file.
     #[serde(skip)]
@@ -106,7 +110,9 @@ impl SurfaceFile {
 /// Measured surfaces of one face, with their common analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
+    /// Facts about each surface.
     pub files: Vec<SurfaceFile>,
+    /// Analysis of all surfaces of the face together.
     pub analysis: Analysis,
 }
 

@@ -6,7 +6,7 @@ use asperity_data::AxisScale;
 use asperity_data::grouped;
 use asperity_data::{Kind, Table, object};
 use asperity_data::{format_quantity, format_range, format_rounded};
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Choice;
 use asperity_study::{Results, Staircase, Statistics};
 use std::ops::Range;
@@ -18,6 +18,7 @@ pub(crate) const MEAN_INTERVAL: &str = "95 % interval of the mean";
 /// Adhesion force against preload, on one or more profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
     /// Choice of springs for a tolerance, if one was requested.
     pub choice: Option<&'a Choice>,
@@ -263,8 +264,8 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
         (AxisScale::Linear, Span::around(forces.iter().copied().chain([0.0]), 0.05))
     };
     Chart::new(
-        Axis::new(scale, x, "preload", "F_n", "N"),
-        Axis::new(y_scale, y, "adhesion force", "F_a", "N"),
+        ChartAxis::new(scale, x, "preload", "F_n", "N"),
+        ChartAxis::new(y_scale, y, "adhesion force", "F_a", "N"),
         layers,
     )
 }
@@ -272,7 +273,7 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
 /// Empirical distribution of the adhesion force over the profiles at the nearest computed preload (N). Each profile
 /// adds a step to the share of profiles. `forces` is the vertical axis of a chart beside it. `None` for fewer than
 /// two profiles.
-pub fn distribution(results: &Results, preload: f64, forces: Option<&Axis>) -> Option<Chart> {
+pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;
     each.sort_by(f64::total_cmp);
@@ -285,10 +286,11 @@ pub fn distribution(results: &Results, preload: f64, forces: Option<&Axis>) -> O
         Layer::unnamed(Ink::Unloading, Shape::signs(vec![(place, own)], Sign::Dot)),
     ];
     let heading = format!("profiles at {}", format_rounded(preload, 3, "N"));
-    let x = Axis::new(AxisScale::Linear, Span { low: 0.0, high: 100.0 }, "share of profiles in", "%", "1");
+    let x =
+        ChartAxis::new(AxisScale::Linear, Span { low: 0.0, high: 100.0 }, "share of profiles in", "%", "1");
     let own = || {
         let y = Span::around(each.iter().copied(), 0.05);
-        Axis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N")
+        ChartAxis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N")
     };
     let y = forces.cloned().unwrap_or_else(own);
     Some(Chart { heading: Label::plain(&heading), ..Chart::new(x, y, layers) })

@@ -4,15 +4,18 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{AxisScale, Table, object};
 use asperity_data::{format_quantity, format_rounded, grouped};
-use asperity_plot::{Axis, Chart, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
 use asperity_study::{Compared, Loaded, Reference, Statistics};
 
 /// A comparison, with the title of its scene.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// Comparison of the line with three dimensions.
     pub reference: &'a Reference,
 }
 
@@ -174,7 +177,7 @@ impl Report for ReferenceReport<'_> {
         ];
         let axis = |values: &mut dyn Iterator<Item = f64>, name: &str, symbol: &str, unit: &str| {
             let span = Span::around(values.map(|value| AxisScale::Logarithmic.coordinate(value)), 0.05);
-            Axis::new(AxisScale::Logarithmic, span, name, symbol, unit)
+            ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
         };
         let x = axis(&mut loading.iter().map(force), "force", "F", "N");
         let ends = loading.iter().flat_map(|loaded| {

@@ -3,7 +3,7 @@
 use crate::provenance::entries;
 use asperity_data::{Kind, Table, write_json};
 use asperity_data::{path_name, printable};
-use asperity_plot::{Axis, Chart, Figure, Layer};
+use asperity_plot::{Chart, ChartAxis, Figure, Layer};
 use serde::Serialize;
 use std::io;
 use std::io::Write;
@@ -17,14 +17,17 @@ pub trait Report {
         None
     }
 
+    /// The result as JSON.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         None
     }
 
+    /// The result as a table.
     fn table(&self) -> Option<Table<'_>> {
         None
     }
 
+    /// The result as a figure.
     fn figure(&self) -> Option<Figure> {
         None
     }
@@ -44,10 +47,11 @@ impl<T: Serialize> Json for T {
 
 /// A figure of one chart can also be written as the table of its curves.
 impl Report for Figure {
+    /// The result as a table.
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else { return None };
         let names = layers.iter().map(|layer| layer.name.to_string().chars().count());
-        let column = |axis: &Axis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
+        let column = |axis: &ChartAxis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
         let rows = || {
             let points = |layer: &Layer| layer.shape.points();
             layers
@@ -59,6 +63,7 @@ impl Report for Figure {
         Some(table.with(column(y), Kind::Real, |row| row.1.1).done())
     }
 
+    /// The result as a figure.
     fn figure(&self) -> Option<Figure> {
         Some(self.clone())
     }
@@ -91,32 +96,43 @@ pub fn write(
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[strum(serialize_all = "lowercase")]
 pub enum Format {
+    /// Plain text.
     Text,
+    /// One JSON object, in SI units.
     Json,
+    /// Table with commas between its columns.
     Csv,
+    /// Array of NumPy.
     Npy,
+    /// Vector picture for the web.
     Svg,
+    /// Picture of pixels.
     Png,
     /// Vector picture on a page of its own size.
     Pdf,
 }
 
 impl Format {
+    /// All formats.
     pub const ALL: [Format; 7] =
         [Format::Text, Format::Json, Format::Csv, Format::Npy, Format::Svg, Format::Png, Format::Pdf];
 
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         self.into()
     }
 
+    /// Extension of a file of this format, without the dot.
     pub fn extension(self) -> &'static str {
         if self == Format::Text { "txt" } else { self.name() }
     }
 
+    /// Returns true for a format of tables.
     pub fn is_table(self) -> bool {
         matches!(self, Format::Csv | Format::Npy)
     }
 
+    /// Returns true for a format of pictures.
     pub fn is_picture(self) -> bool {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }

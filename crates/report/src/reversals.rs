@@ -6,7 +6,7 @@ use crate::sheet::{Sheet, thinned};
 use asperity_data::AxisScale;
 use asperity_data::grouped;
 use asperity_data::{Table, object};
-use asperity_plot::{Axis, Chart, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
+use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use asperity_scene::ReversalMap;
 use asperity_scene::Scene;
 use asperity_study::{Results, Staircase};
@@ -15,10 +15,14 @@ const MOST_ROWS: usize = 16;
 /// Limit of the number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
+/// Reversal curves of one profile and their Everett function.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// Forces along the reversal curves.
     pub map: &'a ReversalMap,
     /// Adhesion force against preload, with the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
     /// bodies together.
@@ -111,13 +115,13 @@ pub fn everett_chart(map: &ReversalMap) -> Chart {
     let (columns, rows) = (of(&columns, 0), of(&rows, map.below));
     let scale = AxisScale::Linear;
     let axis =
-        |values: &[f64], name, symbol| Axis::new(scale, HeatMap::span(scale, values), name, symbol, "m");
+        |values: &[f64], name, symbol| ChartAxis::new(scale, HeatMap::span(scale, values), name, symbol, "m");
     let (x, y) = (axis(&columns, "indentation", "d"), axis(&rows, "turning point", "d_r"));
     let map = HeatMap {
         columns,
         rows,
         values,
-        key: Axis::new(scale, key, "", "E", "N"),
+        key: ChartAxis::new(scale, key, "", "E", "N"),
         shades: Shades::Sequential,
         classes: Vec::new(),
         class_names: Vec::new(),

@@ -15,10 +15,14 @@ use asperity_scene::{Observer, Scene};
 use asperity_study::{Budget, Ensemble, criteria};
 use asperity_surface::Line;
 
+/// All results of one scene.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
     /// Choice of springs for a tolerance, if one was requested.
     pub choice: Option<&'a Choice>,
@@ -121,6 +125,7 @@ pub struct PathReport<'a> {
     pub scene: &'a Scene,
     /// Its stages, from separation.
     pub loading: &'a [Move],
+    /// Points of the force curve along the loading.
     pub path: &'a [CurvePoint],
     /// Index of the loading stage of each point.
     pub stages: &'a [usize],

@@ -1,11 +1,11 @@
 //! Figures of the contact: the profile with its contact, and contact patches over the indentation.
 
-use crate::section::{Contact, LineColumns, Part};
+use crate::section::{LineColumns, Part, SectionContact};
+use asperity_contact::preload_point;
 use asperity_contact::{CurvePoint, Direction, Leg, LegRecord, Patch};
 use asperity_data::AxisScale;
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Span, value_label};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use asperity_scene::Outcome;
-use asperity_scene::preload_point;
 use asperity_surface::Line;
 use std::slice;
 
@@ -42,6 +42,7 @@ impl ContactSets {
         ContactSets { over_indentation, ..ContactSets::default() }
     }
 
+    /// Takes the patches of a stage that has been computed.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches { indentation, patches: leg.patches(indentation) };
         let larger = |point: &CurvePoint| self.preload.as_ref().is_none_or(|(force, _)| point.force > *force);
@@ -69,7 +70,7 @@ impl ContactSets {
         let separated = (0.0, Patches { indentation: 0.0, patches: Vec::new() });
         let (force, Patches { indentation, patches }) = self.preload.as_ref().unwrap_or(&separated);
         let (force, indentation) = (*force, *indentation);
-        let contact = Contact { gaps: &line.gaps, summit: line.summit, indentation, patches };
+        let contact = SectionContact { gaps: &line.gaps, summit: line.summit, indentation, patches };
         let section = contact.section(Part::drawn(0, line.gaps.len()), &mut LineColumns::default());
         let (low, high) = section.heights;
         let z = Span::around([low, high, section.level.min(high + 0.5 * (high - low))].into_iter(), 0.05);
@@ -85,7 +86,7 @@ impl ContactSets {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;
         let ends = self.stages.iter().flat_map(|(_, rows)| rows).map(|row| row.indentation);
-        let d = Axis::new(AxisScale::Linear, Span::around(ends, 0.02), "indentation", "d", "m");
+        let d = ChartAxis::new(AxisScale::Linear, Span::around(ends, 0.02), "indentation", "d", "m");
         let chart = |(direction, rows): &(Direction, Vec<Patches>)| {
             let half = rows.get(..2).map_or(0.0, |pair| 0.5 * (pair[1].indentation - pair[0].indentation));
             let mut boxes = Vec::new();
@@ -121,9 +122,9 @@ impl ContactSets {
     }
 }
 
-fn position(outcome: &Outcome) -> Axis {
+fn position(outcome: &Outcome) -> ChartAxis {
     let span = Span { low: 0.0, high: outcome.line.length };
-    Axis::new(AxisScale::Linear, span, "position", "x", "m")
+    ChartAxis::new(AxisScale::Linear, span, "position", "x", "m")
 }
 
 #[cfg(test)]

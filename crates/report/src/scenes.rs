@@ -14,7 +14,9 @@ use asperity_study::{Ensemble, Quantity};
 /// One of several computed scenes, with its document.
 #[derive(Clone, Debug)]
 pub struct ComparedScene<'a> {
+    /// The document of the scene.
     pub document: &'a Document,
+    /// Results on the profile of the scene.
     pub outcome: Outcome,
     /// Results on random profiles, if they are computed.
     pub ensemble: Option<Ensemble>,
@@ -23,6 +25,7 @@ pub struct ComparedScene<'a> {
 /// At least two computed scenes.
 #[derive(Clone, Copy, Debug)]
 pub struct ScenesReport<'a> {
+    /// The scenes, in the order of the command.
     pub scenes: &'a [ComparedScene<'a>],
     /// True for a separate chart of each scene.
     pub panels: bool,

@@ -2,16 +2,18 @@
 
 use asperity_contact::Patch;
 use asperity_data::AxisScale;
-use asperity_plot::{Axis, Chart, Ink, Layer, Shape, Span};
+use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span};
 use asperity_scene::LineFacts;
 use std::ops::Range;
 
 /// The rigid profile and its contact at one indentation.
 #[derive(Clone, Copy)]
-pub struct Contact<'a> {
+pub struct SectionContact<'a> {
     /// Gaps below the highest point, m.
     pub gaps: &'a [f64],
+    /// Height of the highest point of the profile, m.
     pub summit: f64,
+    /// Indentation, m.
     pub indentation: f64,
     /// Patches in contact, from left to right.
     pub patches: &'a [Patch],
@@ -20,7 +22,9 @@ pub struct Contact<'a> {
 /// Springs of the profile that a chart shows, at least one, and its number of columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
+    /// Index of the first spring.
     pub first: usize,
+    /// Number of springs.
     pub springs: usize,
     /// Number of columns; if it exceeds the number of springs, a spring fills several columns.
     pub columns: usize,
@@ -39,12 +43,15 @@ pub struct LineColumns {
 /// A part of the profile and its contact, reduced to columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
+    /// Index of the first spring.
     pub first: usize,
+    /// Number of springs.
     pub springs: usize,
     /// Lowest and highest point of the profile, m.
     pub heights: (f64, f64),
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
+    /// The columns, from left to right.
     pub columns: Vec<Column>,
 }
 
@@ -73,7 +80,7 @@ impl Section {
             layer("profile", Ink::Profile, |column| Some(column.line)),
             layer("contact", Ink::Contact, |column| column.contact),
         ];
-        let axis = |span, name, symbol| Axis::new(AxisScale::Linear, span, name, symbol, "m");
+        let axis = |span, name, symbol| ChartAxis::new(AxisScale::Linear, span, name, symbol, "m");
         let x = Span { low: x.0, high: x.1 };
         Chart::new(axis(x, "position", "x"), axis(z, "height", "z"), layers)
     }
@@ -91,6 +98,7 @@ impl Part {
         Part { first, springs, columns: springs }
     }
 
+    /// Springs that a column shows, by their indices.
     pub fn springs_of(self, column: usize) -> Range<usize> {
         let start = |column: usize| {
             self.first + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
@@ -100,12 +108,13 @@ impl Part {
     }
 }
 
-impl Contact<'_> {
+impl SectionContact<'_> {
     /// Returns the height of the rigid profile at a spring, m.
     pub fn height(&self, spring: usize) -> f64 {
         self.summit - self.gaps[spring]
     }
 
+    /// Height of the undeformed elastic surface, m.
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }
@@ -176,7 +185,7 @@ mod tests {
             let first = first % gaps.len();
             let part = Part { first, springs: springs.min(gaps.len() - first), columns };
             let patches = Patch::of_springs(touching.iter().copied());
-            let contact = Contact { gaps: &gaps, summit: 20.0, indentation: 3.0, patches: &patches };
+            let contact = SectionContact { gaps: &gaps, summit: 20.0, indentation: 3.0, patches: &patches };
             let section = contact.section(part, &mut LineColumns::default());
             for (column, found) in section.columns.iter().enumerate() {
                 let heights = |springs: Vec<usize>| {

@@ -6,7 +6,7 @@ use asperity_data::AxisScale;
 use asperity_data::grouped;
 use asperity_data::{Kind, Table, object};
 use asperity_data::{format_quantity, format_rounded, one_unit};
-use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span};
+use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, STEP, Sensitivity, Values};
 
@@ -17,10 +17,14 @@ const LEAST: f64 = 1.0;
 /// Half the height of a bar, over the distance of bars.
 const HALF: f64 = 0.35;
 
+/// Changes of the results with the numbers of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
+    /// Title of the scene.
     pub title: &'a str,
+    /// The scene.
     pub scene: &'a Scene,
+    /// The changes.
     pub sensitivity: &'a Sensitivity,
 }
 
@@ -143,8 +147,8 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
     let ends = ends.map(|(points, sign)| (Ink::Text, Shape::signs(points, sign)));
     let layers = std::iter::once((Ink::Quiet, Shape::Upright(0.0))).chain(bars).chain(ends);
     let layers = layers.map(|(ink, shape)| Layer::unnamed(ink, shape)).collect();
-    let x = Axis::new(AxisScale::Linear, span, "change of", Sensitivity::RESULTS[result].symbol(), "%");
-    Chart::new(x, Axis::of_names(names), layers)
+    let x = ChartAxis::new(AxisScale::Linear, span, "change of", Sensitivity::RESULTS[result].symbol(), "%");
+    Chart::new(x, ChartAxis::of_names(names), layers)
 }
 
 impl SensitivityReport<'_> {

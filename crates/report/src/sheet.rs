@@ -20,12 +20,14 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// Text of one table.
     pub fn of_table<R: AsRef<[String]>>(rows: &[R]) -> String {
         let mut sheet = Sheet::default();
         sheet.table(rows);
         sheet.into_text()
     }
 
+    /// The finished text.
     pub fn into_text(self) -> String {
         self.text
     }
@@ -57,6 +59,7 @@ impl Sheet {
         self.row_of(label, value.into().map(|value| format_quantity(value, unit)));
     }
 
+    /// Adds a row; nothing for `None`.
     pub fn row_of(&mut self, label: &str, value: Option<String>) {
         if let Some(value) = value {
             self.row(label, value);

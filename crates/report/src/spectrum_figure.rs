@@ -1,7 +1,7 @@
 //! Spectra over the wave number: as measured, as fitted, and of the equivalent line.
 
 use asperity_data::AxisScale;
-use asperity_plot::{Axis, Chart, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_surface::EquivalentLine;
 use asperity_surface::{Along, Analysis, Bin, End};
 use std::f64::consts::TAU;
@@ -99,6 +99,7 @@ impl Spectra {
         Spectra { measured: measured(faces), line, heights: Vec::new() }
     }
 
+    /// Chart of the spectra over the wave number.
     pub fn chart(&self) -> Chart {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {
@@ -120,7 +121,8 @@ impl Spectra {
         let x = Span::around(all.iter().map(|(q, _)| q.log10()), 0.03);
         let powers = shown.iter().map(|(_, power)| *power);
         let y = Span::of_values(AxisScale::Logarithmic, powers, MOST_DECADES).widened(0.04);
-        let axis = |span, name, symbol, unit| Axis::new(AxisScale::Logarithmic, span, name, symbol, unit);
+        let axis =
+            |span, name, symbol, unit| ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit);
         Chart::new(axis(x, "wave number", "q", "rad/m"), axis(y, "power spectral density", "C", "m³"), layers)
     }
 }
@@ -130,22 +132,23 @@ mod tests {
     use super::*;
     use asperity_plot::Figure;
     use asperity_plot::judge::check_picture;
-    use asperity_surface::{Estimate, Options, PowerLaw, analyse};
+    use asperity_surface::{AnalysisOptions, SelfAffineFit, ValueWithError, analyse};
     use asperity_surface::{ReadOptions, parse};
 
     fn analysis(end: End) -> Analysis {
         let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
         let rows: String = (0..256).map(|i| format!("{i} {}\n", height(i))).collect();
         let surface = parse(format!("x [um] z [nm]\n{rows}").as_bytes(), &ReadOptions::default()).unwrap();
-        analyse(&[surface], &Options { end, tip_radius: Some(1e-3), ..Options::default() }).unwrap()
+        analyse(&[surface], &AnalysisOptions { end, tip_radius: Some(1e-3), ..AnalysisOptions::default() })
+            .unwrap()
     }
 
     #[test]
     fn a_chart_names_all_that_it_shows() {
         let mut analysis = analysis(End::Continues(1e7));
-        let half = Estimate { value: 0.5, error: 0.1 };
-        let level = Estimate { value: analysis.isotropic.c2d(1e5), error: 0.0 };
-        analysis.power_law = Some(PowerLaw { hurst: half, roll_off: None, level });
+        let half = ValueWithError { value: 0.5, error: 0.1 };
+        let level = ValueWithError { value: analysis.isotropic.c2d(1e5), error: 0.0 };
+        analysis.power_law = Some(SelfAffineFit { hurst: half, roll_off: None, level });
         let spectra = Spectra { heights: vec![(1e5, 1e-22)], ..Spectra::of_analysis(&analysis) };
         let figure = Figure::of_chart("a & b", spectra.chart());
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();

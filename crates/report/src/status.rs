@@ -2,7 +2,7 @@
 
 use crate::sheet::Sheet;
 use asperity_data::grouped;
-use asperity_study::{Plan, Progress, Status};
+use asperity_study::{Plan, Status, StudyProgress};
 use std::time::Duration;
 
 /// Number of characters from which on the name of a machine is shortened in the table.
@@ -47,8 +47,8 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
 }
 
 /// Progress of a run in one line.
-pub fn progress_text(progress: &Progress) -> String {
-    let Progress { done, before, total, elapsed: _ } = *progress;
+pub fn progress_text(progress: &StudyProgress) -> String {
+    let StudyProgress { done, before, total, .. } = *progress;
     let share = if total == 0 { 100.0 } else { 100.0 * done as f64 / total as f64 };
     let mut text = format!("{done} of {total} records, {share:.1} %");
     if let Some(rate) = progress.rate().filter(|_| done > before) {
@@ -82,7 +82,7 @@ mod tests {
     fn progress_is_one_line() {
         let at = |done, before, seconds| {
             let elapsed = Duration::from_secs(seconds);
-            progress_text(&Progress { done, before, total: 4000, elapsed })
+            progress_text(&StudyProgress { done, before, total: 4000, elapsed })
         };
         assert_eq!(at(0, 0, 0), "0 of 4000 records, 0.0 %");
         assert_eq!(at(1000, 1000, 0), "1000 of 4000 records, 25.0 % were there before");

@@ -2,7 +2,7 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{
-    Axis, Chart, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span, Stroke,
+    Chart, ChartAxis, Class, Contour, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Sign, Span, Stroke,
     value_label,
 };
 use asperity_scene::{Regime, VANISHING_SHARE};
@@ -111,8 +111,8 @@ fn coordinates(axis: &asperity_study::Axis) -> Vec<f64> {
     axis.values.iter().map(|value| axis.scale().coordinate(*value)).collect()
 }
 
-fn axis_over(axis: &asperity_study::Axis, span: Span) -> Axis {
-    Axis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
+fn axis_over(axis: &asperity_study::Axis, span: Span) -> ChartAxis {
+    ChartAxis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
 }
 
 fn name(quantity: Quantity) -> String {
@@ -129,9 +129,9 @@ fn heading(quantity: Quantity) -> Label {
     Label::quantity(&name(quantity), quantity.symbol())
 }
 
-fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> Axis {
+fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
     let name = if quantity.symbol().is_empty() { name(quantity) } else { String::new() };
-    Axis::new(scale, span, &name, quantity.symbol(), quantity.unit())
+    ChartAxis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
 /// The recorded F_a(d=0)/F_a,max whose vanishing is drawn in a figure of this quantity: the quantity itself, or the first
@@ -254,7 +254,7 @@ mod tests {
     use super::*;
     use asperity_plot::judge::check_picture;
     use asperity_scene::open;
-    use asperity_study::{Axis as StudyAxis, Cell, Layer as Quantities, RegimeCounts, Spacing, Spread};
+    use asperity_study::{Axis, GridCell, GridLayer, RegimeCounts, Spacing, Spread};
 
     const SHARE: Quantity = Quantity::ZeroLoadAdhesionShare;
     const COEFFICIENT: Quantity = Quantity::AdhesionCoefficient;
@@ -264,11 +264,11 @@ mod tests {
         grid: Grid,
     }
 
-    fn axis(path: &str, spacing: Spacing, values: Vec<f64>) -> StudyAxis {
-        StudyAxis::new(path, spacing, values, open("pressure-sensitive").unwrap().scene()).unwrap()
+    fn axis(path: &str, spacing: Spacing, values: Vec<f64>) -> Axis {
+        Axis::new(path, spacing, values, open("pressure-sensitive").unwrap().scene()).unwrap()
     }
 
-    fn kappas() -> StudyAxis {
+    fn kappas() -> Axis {
         let values = (0..17).map(|index| 0.25 * 10_f64.powf(f64::from(index) / 10.0)).collect();
         axis("adhesion.kappa", Spacing::Logarithmic, values)
     }
@@ -293,7 +293,7 @@ mod tests {
         }
     }
 
-    fn cell(kappa: f64, hurst: f64) -> Cell {
+    fn cell(kappa: f64, hurst: f64) -> GridCell {
         let values = [share(kappa, hurst), coefficient(kappa, hurst)];
         let regime = match values {
             [share, _] if share > 0.5 => Regime::PressureInsensitive,
@@ -301,16 +301,16 @@ mod tests {
             _ => Regime::NonAdhesive,
         };
         let regimes = RegimeCounts::of([Some(regime); 4].into_iter());
-        Cell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regimes: [regimes; 2] }
+        GridCell { statistics: values.map(|value| Some(estimate(value))).to_vec(), regimes: [regimes; 2] }
     }
 
     fn study(
         title: &str,
         fixed: &[&str],
-        (across, up): (StudyAxis, Option<StudyAxis>),
-        cells: Vec<Option<Cell>>,
+        (across, up): (Axis, Option<Axis>),
+        cells: Vec<Option<GridCell>>,
     ) -> Study {
-        let layer = |quantity| Quantities { quantity, scale: AxisScale::Linear, range: Some((0.0, 1.0)) };
+        let layer = |quantity| GridLayer { quantity, scale: AxisScale::Linear, range: Some((0.0, 1.0)) };
         let cells = cells.into_iter().map(|cell| cell.map(Ok)).collect();
         let fixed = fixed.iter().map(ToString::to_string).collect();
         let grid = Grid::new(across, up, fixed, [SHARE, COEFFICIENT].map(layer).to_vec(), cells);
@@ -434,10 +434,10 @@ mod tests {
                 for scale in [AxisScale::Linear, AxisScale::Logarithmic] {
                     let across = axis(&study.grid.across.path, study.grid.across.spacing, vec![0.5]);
                     let one = Statistics::of(vec![value], SHARE.bounds());
-                    let cell = Cell { statistics: vec![one; 2], regimes: Default::default() };
+                    let cell = GridCell { statistics: vec![one; 2], regimes: Default::default() };
                     let rows = study.grid.size().1;
                     let range = Some((value, value));
-                    let layers = study.grid.layers.iter().map(|layer| Quantities { scale, range, ..*layer });
+                    let layers = study.grid.layers.iter().map(|layer| GridLayer { scale, range, ..*layer });
                     let cells = vec![Some(Ok(cell)); rows];
                     let grid = Grid::new(across, study.grid.up.clone(), Vec::new(), layers.collect(), cells);
                     check_picture(&figure(&Study { title: String::new(), grid }).svg());

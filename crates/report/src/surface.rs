@@ -12,7 +12,9 @@ use asperity_plot::Figure;
 use asperity_scene::{CheckedScene, Scene};
 use asperity_study::{MeasuredAdhesion, ProfileAdhesion, RegimeCounts};
 use asperity_surface::EquivalentLine;
-use asperity_surface::{Along, Analysis, Bin, End, Estimate, LineMoments, Moment, Node, PointStatistics};
+use asperity_surface::{
+    Along, Analysis, Bin, End, LineMoments, Moment, Node, PointStatistics, ValueWithError,
+};
 use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;
@@ -34,8 +36,11 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
 pub struct SurfaceReport {
     /// The analysed face, and the opposite face if it was measured too.
     pub faces: Vec<MeasuredFace>,
+    /// Equivalent line of all faces.
     pub line: EquivalentLine,
+    /// Effective modulus E*, Pa, if it is given.
     pub modulus: Option<f64>,
+    /// Work of adhesion γ, J/m², if it is given.
     pub work: Option<f64>,
     /// Scene of the equivalent line, if its adhesion was requested. The results on random profiles are absent if the
     /// scene has many springs and they were not requested.
@@ -140,7 +145,7 @@ impl Report for SurfaceReport {
 impl SurfaceReport {
     /// Moments of the equivalent line, and quantities that follow from them.
     fn moments(&self) -> [MomentRow; 6] {
-        let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus } =
+        let LineMoments { rms_height, rms_gradient, height_gradient, energy_per_modulus, .. } =
             self.line.moments();
         let stiff = |moment: Moment| Some(moment.scaled(self.modulus?));
         let over_work = |moment: Moment| Some(moment.scaled(1.0 / self.work?));
@@ -206,7 +211,7 @@ fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {
     let wavelength = fit.roll_off.map(|roll_off| {
         let length = TAU / roll_off.value;
         let error = length * roll_off.error / roll_off.value;
-        with_error(Estimate { value: length, error }, "m")
+        with_error(ValueWithError { value: length, error }, "m")
     });
     sheet.row("roll-off wavelength", wavelength.unwrap_or_else(|| "none found inside the scan".to_owned()));
 }
@@ -242,7 +247,7 @@ fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
     sheet.table(&rows);
 }
 
-fn with_error(estimate: Estimate, unit: &str) -> String {
+fn with_error(estimate: ValueWithError, unit: &str) -> String {
     let error = per_cent(estimate.error / estimate.value.abs());
     format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
@@ -256,8 +261,8 @@ struct FaceJson<'a> {
     #[serde(flatten)]
     statistics: &'a PointStatistics,
     reliability_cutoff: Option<f64>,
-    hurst_exponent: Option<Estimate>,
-    roll_off_wave_number: Option<Estimate>,
+    hurst_exponent: Option<ValueWithError>,
+    roll_off_wave_number: Option<ValueWithError>,
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "by_key")]
     equivalent_line: Option<[MomentRow; 6]>,
     #[serde(skip_serializing_if = "Option::is_none")]

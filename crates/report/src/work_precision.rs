@@ -1,7 +1,7 @@
 //! Work–precision diagram: error over computing time for each setting that affects accuracy.
 
 use asperity_data::AxisScale;
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::{CostTable, Knob};
 
 /// Figure of relative errors over the shortest time of a run, one curve for each setting: errors of the adhesion force, or
@@ -27,7 +27,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
     }
     let all = || series.iter().flat_map(|(_, points)| points);
     let axis = |span: Span, name: &str, symbol: &str, unit: &str| {
-        Axis::new(AxisScale::Logarithmic, span, name, symbol, unit)
+        ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
     };
     let times = Span::decades(all().map(|(seconds, _)| seconds.log10()));
     let errors = Span::decades(all().map(|(_, figure)| figure.error.log10()));
@@ -41,7 +41,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{ErrorFigure, Reference, Row, Timing};
+    use asperity_scene::{CostReference, ErrorFigure, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {
@@ -54,7 +54,7 @@ mod tests {
             errors: [None, Some(ErrorFigure { error, resolved, order: None }), None, None],
         };
         let reference =
-            Reference { springs: 16, adhesion_force: None, closed_form: false, errors: [None; 4] };
+            CostReference { springs: 16, adhesion_force: None, closed_form: false, errors: [None; 4] };
         let rows = vec![row(1e-4, 1e-1, true), row(1e-2, 1e-3, false), row(1e-2, 0.0, true)];
         let (transform_seconds, left_out) = (1.0, Vec::new());
         let table = CostTable { budget: 1.0, spent: 1.0, transform_seconds, reference, rows, left_out };

@@ -1,6 +1,7 @@
 //! Axes of a parameter study: the varied quantity, which is a number of a scene or a quantity derived from several, and its
 //! values.
 
+use super::error::StudyError;
 use asperity_contact::Move;
 use asperity_data::AxisScale;
 use asperity_data::format_quantity;
@@ -63,7 +64,7 @@ impl Axis {
     ///
     /// # Errors
     /// The path leads to no number.
-    pub fn new(path: &str, spacing: Spacing, values: Vec<f64>, scene: &Scene) -> Result<Axis, String> {
+    pub fn new(path: &str, spacing: Spacing, values: Vec<f64>, scene: &Scene) -> Result<Axis, StudyError> {
         let target = Target::of(path)?;
         let (name, symbol, unit) = target.label(path, scene);
         Ok(Axis { path: path.to_owned(), name, symbol, unit, spacing, values, target })
@@ -78,8 +79,9 @@ impl Axis {
         | AxisText::Logarithmic { path, .. }
         | AxisText::List { path, .. }) = text;
         let path = printable(path);
-        let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).and_then(|axis| axis.with_values(text));
-        axis.map_err(|what| format!("axis {path}: {what}"))
+        let axis =
+            Axis::new(&path, Spacing::List, Vec::new(), scene).map_err(|error| format!("axis {error}"))?;
+        axis.with_values(text).map_err(|what| format!("axis {path}: {what}"))
     }
 
     fn with_values(self, text: &AxisText) -> Result<Axis, String> {
@@ -253,7 +255,7 @@ impl Target {
     ///
     /// # Errors
     /// No number has this path; the nearest path is named.
-    pub fn of(path: &str) -> Result<Target, String> {
+    pub fn of(path: &str) -> Result<Target, StudyError> {
         match path {
             "preload" => return Ok(Target::Preload { in_newtons: false }),
             "preload_in_N" => return Ok(Target::Preload { in_newtons: true }),
@@ -269,7 +271,8 @@ impl Target {
             let parameter = RoughnessParameter::named(path);
             let near = parameter.map_or_else(near, |one| format!("; did you mean {}?", one.path()));
             let derived = DERIVED.join(", ");
-            format!("no such number{near} (allowed: numbers of a scene by their paths, and {derived})")
+            let allowed = format!("numbers of a scene by their paths, and {derived}");
+            StudyError::refused(Some(path), format!("no such number{near}"), allowed)
         })
     }
 

@@ -27,7 +27,7 @@ const RESAMPLING_SEED: u64 = 2012;
 
 /// The boundary for one combination of values on the other axes, one protocol and one share.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Boundary {
+pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of these axes.
     pub others: Vec<f64>,
     /// The recorded quantity F_a(0)/F_a,max, which identifies the protocol.
@@ -68,7 +68,7 @@ pub struct Boundaries {
     /// Number of random profiles of each cell.
     pub lines: u64,
     /// Boundaries, sorted by the values on the other axes, then by protocol, then by share.
-    pub found: Vec<Boundary>,
+    pub found: Vec<AdhesionBoundary>,
 }
 
 /// F_a(0)/F_a,max over ascending κ or e_el/γ: for each value the shares on the same profiles.
@@ -115,7 +115,7 @@ pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Resu
                 let interval = interval.map(|(low, high)| (to(low), to(high)));
                 let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
                 let crossing = Crossing { value: to(value), side, interval };
-                found.push(Boundary { others, protocol, level, crossing });
+                found.push(AdhesionBoundary { others, protocol, level, crossing });
             }
         }
     }

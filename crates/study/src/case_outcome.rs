@@ -2,8 +2,9 @@
 
 use asperity_contact::Move;
 use asperity_contact::{CurvePoint, History, LegRecord, Reversal};
+use asperity_contact::{Figures, ideal_adhesion_force, preload_point};
 use asperity_scene::Scene;
-use asperity_scene::{Figures, Governing, Regime, ideal_adhesion_force, preload_point, scene_tabor_number};
+use asperity_scene::{Governing, Regime, scene_tabor_number};
 
 /// Outcome of one loading on one profile; a figure that the case does not have is `None`.
 pub(super) struct CaseOutcome<'o> {

@@ -8,6 +8,7 @@ pub const LEAST_TABOR_NUMBER_OF_JKR: f64 = 1.0;
 
 /// A criterion of adhesion without a preload.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Criterion {
     /// Name of the theory.
     pub name: &'static str,

@@ -5,7 +5,8 @@ use super::profiles::Stop;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::statistics::{RegimeCounts, Statistics};
-use asperity_scene::{Scene, Simulation, Solver};
+use asperity_data::Control;
+use asperity_scene::{Document, Scene, Simulation, Solver};
 
 /// Results of a scene on several random profiles: the profile of its own seed and of the seeds that follow. A scene whose
 /// profile is fixed has this single profile.
@@ -103,6 +104,35 @@ impl Ensemble {
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }
+}
+
+/// Computes the scene of a document on this number of random profiles; its files are found relative to the scene file. The
+/// progress is the number of profiles.
+///
+/// # Errors
+/// As for [`Ensemble::of`], no profiles and no threads.
+///
+/// ```
+/// use asperity_data::Control;
+/// use asperity_study::{Quantity, ensemble};
+///
+/// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "2048")?;
+/// let found = ensemble(&scene, 8, Control::default())?;
+/// let force = found.statistics(Quantity::AdhesionForce).expect("eight profiles adhere");
+/// assert_eq!(force.count, 8);
+/// assert!(force.quartiles[0] < force.quartiles[1] && force.quartiles[1] < force.quartiles[2]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn ensemble(
+    document: &Document,
+    profiles: u64,
+    mut control: Control<'_>,
+) -> Result<Ensemble, StudyError> {
+    StudyError::check_threads(control.threads())?;
+    let workers = (Simulation::new(document.resolve("")), control.threads());
+    let stop = control.stop();
+    let mut see = |part: &Ensemble| control.report(part.computed());
+    Ensemble::of(document.scene(), &[], profiles, workers, stop, &mut see)
 }
 
 #[cfg(test)]

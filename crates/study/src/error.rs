@@ -1,22 +1,27 @@
 //! Errors of studies.
 
-use super::plan::{ONE_PROFILE, Plan};
-use super::plan_text::PlanErrors;
 use asperity_data::WriteError;
 use asperity_data::{memory_size, path_name};
 use asperity_half_space::HalfSpaceError;
-use asperity_scene::RunError;
+use asperity_scene::{RunError, Scene};
 use asperity_surface::SurfaceError;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
+/// Message for a request of several profiles of a scene that has one: the fault, and which scenes have several.
+pub(super) const ONE_PROFILE: (&str, &str) = (
+    "more than one profile, and the profile of this scene is fixed",
+    "random roughness (SelfAffine, or an equivalent line)",
+);
+
 /// Error that ends the work on a study; records written before are kept.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum StudyError {
-    /// The plan has errors.
-    #[error(transparent)]
-    Plan(#[from] PlanErrors),
+    /// A plan has errors: each in one line, with its place, what was found and what is allowed.
+    #[error("{}", .0.join("\n"))]
+    Plan(Vec<String>),
     /// A folder or file of the study cannot be used.
     #[error("{}: {reason}", path_name(path))]
     Folder {
@@ -42,21 +47,15 @@ pub enum StudyError {
     /// A body in three dimensions is refused.
     #[error(transparent)]
     HalfSpace(#[from] HalfSpaceError),
-    /// The request for a study is not allowed.
-    #[error("{found}; allowed: {allowed}")]
-    NotAllowed {
-        /// The request that is refused, in words.
-        found: &'static str,
-        /// The requests that are allowed, in words.
-        allowed: &'static str,
-    },
-    /// A question cannot be answered.
-    #[error("{place}: {why}")]
-    Question {
-        /// Path of the number that is sought.
-        place: String,
-        /// Reason, and what is allowed, in words.
-        why: String,
+    /// A value or a request is not allowed.
+    #[error("{}{found}; allowed: {allowed}", place.as_ref().map_or_else(String::new, |place| format!("{place}: ")))]
+    Refused {
+        /// Path of the number of the scene, or name of the argument; `None` for the request as a whole.
+        place: Option<String>,
+        /// What was found, in words.
+        found: String,
+        /// What is allowed, in words.
+        allowed: String,
     },
     /// Two records of the same cell and profile differ.
     #[error(
@@ -89,18 +88,41 @@ pub enum StudyError {
     NoThread(io::Error),
 }
 
-/// Error of a request for a study without profiles.
-pub(super) const NO_PROFILES: StudyError =
-    StudyError::NotAllowed { found: "no profiles", allowed: "at least one" };
-/// Error of a request for several profiles of a scene that has a single one.
-pub(super) const FIXED_PROFILE: StudyError =
-    StudyError::NotAllowed { found: ONE_PROFILE.0, allowed: ONE_PROFILE.1 };
-
 impl StudyError {
-    /// Error of one profile of a study that has a single cell, or one cell for each preload.
-    pub(super) fn of_profile(plan: &Plan, line: u64, error: RunError) -> StudyError {
-        let place = if plan.lines > 1 { format!("seed {}: ", plan.seed_of(line)) } else { String::new() };
-        StudyError::Run { place, error }
+    /// Error of a value at a place, or of a request as a whole.
+    pub(super) fn refused(
+        place: Option<&str>,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> StudyError {
+        StudyError::Refused { place: place.map(str::to_owned), found: found.into(), allowed: allowed.into() }
+    }
+
+    /// Error of a request for several profiles of a scene that has a single one.
+    pub(super) fn fixed_profile() -> StudyError {
+        StudyError::refused(None, ONE_PROFILE.0, ONE_PROFILE.1)
+    }
+
+    /// Number of profiles of a scene.
+    ///
+    /// # Errors
+    /// No profiles, or several of a scene that has a single one.
+    pub(super) fn check_profiles(scene: &Scene, profiles: u64) -> Result<(), StudyError> {
+        match profiles {
+            0 => Err(StudyError::refused(None, "no profiles", "at least one")),
+            2.. if scene.seed().is_none() => Err(StudyError::fixed_profile()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns an error for a computation without threads.
+    pub(super) fn check_threads(threads: usize) -> Result<(), StudyError> {
+        if threads > 0 { Ok(()) } else { Err(StudyError::refused(None, "0 threads", "at least one")) }
+    }
+
+    /// Returns true if the computation was stopped rather than failed.
+    pub fn is_interruption(&self) -> bool {
+        matches!(self, StudyError::Run { error, .. } if error.is_interruption())
     }
 
     pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {

@@ -11,14 +11,14 @@ const LOGARITHMIC_RATIO: f64 = 50.0;
 
 /// A cell of a grid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cell {
+pub struct GridCell {
     /// Statistics of the quantity of each layer, in their order; `None` if no profile has a value.
     pub statistics: Vec<Option<Statistics>>,
     /// Number of profiles in each regime, by each protocol of [`Quantity::REGIMES`].
     pub regimes: [RegimeCounts; 2],
 }
 
-impl Cell {
+impl GridCell {
     /// Number of profiles in each regime: after zero net force if `quantity` is that regime, otherwise from first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
@@ -27,7 +27,7 @@ impl Cell {
 
 /// A quantity of a grid, with its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Layer {
+pub struct GridLayer {
     /// Which quantity it is.
     pub quantity: Quantity,
     /// Scale on which the quantity is shown.
@@ -36,13 +36,13 @@ pub struct Layer {
     pub range: Option<(f64, f64)>,
 }
 
-impl Layer {
+impl GridLayer {
     /// A quantity with the range of its means, on the given scale or on one chosen from the means.
-    pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> Layer {
+    pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let shown = means.iter().filter(|mean| scale.coordinate(**mean).is_finite());
         let range = shown.map(|mean| (*mean, *mean)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        Layer { quantity, scale, range }
+        GridLayer { quantity, scale, range }
     }
 }
 
@@ -55,7 +55,7 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
 }
 
 /// Values on the axes of a grid: across and, if the grid has two axes, up.
-pub type Place = (f64, Option<f64>);
+pub type GridPlace = (f64, Option<f64>);
 
 /// Cells over one axis or two.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,10 +67,10 @@ pub struct Grid {
     /// Values of the study's other axes, in words: `H = 0.3`.
     pub fixed: Vec<String>,
     /// Quantities of the grid, apart from the regimes.
-    pub layers: Vec<Layer>,
+    pub layers: Vec<GridLayer>,
     /// Cells row by row from the lowest row; `None` is not computed yet, and an error is the reason why a cell could not be
     /// computed.
-    pub cells: Vec<Option<Result<Cell, String>>>,
+    pub cells: Vec<Option<Result<GridCell, String>>>,
     /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
@@ -81,8 +81,8 @@ impl Grid {
         across: Axis,
         up: Option<Axis>,
         fixed: Vec<String>,
-        layers: Vec<Layer>,
-        cells: Vec<Option<Result<Cell, String>>>,
+        layers: Vec<GridLayer>,
+        cells: Vec<Option<Result<GridCell, String>>>,
     ) -> Grid {
         let stand_ins = (0..cells.len()).collect();
         Grid { across, up, fixed, layers, cells, stand_ins }
@@ -94,7 +94,7 @@ impl Grid {
     }
 
     /// The layer that shows a quantity.
-    pub fn layer(&self, quantity: Quantity) -> Option<&Layer> {
+    pub fn layer(&self, quantity: Quantity) -> Option<&GridLayer> {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
@@ -112,14 +112,14 @@ impl Grid {
 
     /// The cell shown at a column and a row, with its own column and row: the cell there or, until that is computed, a cell
     /// of a coarser grid.
-    pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<Cell, String>, usize, usize)> {
+    pub fn shown(&self, column: usize, row: usize) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
         let index = *self.stand_ins.get(row * columns + column).filter(|_| column < columns)?;
         Some((self.cells[index].as_ref()?, index % columns, index / columns))
     }
 
     /// The cells; for `whole` the cells shown in place of each.
-    fn each(&self, whole: bool) -> impl Iterator<Item = Option<&Cell>> {
+    fn each(&self, whole: bool) -> impl Iterator<Item = Option<&GridCell>> {
         let index = move |index: usize| if whole { self.stand_ins[index] } else { index };
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
@@ -129,7 +129,7 @@ impl Grid {
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
-        let of = |cell: &Cell| match (quantity, layer) {
+        let of = |cell: &GridCell| match (quantity, layer) {
             _ if quantity.is_regime() => {
                 let regimes = cell.regimes_of(quantity);
                 let regime = regimes.most()?.0;
@@ -142,16 +142,16 @@ impl Grid {
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
-    /// The regime of most profiles of each cell, row by row, by the protocol of [`Cell::regimes_of`]; empty if no regime is
+    /// The regime of most profiles of each cell, row by row, by the protocol of [`GridCell::regimes_of`]; empty if no regime is
     /// known.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
-        let most = |cell: Option<&Cell>| Some(cell?.regimes_of(quantity).most()?.0);
+        let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();
         if regimes.iter().all(Option::is_none) { Vec::new() } else { regimes }
     }
 
     /// Returns true for values on the grid, including half a cell beyond the outermost values.
-    pub fn contains(&self, at: Place) -> bool {
+    pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
         let (columns, rows) = self.size();
@@ -159,7 +159,7 @@ impl Grid {
     }
 
     /// Fractional column and row of values on the axes.
-    fn coordinates(&self, (across, up): Place) -> (f64, f64) {
+    fn coordinates(&self, (across, up): GridPlace) -> (f64, f64) {
         let place = |axis: &Axis, value| axis.scale().place(&axis.values, value);
         (
             place(&self.across, across),
@@ -168,7 +168,7 @@ impl Grid {
     }
 
     /// The cell shown at values on the axes, or for values beyond the grid the cell at its edge, with its column and row.
-    pub fn nearest(&self, at: Place) -> Option<(&Result<Cell, String>, usize, usize)> {
+    pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
         let (columns, rows) = self.size();

@@ -174,7 +174,7 @@ mod tests {
     use crate::live_plan::live_plan;
     use crate::plan_text::Changes;
     use crate::quantity::Quantity;
-    use crate::run::{Options, run};
+    use crate::run::run_study;
     use crate::shard::Shard;
     use crate::store::Folder;
     use crate::study_map::StudyMap;
@@ -241,7 +241,7 @@ mod tests {
         let plan = Plan::parse(&text, "map", &Changes::default()).unwrap();
         let place = tempfile::tempdir().unwrap();
         let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
-        run(&folder, Options { jobs: 1, shard: Shard::WHOLE }, &|| false, &mut |_| ()).unwrap();
+        run_study(&folder, Shard::WHOLE, 1, &|| false, &mut |_| ()).unwrap();
         merge(&folder).unwrap();
         let study = StudyMap::open(folder.path()).unwrap().grid(0);
         let (live, mut disagreeing) = (live.grid(), 0);

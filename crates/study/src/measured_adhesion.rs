@@ -5,7 +5,7 @@
 //! direction drawn from the uncertainty of the fit. Forces with the fitted spectrum differ from profile to profile; the two
 //! forces of one profile differ because of the spectrum alone.
 
-use super::error::{NO_PROFILES, StudyError};
+use super::error::StudyError;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::on_threads;
@@ -23,6 +23,7 @@ const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ProfileAdhesion {
     /// Seed of the profile.
     pub seed: u64,
@@ -82,13 +83,11 @@ impl MeasuredAdhesion {
     /// # Errors
     /// The scene has no equivalent line of a measured surface, a file cannot be read, or a profile fails: the first one.
     pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
-        if count == 0 {
-            return Err(NO_PROFILES);
-        }
         let scene = document.scene();
+        StudyError::check_profiles(scene, u64::from(count))?;
         if scene.measured().is_none() || scene.measured_as_line() {
             let allowed = "roughness: Measured with as_line: false";
-            return Err(StudyError::NotAllowed { found: "the scene has no equivalent line", allowed });
+            return Err(StudyError::refused(None, "the scene has no equivalent line", allowed));
         }
         let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;

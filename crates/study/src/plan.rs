@@ -1,6 +1,7 @@
 //! The plan of a study: a scene, the axes along which its numbers vary, random profiles, and recorded quantities.
 
 use super::axis::Axis;
+use super::error::ONE_PROFILE;
 use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
 use asperity_scene::{CheckedScene, Scene, SceneError, SceneErrors, ron_float};
@@ -29,12 +30,6 @@ const SAME: [&[&str]; 3] = [
     &["springs_per_wave", "roughness.modes.1", "roughness.wavelengths.1"],
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
-
-/// Message for a request of several profiles of a scene that has one: the fault, and which scenes have several.
-pub(super) const ONE_PROFILE: (&str, &str) = (
-    "more than one profile, and the profile of this scene is fixed",
-    "random roughness (SelfAffine, or an equivalent line)",
-);
 
 /// A checked plan.
 #[derive(Clone, Debug, PartialEq)]

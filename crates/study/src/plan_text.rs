@@ -1,6 +1,7 @@
 //! The text of a plan: reading it, with the scene that it names, and writing it.
 
 use super::axis::{Axis, AxisText, Spacing};
+use super::error::StudyError;
 use super::plan::{MOST_AXES, PRELOAD, Plan, StiffnessRange};
 use super::quantity::{Quantity, renamed};
 use asperity_data::read_regular_text;
@@ -11,7 +12,6 @@ use asperity_scene::{
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
-use thiserror::Error;
 
 /// Version of the plan file; no other version is supported.
 pub const PLAN_VERSION: u32 = 1;
@@ -27,11 +27,6 @@ pub const PLANS: &[Preset] = built_in!("plans/":
     "self-averaging"
 );
 
-/// All errors of a plan, each one line.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{}", .0.join("\n"))]
-pub struct PlanErrors(pub Vec<String>);
-
 /// Changes of a plan for one study, given apart from its text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
@@ -41,7 +36,7 @@ pub struct Changes {
     pub lines: Option<u64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Plan")]
 struct PlanText {
     version: u32,
@@ -76,26 +71,50 @@ impl Plan {
     ///
     /// # Errors
     /// All errors, including errors of the scenes of cells.
-    pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
+    pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, StudyError> {
         if is_file_name(name_or_path) {
             let text = read_regular_text(Path::new(name_or_path), LONGEST_TEXT);
-            let text = text.map_err(|error| PlanErrors(vec![format!("{name_or_path}: {error}")]))?;
+            let text = text.map_err(|error| StudyError::Plan(vec![format!("{name_or_path}: {error}")]))?;
             return Plan::parse(&text, name_or_path, changes);
         }
         let plan = Plan::built_in(name_or_path)?;
         Plan::parse(plan.text, plan.name, changes)
     }
 
+    /// A plan of a scene whose numbers vary: axes as paths and values in SI units, on `profiles` random profiles of each cell.
+    ///
+    /// # Errors
+    /// All errors, including errors of the scenes of cells.
+    pub fn new(
+        document: &Document,
+        axes: &[(&str, &[f64])],
+        profiles: u64,
+        record: &[Quantity],
+    ) -> Result<Plan, StudyError> {
+        let axis = |(path, values): &(&str, &[f64])| AxisText::List {
+            path: (*path).to_owned(),
+            values: values.to_vec(),
+        };
+        let read = PlanText {
+            axes: axes.iter().map(axis).collect(),
+            record: record.to_vec(),
+            ..PlanText::default()
+        };
+        let plan = Plan::of(read, with_absolute_paths(document), Some(profiles)).map_err(StudyError::Plan)?;
+        plan.check_cells().map_err(StudyError::Plan)?;
+        Ok(plan)
+    }
+
     /// The built-in plan with this name.
     ///
     /// # Errors
     /// There is no such plan; all names are listed.
-    pub fn built_in(name: &str) -> Result<&'static Preset, PlanErrors> {
+    pub fn built_in(name: &str) -> Result<&'static Preset, StudyError> {
         PLANS.iter().find(|plan| plan.name == name).ok_or_else(|| {
             let names: Vec<_> = PLANS.iter().map(|plan| plan.name).collect();
             let (near, names) = (did_you_mean(name, names.iter().copied()), names.join(", "));
             let message = "there is no such file and no such built-in plan";
-            PlanErrors(vec![format!("{name}: {message}{near} (built-in: {names})")])
+            StudyError::Plan(vec![format!("{name}: {message}{near} (built-in: {names})")])
         })
     }
 
@@ -103,7 +122,7 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Plan::open`].
-    pub fn parse(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
+    pub fn parse(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let plan = Plan::read(text, name, changes)?;
         plan.check_cells().map_err(|wrong| in_plan(wrong, name))?;
         Ok(plan)
@@ -111,9 +130,9 @@ impl Plan {
 
     /// Reads a plan and checks all but the scenes of its cells: for the plan in the folder of a study, whose cells were
     /// checked when the study began.
-    pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, PlanErrors> {
+    pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let refused = |what: String| PlanErrors(vec![format!("{name}: {what}")]);
+        let refused = |what: String| StudyError::Plan(vec![format!("{name}: {what}")]);
         if text.len() > LONGEST_TEXT {
             return Err(refused(format!("the plan is too long: at most {LONGEST_TEXT} bytes are read")));
         }
@@ -122,7 +141,7 @@ impl Plan {
             let (line, column) = line_column(text, offset);
             let word = text[offset..].split(|c: char| !c.is_alphanumeric() && c != '_').next();
             let what = word.and_then(renamed).unwrap_or_else(|| error.what());
-            PlanErrors(vec![format!("{name}:{line}:{column}: {what}")])
+            StudyError::Plan(vec![format!("{name}:{line}:{column}: {what}")])
         })?;
         if read.version != PLAN_VERSION {
             return Err(refused(format!(
@@ -205,12 +224,12 @@ fn in_ron(axis: &Axis) -> String {
     format!("{kind}(path: {path}, from: {from}, to: {to}, count: {})", axis.count())
 }
 
-fn in_plan(wrong: Vec<String>, name: &str) -> PlanErrors {
-    PlanErrors(wrong.into_iter().map(|wrong| format!("{name}: {wrong}")).collect())
+fn in_plan(wrong: Vec<String>, name: &str) -> StudyError {
+    StudyError::Plan(wrong.into_iter().map(|wrong| format!("{name}: {wrong}")).collect())
 }
 
 /// The scene of a plan with all overrides and with absolute paths.
-fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, PlanErrors> {
+fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Result<Scene, StudyError> {
     let in_scene =
         |errors: SceneErrors| in_plan(errors.to_string().lines().map(str::to_owned).collect(), name);
     let one_of = |given: &str| Err(in_plan(vec![format!("{given}; allowed: one of them")], name));
@@ -227,10 +246,15 @@ fn resolved_scene(read: &PlanText, name: &str, set: &[(String, String)]) -> Resu
     };
     let set: Vec<_> = read.set.clone().into_iter().chain(set.iter().cloned()).collect();
     let document = document.set_all(&set).map_err(in_scene)?;
+    Ok(with_absolute_paths(&document))
+}
+
+/// The scene of a document, whose files are found from any folder.
+fn with_absolute_paths(document: &Document) -> Scene {
     let mut scene = Scene::clone(document.scene());
     scene.rename_measured_files(|file| {
         let path = document.resolve(file);
         std::path::absolute(&path).unwrap_or(path).display().to_string()
     });
-    Ok(scene)
+    scene
 }

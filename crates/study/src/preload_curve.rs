@@ -5,9 +5,10 @@ use crate::preloads::Staircase;
 use crate::profiles::Stop;
 use crate::results::Results;
 use crate::statistics::Statistics;
+use asperity_contact::Figures;
 use asperity_contact::Move;
 use asperity_data::AxisScale;
-use asperity_scene::{CheckedScene, Figures, Outcome, Simulation, Solver};
+use asperity_scene::{CheckedScene, Outcome, Simulation, Solver};
 
 /// Number of preloads, and index of the scene's own preload among them: a linear axis extends from the force at first touch
 /// to twice the preload, a logarithmic one over six decades, two of them above the preload.

@@ -209,12 +209,13 @@ impl Results {
 #[cfg(test)]
 mod tests {
     use super::super::cells::Streak;
-    use super::super::error::FIXED_PROFILE;
+    use super::super::error::StudyError;
     use super::super::plan::Plan;
     use super::super::plan_text::Changes;
     use super::super::recorder::Recorder;
     use super::*;
-    use asperity_scene::{Document, Figures, open};
+    use asperity_contact::Figures;
+    use asperity_scene::{Document, open};
 
     fn preloads(ends: (f64, f64), count: usize) -> Axis {
         Axis::of_preloads(ends, count, AxisScale::Linear).unwrap()
@@ -255,7 +256,7 @@ mod tests {
     #[test]
     fn smooth_bodies_have_but_one_profile() {
         let (smooth, preloads) = (open("jkr-sphere").unwrap(), preloads((0.0, 1e-6), 2));
-        assert_eq!(solved(&smooth, &preloads, 2, 1), Err(FIXED_PROFILE.to_string()));
+        assert_eq!(solved(&smooth, &preloads, 2, 1), Err(StudyError::fixed_profile().to_string()));
         let one = solved(&smooth, &preloads, 1, 1).unwrap();
         assert_eq!((one.plan().cells(), one.spread_of_adhesion()), (2, Vec::new()));
         let stepwise = smooth.set("numerics.solver", "Stepwise(step: 1e-9)").unwrap();
@@ -272,7 +273,7 @@ mod tests {
                  values: [2e-6, 1e-5])], record: [adhesion_force, dissipated_energy])"
             );
             let plan = Plan::parse(&text, base, &Changes::default()).unwrap();
-            assert_eq!(Plan::parse(&plan.to_ron(), base, &Changes::default()).as_ref(), Ok(&plan));
+            assert_eq!(Plan::parse(&plan.to_ron(), base, &Changes::default()).unwrap(), plan);
             let streak = Streak { cells: 0..2, line: 0 };
             let records = Recorder::new(&plan, Simulation::default(), &|| false).record(&streak).unwrap();
             for (force, record) in [2e-6, 1e-5].into_iter().zip(records) {

@@ -28,7 +28,10 @@ pub(super) fn on_profiles<R: Send>(
     let most = jobs.clamp(1, lines.len().max(1));
     let jobs = (2..=most).rev().find(|jobs| plan.memory(*jobs as u64).is_ok()).unwrap_or(1);
     let solved = |simulation: &mut Simulation, line| {
-        solve(simulation, line).map_err(|error| StudyError::of_profile(plan, line, error))
+        solve(simulation, line).map_err(|error| {
+            let place = if plan.lines > 1 { format!("seed {}: ", plan.seed_of(line)) } else { String::new() };
+            StudyError::Run { place, error }
+        })
     };
     if jobs == 1 {
         let mut simulation = simulation;

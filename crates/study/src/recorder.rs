@@ -215,7 +215,7 @@ fn is_of_machine(error: &RunError) -> bool {
     let is_short = matches!(
         error,
         RunError::OutOfMemory { .. }
-            | RunError::Surface(SurfaceError::OutOfMemory(_))
+            | RunError::Surface(SurfaceError::OutOfMemory { .. })
             | RunError::Contact(ContactError::OutOfMemory(_))
     );
     is_short || error.is_interruption()

@@ -4,7 +4,7 @@
 //! draws, so only their means compare. The area of contact does not: at the same force the line has 1.1 to 4.2 times
 //! the area of three dimensions.
 
-use super::error::{NO_PROFILES, StudyError};
+use super::error::StudyError;
 use super::profiles::Stop;
 use super::quantity::Quantity;
 use super::spatial::{Body, Pressing, Pulling};
@@ -132,7 +132,7 @@ impl Reference {
         report: &(dyn Fn() + Sync),
     ) -> Result<Reference, StudyError> {
         if options.maps == 0 || options.lines == 0 {
-            return Err(NO_PROFILES);
+            return Err(StudyError::refused(None, "no profiles", "at least one"));
         }
         let mut simulation = Simulation::default();
         let failed = |error| StudyError::Run { place: String::new(), error };
@@ -145,9 +145,9 @@ impl Reference {
 
         let begun = Instant::now();
         let own = run(&cut.line, &mut simulation, stop)?;
-        let preload = own.figures.preload.filter(|preload| *preload > 0.0).ok_or(StudyError::NotAllowed {
-            found: "the loading has no preload above 0 N",
-            allowed: "a loading to a force or an indentation before the separation",
+        let preload = own.figures.preload.filter(|preload| *preload > 0.0).ok_or_else(|| {
+            let allowed = "a loading to a force or an indentation before the separation";
+            StudyError::refused(None, "the loading has no preload above 0 N", allowed)
         })?;
         let bare = cut.line.with(|scene| {
             scene.adhesion = None;
@@ -253,10 +253,8 @@ impl Cut {
         cells: usize,
     ) -> Result<Cut, StudyError> {
         if scene.measured().is_some() {
-            return Err(StudyError::NotAllowed {
-                found: "the roughness is measured",
-                allowed: "self-affine roughness, and any form: asperity surface states H and the waves of a measured surface",
-            });
+            let allowed = "self-affine roughness, and any form: asperity surface states H and the waves of a measured surface";
+            return Err(StudyError::refused(None, "the roughness is measured", allowed));
         }
         let mut changed = Scene::clone(scene);
         // The work of adhesion stays where waves are left out.
@@ -275,14 +273,12 @@ impl Cut {
         if let (Some(spectrum), Some(amplitude)) = (scene.spectrum(), governing.amplitude) {
             let last = spectrum.last.min(cells as u64 / CELLS_PER_WAVE);
             if last < spectrum.first {
-                return Err(StudyError::Question {
-                    place: format!("{cells} cells"),
-                    why: format!(
-                        "the longest wave of the scene has {} cells; allowed: at least {} cells along the side",
-                        cells as u64 / spectrum.first,
-                        (CELLS_PER_WAVE * spectrum.first).next_power_of_two()
-                    ),
-                });
+                let least = (CELLS_PER_WAVE * spectrum.first).next_power_of_two();
+                return Err(StudyError::refused(
+                    Some(&format!("{cells} cells")),
+                    format!("the longest wave of the scene has {} cells", cells as u64 / spectrum.first),
+                    format!("at least {least} cells along the side"),
+                ));
             }
             let kept = asperity_surface::SelfAffine { last, ..spectrum };
             let first = amplitude.rms_height / spectrum.relative_rms();

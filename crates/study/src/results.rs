@@ -3,8 +3,7 @@
 use super::axis::Axis;
 use super::cells::Streak;
 use super::error::StudyError;
-use super::error::{FIXED_PROFILE, NO_PROFILES};
-use super::grid::{Cell, Grid, Layer};
+use super::grid::{Grid, GridCell, GridLayer};
 use super::plan::Plan;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::{Quantity, regime_of};
@@ -33,6 +32,7 @@ pub struct Results {
 
 /// What a merge found in the shard files of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Merged {
     /// Number of records, each counted once.
     pub records: u64,
@@ -107,12 +107,7 @@ impl Results {
         lines: u64,
         preloads: Option<&Axis>,
     ) -> Result<Results, StudyError> {
-        if lines == 0 {
-            return Err(NO_PROFILES);
-        }
-        if lines > 1 && scene.seed().is_none() {
-            return Err(FIXED_PROFILE);
-        }
+        StudyError::check_profiles(scene, lines)?;
         if preloads.is_some() && scene.numerics.solver != Solver::Exact {
             return Err(StudyError::Run { place: String::new(), error: RunError::NeedsExactSolver });
         }
@@ -350,15 +345,15 @@ impl Results {
     }
 
     /// The recorded quantities except regimes, on scales for the whole study.
-    pub(super) fn layers(&self) -> Vec<Layer> {
+    pub(super) fn layers(&self) -> Vec<GridLayer> {
         let recorded = self.plan.record.iter().filter(|quantity| !quantity.is_regime());
         recorded.map(|quantity| self.layer(*quantity, None)).collect()
     }
 
     /// A recorded quantity with a scale for the whole study: the given one, or one chosen from all means.
-    pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
+    pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means = (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
-        Layer::new(quantity, scale, &means.collect::<Vec<_>>())
+        GridLayer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
     /// The cells over one or two axes, at the values with these indices on the other axes, with the quantities of these
@@ -367,7 +362,7 @@ impl Results {
         &self,
         (across, up): (usize, Option<usize>),
         mut places: Vec<usize>,
-        layers: Vec<Layer>,
+        layers: Vec<GridLayer>,
     ) -> Grid {
         let axes = &self.plan.axes;
         let quantities: Vec<Quantity> = layers.iter().map(|layer| layer.quantity).collect();
@@ -389,10 +384,10 @@ impl Results {
     }
 
     /// A cell with the statistics of these quantities; `None` without records.
-    pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<Cell> {
+    pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<GridCell> {
         let statistics = quantities.iter().map(|quantity| self.statistics(cell, *quantity)).collect();
         let regimes = self.regimes(cell);
-        (regimes[0].profiles() > 0).then_some(Cell { statistics, regimes })
+        (regimes[0].profiles() > 0).then_some(GridCell { statistics, regimes })
     }
 }
 

@@ -1,21 +1,18 @@
 //! Computation of the missing records of a plan on all cores; no bit of a result depends on the number of threads.
 
-use super::cells::Cells;
+use super::cells::{Cells, Streak};
+use super::compute::Streaks;
 use super::error::StudyError;
 use super::measured::profile;
-use super::recorder::Recorder;
+use super::recorder::Recorded;
 use super::shard::Shard;
 use super::status::{count, rate};
 use super::store::{Folder, encode};
-use asperity_data::on_threads;
-use asperity_scene::Simulation;
 use std::fs::File;
 use std::io;
 use std::io::Write;
 use std::panic::resume_unwind;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
@@ -29,18 +26,9 @@ const SYNC: Duration = Duration::from_millis(50);
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Options of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// Number of threads.
-    pub jobs: usize,
-    /// The part of the plan to compute.
-    pub shard: Shard,
-}
-
 /// Progress of a run, in records of its part of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
+pub struct StudyProgress {
     /// Number of existing records.
     pub done: u64,
     /// Number of records that existed before this run.
@@ -51,7 +39,7 @@ pub struct Progress {
     pub elapsed: Duration,
 }
 
-impl Progress {
+impl StudyProgress {
     /// Returns true if every record exists.
     pub fn is_complete(&self) -> bool {
         self.done == self.total
@@ -69,22 +57,24 @@ impl Progress {
     }
 }
 
-/// Computes the missing records of a part of the plan. `stop` is polled after each streak; `report` is called now and then
-/// and at the end.
+/// Computes the missing records of a part of a study in a folder, on this number of threads. `stop` is asked after each loading;
+/// `report` is called now and then and at the end.
 ///
 /// # Errors
 /// Too little memory for a record, or a record cannot be written. Earlier records are kept.
-pub fn run(
+pub fn run_study(
     folder: &Folder,
-    options: Options,
+    shard: Shard,
+    threads: usize,
     stop: &(dyn Fn() -> bool + Sync),
-    report: &mut dyn FnMut(&Progress),
-) -> Result<Progress, StudyError> {
+    report: &mut dyn FnMut(&StudyProgress),
+) -> Result<StudyProgress, StudyError> {
+    StudyError::check_threads(threads)?;
     let plan = folder.plan();
     let cells = Cells::of(plan);
     let done = folder.done()?;
-    let (total, before) = count(folder, &cells, &done, options.shard);
-    let mut progress = Progress { done: before, before, total, elapsed: Duration::ZERO };
+    let (total, before) = count(folder, &cells, &done, shard);
+    let mut progress = StudyProgress { done: before, before, total, elapsed: Duration::ZERO };
     report(&progress);
     if progress.is_complete() {
         return Ok(progress);
@@ -92,44 +82,26 @@ pub fn run(
     // Read once, so that all threads compute from the same bytes, even if the file changes meanwhile.
     let profile = profile(plan, folder.path())?;
     let clock = Instant::now();
-    let (path, mut file) = folder.new_file(options.shard)?;
-    let units: &Vec<u64> = &options.shard.units(cells.units()).collect();
-    let (cells, done, profile, ended) = (&cells, &done, &profile, &AtomicBool::new(false));
+    let (path, mut file) = folder.new_file(shard)?;
+    let units: &[u64] = &shard.units(cells.units()).collect::<Vec<u64>>();
+    let (done, plan) = (&done, plan);
+    let is_missing =
+        |streak: &Streak| streak.cells.clone().any(|cell| !done[(cell * plan.lines + streak.line) as usize]);
+    let streaks = Streaks { cells: &cells, units, is_missing: &is_missing, profile: profile.as_ref() };
     let (sender, receiver) = sync_channel(WAITING);
-    let worker = move || {
-        let simulation = Simulation::new(PathBuf::new());
-        let simulation = match profile {
-            Some(profile) => simulation.with_measured(Arc::clone(profile)),
-            None => simulation,
-        };
-        let (mut recorder, sender) = (Recorder::new(plan, simulation, &|| false), sender.clone());
-        move |number: u64| -> Result<(), StudyError> {
-            for streak in cells.streaks(units[number as usize]) {
-                let is_missing = |cell: u64| !done[(cell * plan.lines + streak.line) as usize];
-                if !streak.cells.clone().any(is_missing) {
-                    continue;
-                }
-                if stop() || ended.load(Ordering::SeqCst) {
-                    break;
-                }
-                let (cell, seed) = (streak.cells.start, plan.seed_of(streak.line));
-                let records = recorder.record_each(&streak).map_err(|error| {
-                    ended.store(true, Ordering::SeqCst);
-                    let place = format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
-                    StudyError::Run { place, error }
-                })?;
-                let mut text = String::new();
-                for (cell, record) in streak.cells.zip(&records).filter(|(cell, _)| is_missing(*cell)) {
-                    encode(cell, seed, record, &mut text);
-                }
-                // The text has no receiver once the file cannot be written.
-                ended.fetch_or(sender.send(text).is_err(), Ordering::SeqCst);
+    let work = move || {
+        let send = move |streak: Streak, records: Vec<Recorded>| {
+            let (seed, mut text) = (plan.seed_of(streak.line), String::new());
+            let is_new = |cell: &u64| !done[(cell * plan.lines + streak.line) as usize];
+            for (cell, record) in streak.cells.zip(&records).filter(|(cell, _)| is_new(cell)) {
+                encode(cell, seed, record, &mut text);
             }
-            Ok(())
-        }
+            // The text has no receiver once the file cannot be written.
+            sender.send(text).is_ok()
+        };
+        streaks.compute(plan, threads, stop, &send)
     };
     std::thread::scope(|scope| {
-        let work = move || on_threads(units.len() as u64, options.jobs, worker).map(drop);
         let threads = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
         let written = write((&path, &mut file), receiver, clock, &mut progress, report);
         threads.join().unwrap_or_else(|panic| resume_unwind(panic))?;
@@ -145,8 +117,8 @@ fn write(
     (path, file): (&Path, &mut File),
     receiver: Receiver<String>,
     clock: Instant,
-    progress: &mut Progress,
-    report: &mut dyn FnMut(&Progress),
+    progress: &mut StudyProgress,
+    report: &mut dyn FnMut(&StudyProgress),
 ) -> io::Result<()> {
     let (mut synced, mut reported) = (Instant::now(), Instant::now());
     let (mut pending, mut elapsed) = (0, Duration::ZERO);

@@ -1,7 +1,7 @@
 //! Selection of a figure from a merged study: quantities, axes across and up, and values of the other axes.
 
 use super::axis::Axis;
-use super::grid::{Grid, Layer, across_and_up, scale_of};
+use super::grid::{Grid, GridLayer, across_and_up, scale_of};
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
@@ -204,14 +204,14 @@ fn is_few(axes: &[Axis], one: usize, other: usize) -> bool {
 
 /// A quantity shown as curves. A single curve is linear, with a second, logarithmic chart for small values; of several
 /// curves on a linear scale the highest would hide the others.
-fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> Layer {
+fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
     let statistics = grid.statistics(quantity, false);
     let mut curves = statistics.chunks(grid.size().0.max(1));
     let first = curves.next();
     let several = curves.any(|curve| Some(curve) != first);
     let means: Vec<f64> = statistics.iter().flatten().map(|one| one.mean).collect();
     let usual = || if several { scale_of(&means) } else { AxisScale::Linear };
-    Layer { quantity, scale: scale.unwrap_or_else(usual), range: None }
+    GridLayer { quantity, scale: scale.unwrap_or_else(usual), range: None }
 }
 
 fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, String> {

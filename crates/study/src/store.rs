@@ -46,7 +46,7 @@ pub struct Folder {
 
 /// Header of a shard file, which is its first line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Header {
+pub struct ShardHeader {
     /// Version of the format of shard files.
     pub format: u32,
     /// Checksum of the plan.
@@ -69,7 +69,7 @@ pub struct ShardFile {
     /// Path.
     pub path: PathBuf,
     /// Header.
-    pub header: Header,
+    pub header: ShardHeader,
     /// Time of the last write, s since 1970.
     pub written: f64,
 }
@@ -151,7 +151,7 @@ impl Folder {
         let begun = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let started = begun.as_secs();
         let (host, process) = (host(), std::process::id());
-        let header = Header {
+        let header = ShardHeader {
             format: STORE_VERSION,
             plan: self.checksum(),
             shard,
@@ -251,8 +251,8 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
 }
 
 /// Reads a whole header. A crash cannot cause an error in it, so an error is a fault of the writer.
-fn header_of(payload: &str, checksum: &str) -> Result<Header, String> {
-    let header: Header = serde_json::from_str(payload).map_err(|error| {
+fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
+    let header: ShardHeader = serde_json::from_str(payload).map_err(|error| {
         format!(
             "its first line is not the header of a shard file ({error}); remove the file or bring back another"
         )
@@ -263,7 +263,7 @@ fn header_of(payload: &str, checksum: &str) -> Result<Header, String> {
     if header.plan != checksum {
         return Err("this file belongs to another plan".into());
     }
-    Ok(Header { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
+    Ok(ShardHeader { shard: Shard::new(header.shard.number, header.shard.count)?, ..header })
 }
 
 /// Appends a line with its checksum in front; `payload` has no line break.

@@ -3,7 +3,7 @@
 
 use super::axis::Axis;
 use super::error::StudyError;
-use super::grid::{Grid, Layer, across_and_up};
+use super::grid::{Grid, GridLayer, across_and_up};
 use super::live_plan::live_plan;
 use super::place::{governing, moved, press, scene_with};
 use super::plan::Plan;
@@ -22,7 +22,7 @@ pub struct StudyMap {
     up: Option<usize>,
     others: Vec<usize>,
     /// Quantities with scales that all maps share.
-    layers: Vec<Layer>,
+    layers: Vec<GridLayer>,
 }
 
 impl StudyMap {

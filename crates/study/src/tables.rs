@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::error::StudyError;
-use super::grid::Cell;
+use super::grid::GridCell;
 use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::results::{Merged, Results};
@@ -148,7 +148,7 @@ impl Results {
     /// confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
-        let nothing = |cell| Cell { statistics: vec![None; record.len()], regimes: self.regimes(cell) };
+        let nothing = |cell| GridCell { statistics: vec![None; record.len()], regimes: self.regimes(cell) };
         let of_cell = move |cell| {
             let reason = self.failure_of(cell);
             self.cell(cell, record).or_else(|| reason.map(|_| nothing(cell))).map(|all| (cell, all, reason))
@@ -160,7 +160,7 @@ impl Results {
             if quantity.is_regime() {
                 for (index, regime) in Regime::ALL.into_iter().enumerate() {
                     let name = format!("{}_{}", quantity.name(), regime.name().replace('-', "_"));
-                    let share = move |cell: &Cell| Some(cell.regimes_of(*quantity).shares()?[index]);
+                    let share = move |cell: &GridCell| Some(cell.regimes_of(*quantity).shares()?[index]);
                     table = table.with(name, Kind::Real, move |row| share(&row.1));
                 }
                 continue;

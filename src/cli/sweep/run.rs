@@ -6,7 +6,7 @@ use crate::cli::progress::ProgressLine;
 use crate::cli::scene::{Overrides, threads};
 use asperity_data::memory_size;
 use asperity_report::progress_text;
-use asperity_study::{Changes, Folder, Options, Plan, Shard, Status, merge, run as compute};
+use asperity_study::{Changes, Folder, Plan, Shard, Status, merge, run_study};
 use clap::Args;
 use std::io;
 use std::io::Write;
@@ -69,9 +69,9 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let folder = Folder::create(output, &plan)?;
     let stop = stop_by_signal()?;
     let (mut line, mut last) = (ProgressLine::default(), None::<Instant>);
-    let options = Options { jobs: jobs as usize, shard: arguments.shard.unwrap_or(Shard::WHOLE) };
+    let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     let signal = || stop.load(Ordering::SeqCst);
-    let ended = compute(&folder, options, &|| signal() != 0, &mut |progress| {
+    let ended = run_study(&folder, shard, jobs as usize, &|| signal() != 0, &mut |progress| {
         let text = progress_text(progress);
         let is_due = progress.is_complete() || last.is_none_or(|last| last.elapsed() >= BETWEEN);
         if is_due {
@@ -90,7 +90,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         return Err(CliError { exit_code, ..CliError::message(stopped) });
     }
     if arguments.shard.is_some() {
-        let _ = writeln!(stderr, "all {} records of shard {} exist", ended.total, options.shard);
+        let _ = writeln!(stderr, "all {} records of shard {} exist", ended.total, shard);
         // The process that completes the study merges it; of two at the same time both do.
         if Status::of(&folder)?.missing > 0 {
             return Ok(());

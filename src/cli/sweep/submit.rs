@@ -7,6 +7,7 @@
 
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
+use crate::cli::typed::program_path;
 use asperity_data::{is_control, path_name, printable_lines};
 use asperity_scene::quoted;
 use asperity_study::{Changes, Folder, Plan};
@@ -63,7 +64,7 @@ pub struct SubmitArguments {
 pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let changes = Changes { set: arguments.overrides.set.clone(), lines: arguments.lines };
     let plan = Plan::open(&arguments.plan, &changes)?;
-    let script = script(arguments, &std::env::current_exe()?, &std::path::absolute(&arguments.output)?)?;
+    let script = script(arguments, &program_path()?, &std::path::absolute(&arguments.output)?)?;
     if arguments.check {
         return Ok(stdout.write_all(script.as_bytes())?);
     }

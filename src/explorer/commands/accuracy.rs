@@ -9,10 +9,7 @@ use crate::explorer::panes;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Study, ensemble_key};
-use asperity_contact::Move;
 use asperity_data::parallel::threads;
-use asperity_scene::RunError;
-use asperity_scene::out_of_reach;
 use asperity_scene::{CheckedScene, Document};
 use asperity_scene::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
 use asperity_study::Ensemble;
@@ -62,11 +59,7 @@ fn preview(document: &Document) -> Study {
     let (text, scene) = (document.text().to_owned(), scene_of(document));
     Study::new(document.text(), false, move |simulation, stop, _| {
         let outcome = simulation.run(&scene, stop, &mut |_, _, _| Ok(()));
-        let outcome = outcome.map_err(|error| match error {
-            RunError::Contact(error) => out_of_reach(&error, Move::ToTouch),
-            error => error.to_string(),
-        });
-        Ok(Preview { text, outcome: outcome? })
+        Ok(Preview { text, outcome: outcome.map_err(|error| error.to_string())? })
     })
 }
 

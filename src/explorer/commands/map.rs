@@ -6,7 +6,7 @@ use crate::explorer::app::App;
 use crate::explorer::keys::key::direction;
 use crate::explorer::map::OpenStudy;
 use asperity_scene::{Document, SceneErrors};
-use asperity_study::{Axis, Place, live_plan, moved};
+use asperity_study::{Axis, GridPlace, live_plan, moved};
 use crossterm::event::{KeyCode, KeyEvent};
 use std::sync::Arc;
 
@@ -91,7 +91,7 @@ pub fn step(app: &mut App, key: &KeyEvent) {
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
 /// Sets the scene to the values at a place on the map. Successive moves count as one edit.
-pub fn move_to(app: &mut App, place: Place) {
+pub fn move_to(app: &mut App, place: GridPlace) {
     let goes_on = app.map.moving;
     match moved_to(app, place) {
         Ok(document) if goes_on => edit::replace(app, document),
@@ -101,7 +101,7 @@ pub fn move_to(app: &mut App, place: Place) {
 }
 
 /// The scene moved to a place on the map. A preload in units of E* h L may change with the place.
-fn moved_to(app: &App, (to_across, to_up): Place) -> Result<Document, SceneErrors> {
+fn moved_to(app: &App, (to_across, to_up): GridPlace) -> Result<Document, SceneErrors> {
     let axes = app.map_axes();
     let (across, up) = axes.as_ref().map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
     let values: Vec<(&Axis, f64)> = across.zip(Some(to_across)).into_iter().chain(up.zip(to_up)).collect();

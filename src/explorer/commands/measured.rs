@@ -9,12 +9,12 @@ use crate::explorer::parameters::Setting;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::reading::{OPTIONS, ReadingOption};
 use crate::explorer::studies::Study;
-use asperity_data::{format_quantity, one_unit};
-use asperity_experiment::{Fit, FittedParameter, Free, Parameter, fit};
+use asperity_data::{Control, format_quantity, one_unit};
+use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Parameter};
 use std::sync::Arc;
 
 /// Number of computed curves between two progress reports of a fit.
-const REPORTED: usize = 64;
+const REPORTED: u64 = 64;
 
 /// The study of the measured curve: the requested fit, or else the position of the curve and the residual.
 pub fn study(app: &App) -> Option<Study> {
@@ -23,23 +23,22 @@ pub fn study(app: &App) -> Option<Study> {
         Some(Fitting { free, .. }) => {
             let free = free.clone();
             Study::new(app.edit.generation, true, move |_, stop, report| {
-                let mut count = |evaluations: usize| {
+                let mut count = |evaluations: u64| {
                     if evaluations.is_multiple_of(REPORTED) {
                         report(Fitting { free: free.clone(), evaluations, found: None });
                     }
                 };
-                let found = fit(&curve, &document, &free, stop, &mut count);
+                let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
+                let found = fit.run(&curve, Control::default().stopped_by(stop).reporting_to(&mut count));
                 let found = found.map(Arc::new).map_err(|error| error.to_string());
                 Ok(Fitting { free: free.clone(), evaluations: 0, found: Some(found) })
             })
         }
-        None => {
-            let free = [Free { parameter: Parameter::Offset, range: None }];
-            Study::new(app.edit.generation, true, move |_, stop, _| {
-                let found = fit(&curve, &document, &free, stop, &mut |_| ());
-                found.map(Arc::new).map_err(|error| error.to_string())
-            })
-        }
+        None => Study::new(app.edit.generation, true, move |_, stop, _| {
+            let fit = Fit::of(&document).free(Parameter::Offset);
+            let found = fit.run(&curve, Control::default().stopped_by(stop));
+            found.map(Arc::new).map_err(|error| error.to_string())
+        }),
     })
 }
 
@@ -138,7 +137,7 @@ pub fn read(app: &mut App, reading: &Reading, read: Result<Box<Measured>, String
 }
 
 /// The fitted parameters with their intervals, in words; first of all whether the scene does not describe the curve.
-fn sentence(fit: &Fit) -> String {
+fn sentence(fit: &FitResult) -> String {
     let found = |one: &FittedParameter| {
         let interval = one_unit([one.interval.0, one.interval.1].map(|end| one.text(end)));
         format!("{} {} ({interval})", one.parameter.row().symbol, one.text(one.value))

@@ -9,11 +9,12 @@ use crate::explorer::panel::{Body, Panel, meaning};
 use crate::explorer::text::counted;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction};
+use asperity_contact::{Mark, marks};
 use asperity_data::{AxisScale, format_rounded, grouped};
-use asperity_plot::{Axis, Chart, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
+use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
+use asperity_scene::LEAST_TABOR_NUMBER;
 use asperity_scene::quoted;
-use asperity_scene::{LEAST_TABOR_NUMBER, Mark, marks};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::f64::consts::PI;
@@ -145,7 +146,7 @@ fn state(app: &App) -> Vec<String> {
 }
 
 /// Name of the vertical quantity with its unit, and the event at the shown state.
-fn title(app: &App, y: Option<&Axis>) -> String {
+fn title(app: &App, y: Option<&ChartAxis>) -> String {
     let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
         LoopQuantities::LengthForce => "Contact length",
@@ -194,7 +195,7 @@ const MEASURED: &str = "measured";
 
 /// The residuals of the measured curve over this horizontal axis, in units of the noise; without points until they are
 /// computed, and `None` without a curve or an axis of the force.
-fn residuals(app: &App, x: &Axis) -> Option<Chart> {
+fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     let units = units(app);
     let measured = app.edit.measured.as_ref().filter(|_| units.shows_force())?;
     let fit = fitted(&app.studies).filter(|_| app.is_current());
@@ -203,7 +204,8 @@ fn residuals(app: &App, x: &Axis) -> Option<Chart> {
     let points: Vec<_> =
         points.iter().zip(&residuals).map(|(point, residual)| (units.place(point).0, *residual)).collect();
     let half = half_range(residuals);
-    let y = Axis::new(AxisScale::Linear, Span { low: -half, high: half }, "residual over noise", "", "1");
+    let y =
+        ChartAxis::new(AxisScale::Linear, Span { low: -half, high: half }, "residual over noise", "", "1");
     let dots = Layer::unnamed(Ink::Kept, Shape::signs(points, Sign::Point));
     Some(Chart::new(x.clone(), y, vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0)), dots]))
 }

@@ -12,7 +12,7 @@ use asperity_data::grouped;
 use asperity_data::{format_range, format_rounded};
 use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use asperity_report::{study_curves, study_figure, study_map};
-use asperity_study::{Axis, Cell, Grid, LiveMap, MAP_LINES, Place, Quantity, Statistics, live_plan};
+use asperity_study::{Axis, Grid, GridCell, GridPlace, LiveMap, MAP_LINES, Quantity, Statistics, live_plan};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 
@@ -194,7 +194,7 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     lines
 }
 
-fn on_axes(grid: &Grid, (across, up): Place) -> String {
+fn on_axes(grid: &Grid, (across, up): GridPlace) -> String {
     let on_axis =
         |axis: &Axis, value| format!("{} {}", axis.symbol_or_name(), format_rounded(value, 3, axis.unit));
     let up = grid.up.as_ref().zip(up).map(|(axis, value)| on_axis(axis, value));
@@ -252,8 +252,8 @@ fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
 fn cell_values(
     app: &App,
     grid: &Grid,
-    mark: Place,
-    (cell, column, row): (&Result<Cell, String>, usize, usize),
+    mark: GridPlace,
+    (cell, column, row): (&Result<GridCell, String>, usize, usize),
 ) -> String {
     let place = (grid.across.values[column], grid.up.as_ref().map(|up| up.values[row]));
     let at = on_axes(grid, place);

@@ -10,7 +10,7 @@ use crate::explorer::snapshot::ContactSnapshot;
 use crate::explorer::theme::Appearance;
 use asperity_data::AxisScale;
 use asperity_data::format_quantity;
-use asperity_plot::{Axis, Chart, Ink, Layer, Shape, Span, Stroke, prefixed};
+use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span, Stroke, prefixed};
 use asperity_report::Part as LinePart;
 use asperity_surface::Histogram;
 use std::f64::consts::TAU;
@@ -78,10 +78,10 @@ fn of_scene(
 const POINTS: usize = 65;
 
 /// Density of heights in the bins of a histogram, and the normal distribution with the same mean and rms height.
-fn distribution(histogram: Option<&Histogram>, z: Axis) -> Chart {
+fn distribution(histogram: Option<&Histogram>, z: ChartAxis) -> Chart {
     let Some(histogram) = histogram.filter(|histogram| histogram.high > histogram.low) else {
         return Chart::new(
-            Axis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "1"),
+            ChartAxis::new(AxisScale::Linear, Span { low: 0.0, high: 1.0 }, "", "", "1"),
             z,
             Vec::new(),
         );
@@ -109,7 +109,7 @@ fn distribution(histogram: Option<&Histogram>, z: Axis) -> Chart {
         Layer::unnamed(Ink::Profile, Shape::Boxes(boxes.collect())),
     ];
     let span = Span { low: 0.0, high: 1.05 * divisor * most };
-    Chart::new(Axis::new(AxisScale::Linear, span, &format!("1/{unit}"), "", "1"), z, layers)
+    Chart::new(ChartAxis::new(AxisScale::Linear, span, &format!("1/{unit}"), "", "1"), z, layers)
 }
 
 #[cfg(test)]
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn densities_have_an_area_of_one_and_the_normal_distribution_their_moments() {
         let histogram = Histogram { low: -2e-6, high: 2e-6, counts: vec![10, 30, 30, 10] };
-        let z = Axis::new(AxisScale::Linear, Span { low: -8e-6, high: 8e-6 }, "", "z", "m");
+        let z = ChartAxis::new(AxisScale::Linear, Span { low: -8e-6, high: 8e-6 }, "", "z", "m");
         let chart = distribution(Some(&histogram), z.clone());
         let [Shape::Curve { points, .. }, Shape::Boxes(boxes)] =
             [&chart.layers[0].shape, &chart.layers[1].shape]

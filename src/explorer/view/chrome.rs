@@ -14,7 +14,7 @@ use crate::explorer::theme::{Meaning, Theme};
 use crate::explorer::typed;
 use asperity_data::grouped;
 use asperity_data::{format_quantity, format_range, format_rounded};
-use asperity_experiment::Fit;
+use asperity_experiment::FitResult;
 use asperity_scene::Estimate;
 use asperity_scene::SteepWaves;
 use asperity_study::{Ensemble, Quantity};
@@ -177,7 +177,7 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         facts.push((format!("F_max {}{error}", force(largest)), Meaning::Title));
     }
     if let Some(measured) = &app.edit.measured {
-        let times = |fit: &Fit| format!("{} × noise", format_quantity(fit.residual_over_noise, "1"));
+        let times = |fit: &FitResult| format!("{} × noise", format_quantity(fit.residual_over_noise, "1"));
         let residual = match measured::failure(&app.studies) {
             Some(why) => why.to_owned(),
             None => measured::fitted(&app.studies).map_or_else(|| "…".to_owned(), times),
@@ -237,7 +237,7 @@ fn searching(app: &App) -> Option<String> {
         return Some(format!("trying for {tolerance:e}{tried}…"));
     }
     let Fitting { evaluations, .. } = app.studies.value()?;
-    Some(format!("fitting, {} curves computed…", grouped(*evaluations as u64)))
+    Some(format!("fitting, {} curves computed…", grouped(*evaluations)))
 }
 
 /// The valid keys, as a line.

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::contact::Move;
-use asperity::experiment::{CurveOptions, Drift, Fit};
+use asperity::experiment::{CurveOptions, Drift, FitResult};
 use asperity::explorer::measured::Fitting;
 use asperity::explorer::measured::Measured;
 use std::fmt::Write;
@@ -47,7 +47,7 @@ fn explorer(measured: Option<Measured>, performs: fn(&Study) -> bool) -> Driver 
 
 /// Studies of the residual of the curve, and fits to it.
 fn is_of_curve(study: &Study) -> bool {
-    study.is::<Arc<Fit>>() || study.is::<Fitting>()
+    study.is::<Arc<FitResult>>() || study.is::<Fitting>()
 }
 
 fn is_none(_: &Study) -> bool {

@@ -5,7 +5,7 @@ use asperity::contact::Edges;
 use asperity::explorer::commands::accuracy::Choosing;
 use asperity::explorer::panes::trust::Costs;
 use asperity::scene::{
-    Choice, ChoiceError, CostTable, ErrorFigure, Estimate, Evidence, Knob, Reference, Row, Target, Timing,
+    Choice, ChoiceError, CostReference, CostTable, ErrorFigure, Estimate, Evidence, Knob, Row, Target, Timing,
 };
 
 /// Springs of 4e-4 at best, as found by a search.
@@ -48,7 +48,7 @@ fn table() -> CostTable {
     let mut rows: Vec<Row> = springs().map(|n| row(Knob::SubCellSprings, n, (64.0 / n).powi(2))).collect();
     rows.extend(springs().map(|n| row(Knob::GridSprings, n, 20.0 / n)));
     rows.extend((0..6).map(|k| 1e-8 * 0.5_f64.powi(k)).map(|step| row(Knob::Step, step, 2e6 * step)));
-    let reference = Reference {
+    let reference = CostReference {
         springs: 16384,
         adhesion_force: Some(1e-5),
         closed_form: false,

@@ -76,12 +76,14 @@ fn assert_plan(text: &str) -> Result<bool, TestCaseError> {
             let is_message = |line: &str| {
                 line.starts_with(NAME) && !line.contains(char::is_control) && line.chars().count() <= 2000
             };
-            prop_assert!(!errors.0.is_empty() && errors.to_string().lines().all(is_message), "{}", errors);
+            let errors = errors.to_string();
+            prop_assert!(!errors.is_empty() && errors.lines().all(is_message), "{}", errors);
             return Ok(false);
         }
     };
     let written = plan.to_ron();
-    prop_assert_eq!(Plan::parse(&written, NAME, &Changes::default()), Ok(plan.clone()), "{}", written);
+    let read = Plan::parse(&written, NAME, &Changes::default()).ok();
+    prop_assert_eq!(read.as_ref(), Some(&plan), "{}", written);
     prop_assert_eq!(plan.cells(), plan.axes.iter().map(Axis::count).product::<u64>());
     prop_assert!((1..=MOST_CELLS).contains(&plan.cells()));
     for cell in [0, plan.cells() / 2, plan.cells() - 1] {

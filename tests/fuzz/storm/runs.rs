@@ -6,7 +6,7 @@ use asperity::contact::{Edges, Move};
 use asperity::scene::{BeyondFullContact, Outcome, RunError, Simulation};
 use asperity::scene::{Roughness, target_field};
 use asperity::surface::Form;
-use asperity::surface::SurfaceError;
+use asperity::surface::{Place, SurfaceError};
 use std::time::{Duration, Instant};
 
 /// Longest time of a scene with this few springs.
@@ -164,14 +164,16 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
             let has_limit = ["; allowed", "within reach: "].iter().any(|words| message.contains(words));
             is_named && (has_limit || is_out_of_reach)
         }
-        RunError::Surface(SurfaceError::File { field: "form.file", .. }) => {
+        RunError::Surface(error) if error.field() == Some("form.file") => {
             matches!(scene.form, Some(Form::Table { .. })) && message.starts_with("form.file = ")
         }
-        RunError::Surface(SurfaceError::NotFinite { .. }) => message.contains("form and roughness"),
-        RunError::Surface(SurfaceError::File { file, .. }) => {
+        RunError::Surface(SurfaceError::Refused { place: Place::Point(_), .. }) => {
+            message.contains("form and roughness")
+        }
+        RunError::Surface(error) => error.file().is_some_and(|file| {
             matches!(scene.roughness, Some(Roughness::Measured { .. }))
                 && message.contains(&format!("{file:?}"))
-        }
+        }),
         _ => false,
     };
     prop_assert!(is_explained, "{}", message);

@@ -1,7 +1,9 @@
 //! Strategies for random scenes, which draw every field of the table of fields.
 
 use asperity::data::is_control;
-use asperity::scene::{DEFAULT, Document, FIELDS, Field, LEG_FIELDS, Range, find, ron_float, ron_string};
+use asperity::scene::{
+    DEFAULT, Document, FIELDS, Field, LEG_FIELDS, Range, find_scene, ron_float, ron_string,
+};
 use proptest::prelude::*;
 
 /// Most elements of a drawn list; longer lists add time and no other case.
@@ -249,7 +251,7 @@ fn usual(field: &Field) -> Option<f64> {
         _ => None,
     };
     found.or_else(|| {
-        let scene = find(DEFAULT)?;
+        let scene = find_scene(DEFAULT)?;
         number(Document::parse(scene.text, scene.name).ok()?.value(field.path)?)
     })
 }

@@ -1,7 +1,7 @@
 //! Studies of a measured file: its content is part of the plan.
 
 use super::{compute, tables};
-use asperity::study::{Changes, Folder, Options, Plan, Shard, StudyError, merge, run};
+use asperity::study::{Changes, Folder, Plan, Shard, StudyError, merge, run_study};
 use std::fs;
 use std::path::Path;
 
@@ -80,8 +80,7 @@ fn a_file_that_has_changed_is_refused() {
     };
     check(begin(place.path(), &plan).unwrap_err());
     // Also if the folder was opened before.
-    let options = Options { jobs: 1, shard: Shard::WHOLE };
-    check(run(&folder, options, &|| false, &mut |_| ()).unwrap_err());
+    check(run_study(&folder, Shard::WHOLE, 1, &|| false, &mut |_| ()).unwrap_err());
     // With the file restored, the study continues.
     fs::write(&line, profile(1e-7)).unwrap();
     compute(&begin(place.path(), &plan).unwrap(), 1, Shard::WHOLE);
@@ -110,7 +109,7 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
         }
         false
     };
-    let ended = run(&other, Options { jobs: 1, shard: Shard::WHOLE }, &change, &mut |_| ()).unwrap();
+    let ended = run_study(&other, Shard::WHOLE, 1, &change, &mut |_| ()).unwrap();
     assert!(ended.is_complete() && asked.into_inner() > 2);
     merge(&other).unwrap();
     assert_eq!(tables(&other), whole);

@@ -3,7 +3,7 @@
 use super::levels::{Levels, Span, larger, smaller};
 use super::run::{Ground, Held, Listed, Run};
 use super::tree::{Branch, Node};
-use crate::ContactError;
+use crate::error::ContactError;
 use asperity_data::{gathered, push, resized};
 use std::borrow::Cow;
 

@@ -12,8 +12,8 @@ pub(crate) mod unloading;
 use levels::Span;
 use run::{Ground, Held, Run};
 
-use crate::ContactError;
 use crate::contact_state::{ContactState, Grid, Tally};
+use crate::error::ContactError;
 use crate::interval::{Intervals, Piece};
 use crate::totals::SquareScale;
 use asperity_data::CompensatedSum;

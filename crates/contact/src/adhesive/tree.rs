@@ -1,12 +1,13 @@
 //! The contact tree: the merging of the fragments of a line, over its local maxima alone.
 
-use super::levels::{Edges, larger};
-use crate::TWO_THREADS;
+use super::levels::Edges;
 use crate::totals::GapScale;
 use crate::totals::sums_of_few;
 use asperity_data::in_parallel;
 use asperity_data::{OutOfMemory, emptied, push, reserve};
 
+/// Number of springs above which a second thread saves more time than it costs.
+pub const TWO_THREADS: usize = 1 << 17;
 /// Number of springs from one stored prefix sum to the next.
 const BLOCK: usize = 4;
 /// Number of springs whose gaps are compared together.
@@ -240,18 +241,6 @@ fn sums_along(
         }
     }
     Ok(sums)
-}
-
-/// Largest of finite numbers that are at least zero; zero of an empty slice.
-pub fn largest(gaps: &[f64]) -> f64 {
-    let (blocks, rest) = gaps.as_chunks::<8>();
-    let mut lanes = [0.0; 8];
-    for block in blocks {
-        for (lane, &gap) in lanes.iter_mut().zip(block) {
-            *lane = larger(*lane, gap);
-        }
-    }
-    lanes.iter().chain(rest).fold(0.0, |one, &other| larger(one, other))
 }
 
 /// One bit for each spring: 1 if the gap rises from it to the next spring.

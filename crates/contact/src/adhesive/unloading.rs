@@ -3,7 +3,7 @@
 use super::levels::{Levels, Span, smaller};
 use super::run::{Ground, Held, Listed, Run};
 use super::tree::Branch;
-use crate::ContactError;
+use crate::error::ContactError;
 use asperity_data::push;
 
 /// Factor that widens bounds by a margin for rounding.

@@ -5,9 +5,9 @@
 //! the width of the interval. Only intervals whose bounds allow the sought force are searched.
 
 use super::{Leg, Patches};
-use crate::ContactError;
 use crate::adhesive::levels::Edges;
 use crate::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
+use crate::error::ContactError;
 use crate::history::Goal;
 use crate::history::{CurvePoint, Direction, Work};
 use crate::interval::{Interval, Intervals};
@@ -197,7 +197,8 @@ impl Leg {
             return Vec::new();
         }
         let slides = self.contact.edges == Edges::SubCell;
-        let mut intervals = Intervals::new(ends, slides, self.contact.springs.scale(), self.instrument);
+        let mut intervals =
+            Intervals::new(ends, slides, self.contact.profile.springs.scale(), self.instrument);
         match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).search(&mut intervals),
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.search(&mut intervals)),

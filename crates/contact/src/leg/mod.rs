@@ -1,15 +1,15 @@
 //! One leg: the contact at all indentations of a motion in one direction.
 
-use super::ContactError;
 use super::adhesive::Runs;
 use super::adhesive::levels::Edges;
-use super::adhesive::levels::{EdgeCells, Levels, Slider, Span};
+use super::adhesive::levels::{EdgeCell, EdgeCells, Levels, Slider, Span};
 use super::adhesive::loading::Closing;
 use super::adhesive::run::{Ground, Held, Run};
 use super::adhesive::tree::ContactTree;
+use super::contact::Contact;
 use super::contact_state::ContactState;
+use super::error::ContactError;
 use super::history::{Direction, Patch, Work};
-use super::springs::Contact;
 use super::totals::ContactTotals;
 use std::sync::Arc;
 
@@ -36,9 +36,28 @@ enum Patches {
     Runs(Arc<ContactTree>, Arc<Vec<Run>>),
 }
 
-/// Length, force and stretch of one contact patch.
+/// One contact patch at one indentation: its place, length, force and stretch.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// let profile = Profile::from_heights(vec![0.0, -9.0e-8, -1.0e-8], 1.0e-6)?;
+/// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).build()?;
+/// let patches = contact.load(&[Move::ToIndentation(2.0e-8)])?.patches();
+/// // Two patches: the left one ends between its spring and the deep one.
+/// assert_eq!((patches.len(), patches[0].springs.first, patches[1].springs.first), (2, 0, 2));
+/// let [left, right] = patches[0].edges;
+/// assert!(left == 0.0 && 0.5e-6 < right && right < 1.5e-6);
+/// assert!((right - left - patches[0].length).abs() < 1e-20);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PatchState {
+    /// Springs of the patch.
+    pub springs: Patch,
+    /// Positions of the left and the right edge, m, from the left end of the foundation.
+    pub edges: [f64; 2],
     /// Length of the patch, m.
     pub length: f64,
     /// Force of the patch, N; compression positive.
@@ -72,7 +91,7 @@ impl Leg {
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
-            && let Ok(tree) = contact.springs.tree(contact.edges)
+            && let Ok(tree) = contact.profile.springs.tree(contact.edges)
         {
             work.tree_nodes = tree.node_count() as u64;
             match self.direction() {
@@ -104,15 +123,12 @@ impl Leg {
         thresholds: Vec<f64>,
     ) -> Self {
         let patches = Patches::Springs(Arc::new(thresholds));
-        // The stepwise solver moves whole springs.
-        let Contact { springs, foundation, hess, .. } = contact.clone();
-        let contact = Contact::of(springs, Edges::Grid, foundation, hess);
-        Leg { patches, end, ..Leg::apart(&contact, direction) }
+        Leg { patches, end, ..Leg::apart(&contact.of_whole_springs(), direction) }
     }
 
     fn without_adhesion(contact: &Contact, direction: Direction) -> Self {
-        let patches = Patches::Springs(Arc::clone(&contact.springs.gaps));
-        let end = if direction == Direction::Loading { contact.springs.deepest() } else { 0.0 };
+        let patches = Patches::Springs(Arc::clone(&contact.profile.springs.gaps));
+        let end = if direction == Direction::Loading { contact.profile.deepest() } else { 0.0 };
         Leg { patches, end, ..Leg::apart(contact, direction) }
     }
 
@@ -121,7 +137,7 @@ impl Leg {
         if contact.hess.is_none() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
         }
-        let tree = contact.springs.tree(contact.edges)?;
+        let tree = contact.profile.springs.tree(contact.edges)?;
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
@@ -244,19 +260,32 @@ impl Leg {
     /// Evaluates one patch at an indentation, m; patches are numbered from the left, from 0. `None` if there is no such
     /// patch.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
-        let Contact { springs, foundation, edges, .. } = &self.contact;
-        let patch = *self.patches(indentation).get(number)?;
-        let (rule, gaps, scale) = (self.contact.rule(), springs.gaps(), springs.scale());
+        self.pinned_patches(indentation).get(number).map(|patch| self.state_of(patch, indentation))
+    }
+
+    /// Evaluates all patches in contact at an indentation, m, from left to right.
+    pub fn patch_states(&self, indentation: f64) -> Vec<PatchState> {
+        let patches = self.pinned_patches(indentation);
+        patches.iter().map(|patch| self.state_of(patch, indentation)).collect()
+    }
+
+    /// The patches in contact at an indentation, m, each with the height above its gap, m, at which its edges are pinned, if
+    /// they are.
+    fn pinned_patches(&self, indentation: f64) -> Vec<(Patch, Option<f64>)> {
+        let Patches::Runs(tree, runs) = &self.patches else {
+            return self.patches(indentation).into_iter().map(|patch| (patch, None)).collect();
+        };
+        let patch = |held: Held| (Patch { first: held.first as usize, last: held.last as usize }, held.pin);
+        along_runs!(self, tree, runs, along => along.held_at(indentation, self.pins()).map(patch).collect())
+    }
+
+    fn state_of(&self, &(patch, pin): &(Patch, Option<f64>), indentation: f64) -> PatchState {
+        let Contact { profile, foundation, edges, .. } = &self.contact;
+        let (rule, gaps, scale) = (self.contact.rule(), profile.gaps(), profile.springs.scale());
         let slides = *edges == Edges::SubCell;
         let stretch = rule.stretch(self.direction);
         let Patch { first, last } = patch;
         let span = Span { gap: gaps[patch.springs()].iter().copied().fold(0.0, f64::max), first, last };
-        let pin = match &self.patches {
-            Patches::Runs(tree, runs) => {
-                along_runs!(self, tree, runs, along => along.held_at(indentation, self.pins()).nth(number)?.pin)
-            }
-            _ => None,
-        };
         let totals = ContactTotals::of_patch(&gaps[patch.springs()], slides, scale);
         let cells = || Slider::new(gaps, &span, stretch, pin).edge_cells(indentation);
         let cells = if slides { cells() } else { EdgeCells::default() };
@@ -264,12 +293,19 @@ impl Leg {
         let free =
             || if slides { Levels::between_springs(gaps, &span).0.rise(stretch, indentation) } else { 0.0 };
         let point = state.point(*foundation);
-        Some(PatchState {
+        let level = span.gap + pin.unwrap_or_else(free);
+        let [left, right] = match slides {
+            true => EdgeCell::of(gaps, &span, level).map(|cell| cell.share),
+            false => [0.5; 2],
+        };
+        PatchState {
+            springs: patch,
+            edges: [first as f64 + 0.5 - left, last as f64 + 0.5 + right].map(|cells| profile.place(cells)),
             length: point.contact_length,
             force: point.force,
             largest_stretch: rule.stretch(Direction::Unloading) * state.length.sqrt(),
-            most_stretched: span.gap + pin.unwrap_or_else(free) - indentation,
-        })
+            most_stretched: level - indentation,
+        }
     }
 
     /// Returns true if the edges of patches keep their places at first when the direction changes, since the rules of

@@ -3,11 +3,48 @@
 #![allow(dead_code, reason = "no test uses all of it")]
 
 use asperity_contact::{
-    self as contact, Contact, CurvePoint, Edges, Foundation, HessRule, History, LegRecord, Move, Patch, run,
+    self as contact, Contact, ContactBuilder, CurvePoint, Edges, History, LegRecord, Modulus, Move, Patch,
+    Profile, load_body,
 };
 use proptest::prelude::*;
 use proptest::sample::Index;
 use std::f64::consts::PI;
+
+/// Springs on a half-space.
+#[derive(Clone, Copy, Debug)]
+pub struct Foundation {
+    /// Δx, m.
+    pub spacing: f64,
+    /// E*, Pa.
+    pub effective_modulus: f64,
+}
+
+impl Foundation {
+    pub const fn new(spacing: f64, effective_modulus: f64) -> Self {
+        Foundation { spacing, effective_modulus }
+    }
+
+    /// E* Δx, N/m.
+    pub fn spring_stiffness(&self) -> f64 {
+        self.effective_modulus * self.spacing
+    }
+
+    /// Largest stretch √(π n Δx γ/E*), m, of a patch of n = `springs` springs under a work of adhesion γ, J/m²; eq. (10).
+    pub fn largest_stretch(&self, work: f64, springs: usize) -> f64 {
+        (PI * self.spacing * (work / self.effective_modulus)).sqrt() * (springs as f64).sqrt()
+    }
+
+    /// The contact of a line with these gaps (m) for works of adhesion on closing and on opening, J/m².
+    pub fn contact(&self, gaps: &[f64], edges: Edges, works: [f64; 2]) -> Contact {
+        self.builder(gaps, edges, works).build().unwrap()
+    }
+
+    pub fn builder(&self, gaps: &[f64], edges: Edges, works: [f64; 2]) -> ContactBuilder {
+        let profile = Profile::from_gaps(gaps.to_vec(), self.spacing).unwrap();
+        let contact = Contact::builder(&profile, Modulus::effective(self.effective_modulus).unwrap());
+        contact.edges(edges).works_of_adhesion(works)
+    }
+}
 
 /// Springs under a rigid line with adhesion.
 #[derive(Clone, Debug)]
@@ -34,8 +71,13 @@ impl Body {
     }
 
     pub fn contact(&self) -> Contact {
-        let rule = HessRule::from_works(self.foundation, self.closing_work, self.work);
-        Contact::new(self.gaps.clone(), self.edges, self.foundation, Some(rule))
+        self.foundation.contact(&self.gaps, self.edges, [self.closing_work, self.work])
+    }
+
+    /// The contact under an instrument of this stiffness, N/m.
+    pub fn under(&self, stiffness: f64) -> Contact {
+        let contact = self.foundation.builder(&self.gaps, self.edges, [self.closing_work, self.work]);
+        contact.loading_stiffness(stiffness).build().unwrap()
     }
 
     /// The separated body in the exact solver.
@@ -45,12 +87,11 @@ impl Body {
 
     /// The separated body in the exact solver, without adhesion.
     pub fn bare(&self, samples: usize) -> contact::Body {
-        let contact = Contact::new(self.gaps.clone(), self.edges, self.foundation, None);
-        contact::Body::new(&contact, samples)
+        contact::Body::new(&self.foundation.contact(&self.gaps, self.edges, [0.0; 2]), samples)
     }
 
     pub fn history(&self, targets: &[Move], samples: usize) -> History {
-        run(&mut self.on(samples), targets, |_, _| Ok(())).unwrap()
+        load_body(&mut self.on(samples), targets, |_, _| Ok(())).unwrap()
     }
 
     /// Largest gap, m.
@@ -176,7 +217,7 @@ pub fn bodies(most: usize) -> BoxedStrategy<Body> {
     (lines(most), edges, range, closing, 0.003..0.03_f64, 0.3..3.0_f64)
         .prop_map(|(gaps, edges, range, closing, spacing, modulus)| {
             let work = range * modulus;
-            let foundation = Foundation::endless(spacing, modulus);
+            let foundation = Foundation::new(spacing, modulus);
             Body { gaps, edges, foundation, work, closing_work: closing * work }
         })
         .boxed()

@@ -200,10 +200,8 @@ fn contact_states_agree_with_blind_relaxation() {
 #[test]
 fn springs_change_at_the_threshold_itself() {
     for (wall, work) in [(0.5, 0.3), (0.7, 1e-3), (0.9, 2.0)] {
-        let body = Body::new(vec![0.0, wall], Edges::Grid, Foundation::endless(0.01, 1.0), work);
-        let stretch = |springs| {
-            HessRule::from_works(body.foundation, work, work).largest_stretch(Direction::Unloading, springs)
-        };
+        let body = Body::new(vec![0.0, wall], Edges::Grid, Foundation::new(0.01, 1.0), work);
+        let stretch = |springs| body.foundation.largest_stretch(work, springs);
         let springs =
             |turns: &[f64]| end(body.history(&to_indentations(turns), 2).legs.last().unwrap()).springs;
         let attaches = wall - stretch(1);

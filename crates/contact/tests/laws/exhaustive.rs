@@ -1,13 +1,12 @@
 //! Complete small worlds: every order of few gaps, ties included, against the definitions of the thresholds, and every
 //! history of a few springs against the bare rules.
 
-use asperity_contact::{
-    Body, Contact, ContactError, Direction, Edges, Foundation, HessRule, Move, Patch, Solver,
-};
+use super::body::Foundation;
+use asperity_contact::{Body, ContactError, Edges, Move, MovingBody, Patch};
 use std::f64::consts::PI;
 
 const SPACING: f64 = 0.01;
-const FOUNDATION: Foundation = Foundation::endless(SPACING, 1.0);
+const FOUNDATION: Foundation = Foundation::new(SPACING, 1.0);
 /// Gaps of the levels, m: no difference of two is a largest stretch.
 const LEVELS: [f64; 8] = [0.0, 0.13, 0.31, 0.37, 0.59, 0.71, 0.83, 1.0];
 /// γ/E*, m: largest stretches of one spring from 0.03 to 0.5 m.
@@ -51,9 +50,8 @@ fn sequences(base: usize, count: usize) -> impl Iterator<Item = Vec<usize>> {
 }
 
 fn compare(gaps: &[f64], range: f64, edges: Edges) -> Result<(), String> {
-    let hess = HessRule::from_works(FOUNDATION, range, range);
-    let mut body = Body::new(&Contact::new(gaps.to_vec(), edges, FOUNDATION, Some(hess)), 2);
-    let definition = Definition { gaps, stretch: hess.stretch(Direction::Unloading), edges };
+    let mut body = Body::new(&FOUNDATION.contact(gaps, edges, [range; 2]), 2);
+    let definition = Definition { gaps, stretch: FOUNDATION.largest_stretch(range, 1), edges };
     let whole = Patch { first: 0, last: gaps.len() - 1 };
     let deepest = gaps.iter().copied().fold(0.0, f64::max) + 0.1;
     let mut expected = vec![f64::INFINITY; gaps.len()];
@@ -140,8 +138,7 @@ fn every_history(step: usize) -> Result<u64, String> {
         let summit = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let gaps: Vec<f64> = heights.iter().map(|height| height - summit).collect();
         for works in WORKS {
-            let hess = HessRule::from_works(FOUNDATION, works[0], works[1]);
-            let contact = Contact::new(gaps.clone(), Edges::Grid, FOUNDATION, Some(hess));
+            let contact = FOUNDATION.contact(&gaps, Edges::Grid, works);
             for turns in sequences(TURNS.len(), MOVES) {
                 let mut body = Body::new(&contact, 2);
                 let mut bare = vec![false; gaps.len()];

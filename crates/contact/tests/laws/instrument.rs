@@ -3,7 +3,7 @@
 use super::*;
 
 fn on(body: &Body, stiffness: f64) -> contact::Body {
-    contact::Body::new(&body.contact().with_loading_stiffness(stiffness), 33)
+    contact::Body::new(&body.under(stiffness), 33)
 }
 
 /// ∫ |D − running extremum of D| dd along a polygon of indentations and displacements D that `sign` makes grow, m².
@@ -76,7 +76,7 @@ proptest! {
             .collect();
         targets.extend(ends_separated.then_some((Move::ToSeparation, 0.5)));
         let energy = |legs: &[LegRecord]| legs.iter().map(|leg| leg.jump_energy).sum::<f64>();
-        let contact = body.contact().with_loading_stiffness(stiffness);
+        let contact = body.under(stiffness);
         let (mut few, mut cut) = (contact::Body::new(&contact, 2), contact::Body::new(&contact, 300));
         let scale = body.scales()[1] + most * most * stiffness;
         for (target, share) in targets {

@@ -8,6 +8,7 @@ mod effort;
 mod energy;
 mod equilibrium;
 mod exhaustive;
+mod front;
 mod instrument;
 mod large_lines;
 mod levels;
@@ -18,13 +19,12 @@ mod refusals;
 mod reversals;
 mod search;
 mod stepwise;
-mod sums;
 mod symmetries;
 mod work;
 
 use asperity_contact::{
-    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Foundation, HessRule, Leg,
-    LegRecord, Move, Patch, Solver, run,
+    self as contact, Contact, ContactError, CurvePoint, Direction, Edges, Leg, LegRecord, Move, MovingBody,
+    Patch, load_body,
 };
 use body::*;
 use proptest::prelude::*;

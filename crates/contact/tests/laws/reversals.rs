@@ -29,7 +29,7 @@ fn all(body: &mut contact::Body, turns: &[Move], points: &[f64]) -> Result<Vec<R
 fn compare(new: impl Fn() -> contact::Body, turns: &[Move], points: &[f64]) -> Result<(), TestCaseError> {
     let reversals = all(&mut new(), turns, points).unwrap();
     for (turn, reversal) in turns.iter().zip(&reversals) {
-        let history = run(&mut new(), &[*turn, Move::ToSeparation], |_, _| Ok(())).unwrap();
+        let history = load_body(&mut new(), &[*turn, Move::ToSeparation], |_, _| Ok(())).unwrap();
         let [loading, unloading] = &history.legs[..] else { panic!("{history:?}") };
         prop_assert_eq!(bits(&reversal.turn), bits(&end(loading)), "{:?}", turn);
         prop_assert_eq!(bits(&reversal.smallest), bits(&unloading.smallest), "{:?}", turn);
@@ -38,7 +38,8 @@ fn compare(new: impl Fn() -> contact::Body, turns: &[Move], points: &[f64]) -> R
         prop_assert_eq!(reversal.dissipated_energy.to_bits(), (dissipated + 0.0).to_bits(), "{:?}", turn);
         let below = points.iter().filter(|point| **point <= reversal.turn.indentation);
         let separate = below.map(|&point| {
-            let to_point = run(&mut new(), &[*turn, Move::ToIndentation(point)], |_, _| Ok(())).unwrap();
+            let to_point =
+                load_body(&mut new(), &[*turn, Move::ToIndentation(point)], |_, _| Ok(())).unwrap();
             end(&to_point.legs[1]).force.to_bits()
         });
         let found: Vec<_> = reversal.forces.iter().map(|force| force.to_bits()).collect();
@@ -67,7 +68,7 @@ proptest! {
 
 #[test]
 fn turning_points_out_of_contact_are_refused() {
-    let body = Body::new(vec![0.0, 0.5, 0.25], Edges::SubCell, Foundation::endless(0.01, 1.0), 0.0);
+    let body = Body::new(vec![0.0, 0.5, 0.25], Edges::SubCell, Foundation::new(0.01, 1.0), 0.0);
     for (turns, index, reason) in [
         (vec![Move::ToTouch, Move::ToIndentation(-0.1)], 1, ContactError::NoContact),
         (vec![Move::ToForce(f64::INFINITY)], 0, ContactError::NotFinite(f64::INFINITY)),
@@ -82,7 +83,7 @@ fn turning_points_out_of_contact_are_refused() {
 fn all_reversals_share_one_loading_pass() {
     for work in [0.002, 0.02] {
         let gaps = self_affine(0.7, 1, 1 << 13);
-        let mut body = Body::new(gaps, Edges::SubCell, Foundation::endless(1e-3, 1.0), work).on(2);
+        let mut body = Body::new(gaps, Edges::SubCell, Foundation::new(1e-3, 1.0), work).on(2);
         let turns: Vec<Move> = (1..=64).map(|turn| Move::ToForce(0.05 * f64::from(turn))).collect();
         body.reversals(&turns, &[], &mut |_, _| Ok(())).unwrap();
         assert_eq!((body.work().loading_passes, body.work().unloading_passes), (1, 64));

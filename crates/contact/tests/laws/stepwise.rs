@@ -3,7 +3,7 @@
 use super::*;
 use asperity_contact::Stepwise;
 
-const FOUNDATION: Foundation = Foundation::endless(0.01, 1.0);
+const FOUNDATION: Foundation = Foundation::new(0.01, 1.0);
 
 fn body(gaps: Vec<f64>, work: f64) -> Body {
     Body::new(gaps, Edges::Grid, FOUNDATION, work)
@@ -83,7 +83,7 @@ fn targets_out_of_reach_leave_the_body_in_place() {
         }
         solver.advance(Move::ToIndentation(0.3)).unwrap();
         assert!(steps.replace(0) > 300);
-        assert_eq!(solver.leg().turn(0.3).err(), Some(ContactError::Stepwise));
+        assert_eq!(solver.leg().turn(0.3).err(), (work > 0.0).then_some(ContactError::Stepwise));
         let beyond = solver.advance(Move::ToForce(-1e9));
         let Err(ContactError::DetachesBefore { smallest }) = beyond else { panic!("{beyond:?}") };
         // The body pulled off before it was put back.

@@ -4,7 +4,7 @@ use super::branches::{Branches, Point};
 use super::summary::{Summaries, summaries};
 use crate::error::ExperimentError;
 use crate::model::Sampling;
-use asperity_contact::{Body, ContactError, CurvePoint, HessRule, Move, Solver};
+use asperity_contact::{Body, ContactError, CurvePoint, Modulus, Move, MovingBody};
 use asperity_scene::{DisplacementCurve, Scene, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -84,13 +84,13 @@ impl Specimen<'_> {
         let mut scene = self.scene.clone();
         scene.set_seed(FIRST_SEED.wrapping_add(line));
         let (bare, _) = simulation.contact(&scene)?;
+        let modulus = Modulus::effective(bare.effective_modulus())?;
         let protocol = &self.protocols[line as usize % self.protocols.len()];
         let mut noise = Noise::new(FIRST_SEED.wrapping_add(line), protocol);
         let mut all = Vec::with_capacity(ranges.len() * moduli.len());
         for range in ranges {
-            let work = range.exp() * bare.foundation().effective_modulus;
-            let rule = HessRule::from_works(bare.foundation(), self.closing * work, work);
-            let contact = bare.with_rule(bare.foundation(), (work > 0.0).then_some(rule));
+            let work = range.exp() * bare.effective_modulus();
+            let contact = bare.with(modulus).works_of_adhesion([self.closing * work, work]).build()?;
             let first = all.len();
             let mut approach = Body::new(&contact, 2);
             // The largest modulus has the smallest indentation.
@@ -98,7 +98,7 @@ impl Specimen<'_> {
                 if (self.stop)() {
                     return Err(ContactError::Interrupted.into());
                 }
-                let scale = modulus.exp() / contact.foundation().effective_modulus;
+                let scale = modulus.exp() / contact.effective_modulus();
                 let loop_ = Loop { stiffness: self.stiffness / scale, scale, protocol };
                 let branches = loop_.branches(&mut approach, &mut noise)?;
                 all.push(summaries(&branches, protocol.preload));

@@ -1,9 +1,10 @@
 //! The intervals of comparisons of specimens with known values hold these values.
 
 use super::find::fit_ensemble;
-use super::posterior::Estimate;
+use super::posterior::IntervalEstimate;
 use super::result::{EnsembleFit, EnsembleOptions};
 use super::specimens::{curve, document, scene};
+use asperity_data::Control;
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -14,14 +15,14 @@ const ROUGHNESS_ERRORS: [f64; 2] = [0.05, 0.03];
 /// Comparisons of one kind: whether the truth lies in the interval, half-width, and error of ln γ; whether E* lies in its
 /// interval.
 #[derive(Default)]
-struct Row {
+struct ParameterRow {
     work: Vec<(bool, f64, f64)>,
     modulus: Vec<bool>,
 }
 
-impl Row {
+impl ParameterRow {
     fn add(&mut self, fit: &EnsembleFit, work: f64, modulus: f64) {
-        let holds = |one: Estimate, truth: f64| one.low <= truth && truth <= one.high;
+        let holds = |one: IntervalEstimate, truth: f64| one.low <= truth && truth <= one.high;
         self.work.push((holds(fit.work, work), fit.work.half_width(), (fit.work.value / work).ln()));
         self.modulus.push(holds(fit.modulus, modulus));
     }
@@ -85,7 +86,7 @@ fn compare(name: &str, with_errors: bool) {
     } else {
         vec![(8, false), (32, false), (8, true), (32, true)]
     };
-    let mut rows: Vec<Row> = kinds.iter().map(|_| Row::default()).collect();
+    let mut rows: Vec<ParameterRow> = kinds.iter().map(|_| ParameterRow::default()).collect();
     let mut simulation = Simulation::default();
     for specimen in 0..count {
         let mut generator = ChaCha8Rng::seed_from_u64(specimen);
@@ -104,10 +105,10 @@ fn compare(name: &str, with_errors: bool) {
                 is_modulus_free,
                 height_error: stated[0],
                 hurst_error: stated[1],
-                jobs: 2,
             };
             let scene = document(&Scene { material, ..base.clone() });
-            let fit = fit_ensemble(&curves[..places], &scene, &options, &|| false, &|_| ()).unwrap();
+            let fit =
+                fit_ensemble(&curves[..places], &scene, &options, Control::default().on_threads(2)).unwrap();
             row.add(&fit, work, modulus);
             println!("{name} {specimen} {places} {is_modulus_free}: {:?}", row.work.last());
         }

@@ -5,16 +5,19 @@ use super::computed::Specimen;
 use super::deviation::{Response, deviations};
 use super::measured::Measured;
 use super::place::placed;
-use super::posterior::Estimate;
+use super::posterior::IntervalEstimate;
 use super::result::{EnsembleFit, EnsembleOptions, Prospect, Shares};
 use super::shifts::Shifts;
 use super::table::{Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
 use crate::scene::wrong;
-use asperity_data::{format_quantity, mean};
+use asperity_data::{Control, format_quantity, mean};
 use asperity_scene::{Document, Roughness, Scene, Simulation, Solver};
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::channel;
+use std::thread::{Builder, scope};
 
 /// Fewest random profiles: the covariance of fewer is too uncertain.
 const FEWEST_LINES: u64 = 16;
@@ -27,13 +30,15 @@ const MOST_GROWTH: usize = 6;
 /// Difference of the logarithms of two stiffnesses that count as one.
 const SAME_STIFFNESS: f64 = 0.01;
 const NORMAL: f64 = 1.96;
+/// Largest standard error of the roughness: beyond it, changes of the results are not in proportion to it.
+const MOST_ERROR: f64 = 0.5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
 /// Finds the work of adhesion, and on request the effective modulus, of a rough body from curves of different places, each
 /// with its name, by comparison with random profiles of the roughness of the scene. Its stiffness of the instrument, its form
 /// and its ratio of the works of adhesion are taken as they are; each computed curve has the preload, the points and the
-/// noise of one of the curves. `stop` is polled before each computed curve, and `report` receives their number so far.
+/// noise of one of the curves. The progress is the number of curves computed so far.
 ///
 /// # Errors
 /// The profile of the scene is not random, a curve lacks an approach or a retraction to the loss of contact, a computation
@@ -42,10 +47,37 @@ pub fn fit_ensemble(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
     options: &EnsembleOptions,
-    stop: &(dyn Fn() -> bool + Sync),
-    report: &(dyn Fn(usize) + Sync),
+    mut control: Control<'_>,
 ) -> Result<EnsembleFit, ExperimentError> {
     check(curves, document.scene(), options)?;
+    let (jobs, stop) = (control.threads(), control.stop());
+    if jobs == 0 {
+        return refused("0 threads", "at least one");
+    }
+    let (sender, receiver) = channel();
+    let compare = move || {
+        // The receiver lives until all is computed.
+        let report = move |computed: usize| {
+            let _ = sender.send(computed);
+        };
+        compare(curves, document, options, (jobs, stop), &report)
+    };
+    scope(|scope| match Builder::new().spawn_scoped(scope, compare) {
+        Ok(thread) => {
+            receiver.iter().for_each(|computed| control.report(computed as u64));
+            thread.join().unwrap_or_else(|panic| resume_unwind(panic))
+        }
+        Err(error) => refused(format!("the system starts no thread: {error}"), "one more thread"),
+    })
+}
+
+fn compare(
+    curves: &[(String, MeasuredCurve)],
+    document: &Document,
+    options: &EnsembleOptions,
+    (jobs, stop): (usize, &(dyn Fn() -> bool + Sync)),
+    report: &(dyn Fn(usize) + Sync),
+) -> Result<EnsembleFit, ExperimentError> {
     let (document, instrument) = &of_instrument(curves, document)?;
     let measured = Measured::of(curves)?;
     let (_, governing) = Simulation::new(document.resolve("")).contact(document.scene())?;
@@ -61,7 +93,7 @@ pub fn fit_ensemble(
             stop,
         },
         folder: &folder,
-        jobs: options.jobs,
+        jobs,
         computed: &computed,
         report,
     };
@@ -102,7 +134,7 @@ pub fn fit_ensemble(
     let alone = posterior.estimate(0);
     let work = alone.widened(of_roughness[0]);
     let modulus = match known {
-        Some(modulus) => Estimate::known(modulus.exp()),
+        Some(modulus) => IntervalEstimate::known(modulus.exp()),
         None => posterior.estimate(1).widened(of_roughness[1]),
     };
     let (count, lines) = (curves.len() as f64, options.lines as f64);
@@ -179,6 +211,11 @@ fn check(
         let found = "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
         return refused(found, "numerics.solver = Exact");
     }
+    for (name, error) in [("--height-error", options.height_error), ("--hurst-error", options.hurst_error)] {
+        if let Some(error) = error.filter(|error| !(0.0..=MOST_ERROR).contains(error)) {
+            return refused(format!("{name} {error}"), format!("from 0 to {MOST_ERROR}"));
+        }
+    }
     let states_errors = options.height_error.or(options.hurst_error).is_some();
     if states_errors && !matches!(scene.roughness, Some(Roughness::SelfAffine { .. })) {
         let found = "errors of the roughness, which is measured";
@@ -205,14 +242,14 @@ mod tests {
     use asperity_scene::Adhesion;
 
     const OPTIONS: EnsembleOptions =
-        EnsembleOptions { lines: 16, is_modulus_free: false, height_error: None, hurst_error: None, jobs: 1 };
+        EnsembleOptions { lines: 16, is_modulus_free: false, height_error: None, hurst_error: None };
 
     fn found(
         curves: &[(String, MeasuredCurve)],
         scene: &Scene,
         options: EnsembleOptions,
     ) -> Result<EnsembleFit, ExperimentError> {
-        fit_ensemble(curves, &document(scene), &options, &|| false, &|_| ())
+        fit_ensemble(curves, &document(scene), &options, Control::default().on_threads(1))
     }
 
     /// Rough spheres of 1024 springs; the work of adhesion of the curve with number `foreign` is a fifth.
@@ -240,7 +277,7 @@ mod tests {
         assert_eq!(foreign, ["place 5"]);
         let others: Vec<_> = all.iter().filter(|(name, _)| name != "place 5").cloned().collect();
         let fit = found(&others, &scene, OPTIONS).unwrap();
-        let Estimate { low, high, .. } = fit.work;
+        let IntervalEstimate { low, high, .. } = fit.work;
         assert!(low < 0.05 && 0.05 < high && high / low < 2.5, "{:?}", fit.work);
         assert!(fit.described && !fit.at_end_of_table && fit.preload_scatter.is_none(), "{fit:?}");
         assert!((fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12 && fit.shares.roughness == 0.0);
@@ -248,7 +285,8 @@ mod tests {
         let shifts = fit.roughness.unwrap();
         assert!((0.3..3.0).contains(&shifts.work_by_height), "{shifts:?}");
         let other = Scene { adhesion: Some(Adhesion::by_work(0.3)), ..scene.clone() };
-        let same = found(&others, &other, EnsembleOptions { jobs: 3, ..OPTIONS }).unwrap();
+        let three = Control::default().on_threads(3);
+        let same = fit_ensemble(&others, &document(&other), &OPTIONS, three).unwrap();
         assert_eq!(same, fit);
         let stated = EnsembleOptions { height_error: Some(0.1), hurst_error: Some(0.0), ..OPTIONS };
         let wider = found(&others, &scene, stated).unwrap();
@@ -285,7 +323,15 @@ mod tests {
             let error = result.unwrap_err().to_string();
             assert!(error.contains(said) && error.contains("allowed: "), "{said}: {error}");
         }
-        let stopped = fit_ensemble(&all, &document(&scene), &OPTIONS, &|| true, &|_| ());
+        let wrong = |error| EnsembleOptions { height_error: Some(error), ..OPTIONS };
+        for error in [-0.1, 0.6, f64::NAN, f64::INFINITY] {
+            let refused = found(&all, &scene, wrong(error)).unwrap_err().to_string();
+            assert!(refused.contains("allowed: from 0 to 0.5"), "{refused}");
+        }
+        let none = fit_ensemble(&all, &document(&scene), &OPTIONS, Control::default().on_threads(0));
+        assert_eq!(none.unwrap_err().to_string(), "0 threads; allowed: at least one");
+        let stopped =
+            fit_ensemble(&all, &document(&scene), &OPTIONS, Control::default().stopped_by(&|| true));
         assert!(matches!(stopped, Err(ExperimentError::Run(_))));
     }
 }

@@ -15,7 +15,7 @@ const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 
 /// A parameter with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Estimate {
+pub struct IntervalEstimate {
     /// Median.
     pub value: f64,
     /// Lower end of the 95 % interval.
@@ -24,24 +24,24 @@ pub struct Estimate {
     pub high: f64,
 }
 
-impl Estimate {
+impl IntervalEstimate {
     /// Half the width of the interval, of the natural logarithm.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high / self.low).ln()
     }
 
     pub(crate) fn known(value: f64) -> Self {
-        Estimate { value, low: value, high: value }
+        IntervalEstimate { value, low: value, high: value }
     }
 
     fn map(self, of: impl Fn(f64) -> f64) -> Self {
-        Estimate { value: of(self.value), low: of(self.low), high: of(self.high) }
+        IntervalEstimate { value: of(self.value), low: of(self.low), high: of(self.high) }
     }
 
     /// With further errors of the natural logarithm, as half-widths of 95 % intervals, added in quadrature.
     pub(crate) fn widened(self, half_width: f64) -> Self {
         let factor = |end: f64| (end / self.value).ln().hypot(half_width).exp();
-        Estimate {
+        IntervalEstimate {
             value: self.value,
             low: self.value / factor(self.low),
             high: self.value * factor(self.high),
@@ -113,7 +113,7 @@ impl Posterior<'_> {
     }
 
     /// γ, J/m², or for the parameter 1 E*, Pa.
-    pub fn estimate(&self, parameter: usize) -> Estimate {
+    pub fn estimate(&self, parameter: usize) -> IntervalEstimate {
         let places = self.weights.iter().zip(&self.grid.places);
         let mut values: Vec<(f64, f64)> =
             places.map(|(weight, (place, ..))| (place.parameters()[parameter], *weight)).collect();
@@ -132,7 +132,7 @@ impl Posterior<'_> {
             }
             before
         });
-        Estimate { value, low, high }.map(f64::exp)
+        IntervalEstimate { value, low, high }.map(f64::exp)
     }
 
     /// Correlation of ln γ and ln E*; 0 for a known E*.
@@ -211,7 +211,8 @@ mod tests {
         let grid = grid(0.2, None, 64);
         assert_eq!(grid.posterior([1.4, -0.1], 8.0).beyond(), [End::HighRange]);
         assert_eq!(grid.posterior([0.0, -1.4], 8.0).beyond(), [End::HighRange, End::LowModulus]);
-        let widened = Estimate { value: 1.0, low: (-0.3_f64).exp(), high: 0.4_f64.exp() }.widened(0.3);
+        let widened =
+            IntervalEstimate { value: 1.0, low: (-0.3_f64).exp(), high: 0.4_f64.exp() }.widened(0.3);
         assert!(
             (widened.low.ln() + 0.3_f64.hypot(0.3)).abs() < 1e-12 && (widened.high.ln() - 0.5).abs() < 1e-12
         );

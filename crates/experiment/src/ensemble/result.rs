@@ -1,6 +1,6 @@
 //! The result of a comparison of curves with random profiles.
 
-use super::posterior::Estimate;
+use super::posterior::IntervalEstimate;
 
 /// What is compared, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,17 +13,16 @@ pub struct EnsembleOptions {
     pub height_error: Option<f64>,
     /// Standard error of the Hurst exponent; `None` if it is not stated.
     pub hurst_error: Option<f64>,
-    /// Number of threads that share the profiles. It changes no bit of the result.
-    pub jobs: usize,
 }
 
 /// Work of adhesion, and effective modulus, of a rough body, from the curves of many places of it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct EnsembleFit {
     /// Work of adhesion γ, J/m².
-    pub work: Estimate,
+    pub work: IntervalEstimate,
     /// Effective modulus E*, Pa; a given one has no interval.
-    pub modulus: Estimate,
+    pub modulus: IntervalEstimate,
     /// True if the effective modulus is the one of the scene.
     pub modulus_is_given: bool,
     /// Work of adhesion on closing over that on opening, as in the scene.
@@ -63,6 +62,7 @@ pub struct EnsembleFit {
 
 /// Shares of the squared half-width of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Shares {
     /// By the number of curves.
     pub places: f64,
@@ -74,6 +74,7 @@ pub struct Shares {
 
 /// Precision that other numbers of curves would give.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Prospect {
     /// Number of curves.
     pub curves: u64,
@@ -83,6 +84,7 @@ pub struct Prospect {
 
 /// Derivatives of the results with respect to the roughness of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct RoughnessShifts {
     /// Of ln γ with respect to the logarithm of the rms height.
     pub work_by_height: f64,
@@ -96,6 +98,7 @@ pub struct RoughnessShifts {
 
 /// One curve of an ensemble.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct CurveOfEnsemble {
     /// Name of the curve.
     pub name: String,
@@ -108,7 +111,7 @@ pub struct CurveOfEnsemble {
     /// Half of the preload over the way back to it, N/m.
     pub stiffness: f64,
     /// Work of adhesion by this curve alone, J/m².
-    pub work: Estimate,
+    pub work: IntervalEstimate,
     /// True if the interval of this curve alone reaches an end of the table.
     pub at_end_of_table: bool,
     /// True if one in a thousand curves of random profiles lies so far from the others.
@@ -117,6 +120,7 @@ pub struct CurveOfEnsemble {
 
 /// Mean of a summary over the curves, compared with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct SummaryDeviation {
     /// Name of the summary.
     pub summary: &'static str,

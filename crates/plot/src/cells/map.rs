@@ -1,7 +1,7 @@
 //! Heat maps in terminal cells: shades, letters of classes, and bars along the contour.
 
 use super::style::{CellStyle, Colours};
-use crate::axis::Axis;
+use crate::axis::ChartAxis;
 use crate::chart::{Chart, Class, HeatMap};
 use crate::colour::ink_on;
 use asperity_data::format_rounded;
@@ -16,7 +16,7 @@ pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
 const WITH_LETTER: usize = 3;
 
 /// Index of the value shown by each screen cell along an axis, from its lower end on.
-pub(super) fn values_behind(axis: &Axis, values: &[f64], cells: u16) -> Vec<usize> {
+pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec<usize> {
     let borders = HeatMap::borders(axis.scale, values);
     let value = |cell: u16| {
         let share = (f64::from(cell) + 0.5) / f64::from(cells);

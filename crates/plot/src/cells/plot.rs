@@ -3,7 +3,7 @@
 use super::map;
 use super::shapes::LayerShape;
 use super::style::{CellStyle, glyph};
-use crate::axis::Axis;
+use crate::axis::ChartAxis;
 use crate::chart::{Chart, Layer, Shape, Sign};
 use crate::colour::Ink;
 use crate::ticks::Tick;
@@ -80,7 +80,7 @@ impl CellPlot {
         if let Some(map) = chart.map() {
             let inside = plot.contains((column, row).into());
             let (across, up) = inside.then(|| (column - plot.x, plot.bottom() - 1 - row))?;
-            let value = |axis: &Axis, values: &[f64], cells: u16, cell: u16| {
+            let value = |axis: &ChartAxis, values: &[f64], cells: u16, cell: u16| {
                 values.get(map::values_behind(axis, values, cells)[usize::from(cell)]).copied()
             };
             let x = value(&chart.x, &map.columns, plot.width, across)?;
@@ -89,7 +89,8 @@ impl CellPlot {
         let share = |at: u16, from: u16, cells: u16| {
             ((f64::from(at) + 0.5 - f64::from(from)) / f64::from(cells.max(1))).clamp(0.0, 1.0)
         };
-        let number = |axis: &Axis, share: f64| axis.scale.number(axis.span.low + share * axis.span.width());
+        let number =
+            |axis: &ChartAxis, share: f64| axis.scale.number(axis.span.low + share * axis.span.width());
         let x = number(&chart.x, share(column, plot.x, plot.width));
         Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
@@ -260,7 +261,7 @@ fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
 
 /// Numbers of an axis, each with its place: with the fewest ticks of which two are visible, or else with the fewest of all.
 fn numbers_at(
-    axis: &Axis,
+    axis: &ChartAxis,
     ticks: RangeInclusive<usize>,
     place: impl Fn(f64) -> u16,
     is_seen: impl Fn(&(u16, String)) -> bool,
@@ -317,8 +318,8 @@ mod tests {
 
     const SIZES: [(u16, u16); 6] = [(20, 5), (32, 8), (47, 13), (60, 20), (80, 24), (118, 37)];
 
-    fn axis(low: f64, high: f64, symbol: &str, unit: &str) -> Axis {
-        Axis::new(AxisScale::Linear, Span { low, high }, "", symbol, unit)
+    fn axis(low: f64, high: f64, symbol: &str, unit: &str) -> ChartAxis {
+        ChartAxis::new(AxisScale::Linear, Span { low, high }, "", symbol, unit)
     }
 
     fn chart(layers: Vec<Layer>) -> Chart {
@@ -353,8 +354,8 @@ mod tests {
             rows: rows.clone(),
         };
         let chart = Chart::new(
-            Axis::new(AxisScale::Linear, span(AxisScale::Linear, &columns), "", "H", "1"),
-            Axis::new(AxisScale::Logarithmic, span(AxisScale::Logarithmic, &rows), "", "κ", "1"),
+            ChartAxis::new(AxisScale::Linear, span(AxisScale::Linear, &columns), "", "H", "1"),
+            ChartAxis::new(AxisScale::Logarithmic, span(AxisScale::Logarithmic, &rows), "", "κ", "1"),
             vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))],
         );
         for (width, height) in [(20, 5), (66, 30), (118, 37), (200, 90)] {

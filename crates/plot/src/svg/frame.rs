@@ -1,7 +1,7 @@
 //! Frame of a chart: the conversion of numbers to positions, and the axes.
 
 use super::elements::{Anchor, Pen, Place, Svg, TEXT};
-use crate::axis::{Axes, Axis, Share};
+use crate::axis::{Axes, ChartAxis, Share};
 use crate::label::Label;
 use crate::ticks::Tick;
 
@@ -45,7 +45,7 @@ impl Frame<'_> {
     }
 
     pub(super) fn place_of_coordinates(&self, (x, y): (f64, f64)) -> Place {
-        let share = |axis: &Axis, at: f64| (at - axis.span.low) / axis.span.width();
+        let share = |axis: &ChartAxis, at: f64| (at - axis.span.low) / axis.span.width();
         self.at((share(self.axes.x, x), share(self.axes.y, y)))
     }
 

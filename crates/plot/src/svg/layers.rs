@@ -2,7 +2,7 @@
 
 use super::elements::{EMPTY, PAPER, Pen, Place, QUIET, Svg, TEXT};
 use super::frame::Frame;
-use crate::axis::{Axis, Share};
+use crate::axis::{ChartAxis, Share};
 use crate::chart::{Contour, HeatMap, Layer, Shape, Sign, Stroke};
 use crate::colour::{Ink, Rgb, ink_on};
 use crate::contour::contour;
@@ -162,7 +162,7 @@ fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     for (shade, boxes) in boxes {
         svg.boxes(boxes.into_iter(), shade.map_or(EMPTY, |shade| map.shades.of_band(shade)));
     }
-    let coordinates = |axis: &Axis, values: &[f64]| -> Vec<f64> {
+    let coordinates = |axis: &ChartAxis, values: &[f64]| -> Vec<f64> {
         values.iter().map(|value| axis.scale.coordinate(*value)).collect()
     };
     let (across, up) = (coordinates(frame.axes.x, &map.columns), coordinates(frame.axes.y, &map.rows));

@@ -202,15 +202,15 @@ fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::axis::Axis;
+    use crate::axis::ChartAxis;
     use crate::chart::{Layer, Shape, Sign, Stroke};
     use crate::colour::{Ink, hex};
     use crate::judge::{attribute, elements, parsed};
     use crate::scale::Span;
     use asperity_data::AxisScale;
 
-    fn axis(scale: AxisScale, low: f64, high: f64, symbol: &str, unit: &str) -> Axis {
-        Axis::new(scale, Span { low, high }, "", symbol, unit)
+    fn axis(scale: AxisScale, low: f64, high: f64, symbol: &str, unit: &str) -> ChartAxis {
+        ChartAxis::new(scale, Span { low, high }, "", symbol, unit)
     }
 
     /// A chart over d from 0 to 10 nm and F from 1 µN to 1 mN.

@@ -6,7 +6,7 @@ use super::cases::{
     SEED, WORK_OF_ADHESION,
 };
 use asperity_contact::Move;
-use asperity_contact::{Body, Contact, Foundation, HessRule, History, Leg, LegRecord, Patch, run};
+use asperity_contact::{Body, Contact, History, Leg, LegRecord, Modulus, Patch, Profile, load_body};
 use asperity_surface::Form;
 use asperity_surface::{Histogram, Line, SelfAffine, Synthesizer};
 use std::sync::Arc;
@@ -36,19 +36,19 @@ pub fn kernel(case: &Case) -> Given {
         Class::RoughLoop | Class::AdhesiveLoop | Class::AdhesiveObserved => (rough(), &LOOP),
     };
     let (line, edges) = (&smooth_or_rough, case.edges);
-    let hess =
-        case.is_adhesive().then(|| HessRule::from_works(FOUNDATION, WORK_OF_ADHESION, WORK_OF_ADHESION));
-    let mut body = Body::new(&Contact::new(Arc::clone(&line.gaps), edges, FOUNDATION, hess), SAMPLES);
+    let work = if case.is_adhesive() { WORK_OF_ADHESION } else { 0.0 };
+    let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).expect("a finite line");
+    let modulus = Modulus::effective(EFFECTIVE_MODULUS).expect("a modulus");
+    let contact = Contact::builder(&profile, modulus).work_of_adhesion(work).edges(edges).build();
+    let mut body = Body::new(&contact.expect("a contact"), SAMPLES);
     if !case.is_adhesive() {
-        let history = run(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
+        let history = load_body(&mut body, legs, |_, _| Ok(())).expect("a loading within reach");
         return Given { history, ..Given::default() };
     }
     let histogram =
         case.is_observed().then(|| Histogram::new(line.heights(), line.lowest(), line.summit, BINS));
     Given { histogram, ..adhesive(case, body, legs) }
 }
-
-const FOUNDATION: Foundation = Foundation::endless(LENGTH / POINTS as f64, EFFECTIVE_MODULUS);
 
 fn smooth() -> Line {
     let sphere = Form::Paraboloid { radius: RADIUS };
@@ -64,7 +64,7 @@ fn rough() -> Line {
 /// A loading under adhesion, with the other results of its case beside the curve.
 fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
     let mut fragments = Vec::new();
-    let history = run(&mut body, legs, |record: &LegRecord, leg: &Leg| {
+    let history = load_body(&mut body, legs, |record: &LegRecord, leg: &Leg| {
         if case.is_observed() {
             let end = record.curve.last().filter(|end| end.springs > 0);
             fragments.push(end.map_or_else(Vec::new, |end| leg.patches(end.indentation)));

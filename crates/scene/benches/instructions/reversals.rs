@@ -1,7 +1,7 @@
 //! Instructions of 64 reversals over those of one loop to the deepest of them on the same line, trees included.
 
 use crate::instructions::callgrind;
-use asperity_contact::{Body, Contact, Foundation, HessRule, Solver};
+use asperity_contact::{Body, Contact, Modulus, MovingBody, Profile};
 use asperity_contact::{Edges, Move};
 use asperity_surface::{Line, SelfAffine};
 use std::hint::black_box;
@@ -50,12 +50,14 @@ pub fn run_as_child() -> bool {
     let spectrum = SelfAffine { hurst: 0.7, first: 1, last: SPRINGS as u64 / 4, roll_off_mode: 0.0 };
     let rough = spectrum.heights(1, SPRINGS).expect("memory for the line");
     let line = Line::new(LENGTH, SPRINGS, None, Some(&rough), RMS_HEIGHT).expect("a finite line");
-    let foundation = Foundation::new(LENGTH, SPRINGS, EFFECTIVE_MODULUS);
+    let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing).expect("a finite line");
     let rms_gradient = RMS_HEIGHT * spectrum.gradient_per_height(LENGTH);
     let work = RMS_HEIGHT * rms_gradient * EFFECTIVE_MODULUS / (kappa * kappa);
-    let hess = HessRule::from_works(foundation, work, work);
+    let modulus = Modulus::effective(EFFECTIVE_MODULUS).expect("a modulus");
+    let contact = Contact::builder(&profile, modulus).work_of_adhesion(work).edges(edges).build();
+    let contact = contact.expect("a contact");
     let force = LOAD * EFFECTIVE_MODULUS * LENGTH * RMS_HEIGHT;
-    let body = || Body::new(&Contact::new(Arc::clone(&line.gaps), edges, foundation, Some(hess)), SAMPLES);
+    let body = || Body::new(&contact, SAMPLES);
     match part {
         Part::Line => drop(black_box(line.gaps.len())),
         Part::Loop => {

@@ -3,7 +3,7 @@
 
 use super::estimate::own_errors;
 use super::solution::{Errors, Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
-use super::table::{CostTable, ErrorFigure, Knob, Reference, Row, Timing};
+use super::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 use crate::scene::checked::CheckedScene;
 use crate::scene::errors::SceneErrors;
 use crate::scene::model::{Scene, Solver};
@@ -224,7 +224,7 @@ impl Ladder<'_> {
             }
         }
         let (springs, adhesion_force) = (target.points, target.adhesion_force);
-        self.table.reference = Reference { springs, adhesion_force, closed_form, errors };
+        self.table.reference = CostReference { springs, adhesion_force, closed_form, errors };
         self.table.rows = rows;
         true
     }

@@ -1,14 +1,13 @@
 //! Solutions of a scene and of its variants, and their relative differences.
 
-use crate::analysis::branches::{Branch, pull_off_point};
-use crate::reference::{PowerLaw, smooth_adhesion_force};
+use crate::reference::{closed_form, smooth_adhesion_force};
 use crate::scene::checked::CheckedScene;
 use crate::scene::errors::SceneErrors;
 use crate::scene::model::{Scene, Solver};
 use crate::simulation::outcome::{Outcome, RunError};
 use crate::simulation::reversals::FEW_SAMPLES;
 use crate::simulation::stages::Simulation;
-use asperity_contact::{ContactError, Direction, History, LegRecord};
+use asperity_contact::{Branch, ContactError, Direction, History, LegRecord, pull_off_point};
 use asperity_contact::{Edges, Move};
 use asperity_surface::Form;
 use asperity_surface::SurfaceError;
@@ -187,7 +186,7 @@ impl<'a> Runs<'a> {
 /// Returns true if memory or time did not suffice.
 pub(super) fn is_spent(error: &RunError) -> bool {
     use RunError::{Contact, OutOfMemory, Surface};
-    let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory(_)));
+    let is_short = matches!(error, OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory { .. }));
     is_short || matches!(error, Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted))
 }
 
@@ -195,7 +194,8 @@ pub(super) fn is_spent(error: &RunError) -> bool {
 pub(super) fn is_too_coarse(error: &RunError) -> bool {
     match error {
         RunError::Contact(error) => error.is_out_of_reach(),
-        error => matches!(error, RunError::Surface(SurfaceError::NoSprings { .. })),
+        RunError::Surface(error) => error.field() == Some("form.radius"),
+        _ => false,
     }
 }
 
@@ -218,7 +218,7 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         (None, _) => (flat_pull_off(length), length),
         (_, Some(radius)) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
         (Some(form), _) => {
-            let body = PowerLaw::of(form, modulus, work)?;
+            let body = closed_form(form, modulus, work)?;
             let (radius, _) = body.force_controlled_pull_off();
             // An edge of the contact at the end of the profile is no longer the body's own.
             (body.indentation(radius), length - 2.0 * outcome.line.spacing)

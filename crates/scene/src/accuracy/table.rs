@@ -95,7 +95,7 @@ pub struct Row {
 
 /// What the errors are relative to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Reference {
+pub struct CostReference {
     /// Number of springs of the finest solution with edges between springs.
     pub springs: u64,
     /// Adhesion force of the reference, N; `None` without a tensile force.
@@ -121,7 +121,7 @@ pub struct CostTable {
     /// The unit of time: the shortest time of one real Fourier transform of 2^20 points, planned beforehand, s.
     pub transform_seconds: f64,
     /// Reference of the errors.
-    pub reference: Reference,
+    pub reference: CostReference,
     /// The settings, grouped by knob, each group from coarse to fine.
     pub rows: Vec<Row>,
     /// Settings that were not tried or did not work, with reasons.
@@ -238,7 +238,7 @@ mod tests {
     }
 
     fn table(rows: &[Vec<Row>]) -> CostTable {
-        let reference = Reference { adhesion_force: Some(1.0), ..Reference::default() };
+        let reference = CostReference { adhesion_force: Some(1.0), ..CostReference::default() };
         CostTable { reference, rows: rows.concat(), ..CostTable::default() }
     }
 

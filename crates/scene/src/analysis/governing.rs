@@ -2,11 +2,11 @@
 //! rule of Hess, which holds for short-ranged attraction and for profiles that rise everywhere.
 //!
 //! Attraction of finite range dissipates less energy: in three dimensions the hysteresis vanishes at a Tabor number near 1.
-//! Adhesion forces of smooth bodies are in [`crate::reference`], the rule of Hess is [`asperity_contact::HessRule`].
+//! Adhesion forces of smooth bodies are in [`crate::reference`].
 
 use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
 use crate::scene::model::{Roughness, Scene};
-use asperity_contact::{Foundation, HessRule};
+use asperity_contact::{Contact, ContactBuilder, ContactError, Modulus, Profile};
 use asperity_surface::Amplitude;
 use asperity_surface::Form;
 use serde::Serialize;
@@ -101,10 +101,13 @@ impl Governing {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// The rule of Hess on the foundation under the profile; `None` without adhesion.
-    pub fn hess_rule(&self, foundation: Foundation) -> Option<HessRule> {
-        let [closing, opening] = self.adhesive_works()?;
-        Some(HessRule::from_works(foundation, closing, opening))
+    /// Begins a contact of a profile with this modulus and these works of adhesion.
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for an effective modulus out of its range.
+    pub fn contact(&self, profile: &Profile) -> Result<ContactBuilder, ContactError> {
+        let contact = Contact::builder(profile, Modulus::effective(self.effective_modulus)?);
+        Ok(contact.works_of_adhesion(self.adhesive_works().unwrap_or_default()))
     }
 
     /// Works of adhesion on closing and on opening, J/m²; `None` without adhesion.
@@ -130,12 +133,6 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
 /// the value overflows.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
     Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
-}
-
-/// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L (m) with work of adhesion γ (J/m²) and effective
-/// modulus E* (Pa). Popov and Filippov (2012), eq. (14); Kendall (1971).
-pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
-    (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }
 
 /// Range of attraction z₀, m, of a scene that states none: an interatomic distance.
@@ -292,7 +289,7 @@ mod tests {
     #[test]
     fn quantities_follow_from_plain_numbers() {
         // π γ E* L³ = 750 π, and ρ γ²/(E*² z₀³) = 27.
-        let force = ideal_adhesion_force(2.0, 3.0, 5.0);
+        let force = asperity_contact::ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
         assert!((number - 3.0).abs() < 1e-14, "{number}");

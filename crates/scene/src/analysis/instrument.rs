@@ -4,9 +4,7 @@
 //! F(d)/k reaches D; while D falls, the largest d at which the running minimum reaches D. Where d + F(d)/k turns back,
 //! dF/dd < −k, and the body jumps at fixed D to the next d at which the instrument can hold it.
 
-use super::branches::{Branch, pull_off_point};
-use super::figures::Figures;
-use asperity_contact::{CurvePoint, Direction, History, LegRecord};
+use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord, pull_off_point};
 
 /// A point of a force curve over the displacement of the instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]

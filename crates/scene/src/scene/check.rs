@@ -20,7 +20,7 @@ use super::tree::{Tree, in_ron, written};
 use asperity_contact::{Edges, Move};
 use asperity_data::{is_control, round_to};
 use asperity_surface::Form;
-use asperity_surface::{Unit, UnitError};
+use asperity_surface::Unit;
 
 /// Limit of the samples of all loading stages together; a curve of this size still fits the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
@@ -192,7 +192,7 @@ impl Found<'_> {
         }
         if let Form::Table { unit, .. } = form {
             let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
-            self.require(is_unit, &["form"], "form.unit", UnitError::ALLOWED, "unit of the table");
+            self.require(is_unit, &["form"], "form.unit", Unit::ALLOWED, "unit of the table");
         }
         if let &Form::WavySphere { wavelength, .. } = form {
             let shortest = SPRINGS_PER_WAVE as f64 * spacing;
@@ -237,7 +237,7 @@ impl Found<'_> {
                 let Measured { unit, height_unit, further_files, opposite, row, column, .. } = measured;
                 for (path, unit) in [("roughness.unit", unit), ("roughness.height_unit", height_unit)] {
                     let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
-                    self.require(is_unit, &[path], path, UnitError::ALLOWED, "unit of the file");
+                    self.require(is_unit, &[path], path, Unit::ALLOWED, "unit of the file");
                 }
                 let (has_both, as_line) = (row.is_some() && column.is_some(), measured.as_line);
                 let reason = "a profile is a row or a column: give one of them";

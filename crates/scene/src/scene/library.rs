@@ -58,7 +58,7 @@ pub fn presets() -> &'static [Preset] {
 }
 
 /// The built-in scene with this name.
-pub fn find(name: &str) -> Option<&'static Preset> {
+pub fn find_scene(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 

@@ -2,8 +2,8 @@
 
 use super::fields::default_of;
 use asperity_surface::MeasuredOptions;
+use asperity_surface::{AnalysisOptions, Detrend, End};
 use asperity_surface::{Cut, ReadOptions, Unit};
-use asperity_surface::{Detrend, End, Options};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::Not;
@@ -99,6 +99,33 @@ pub struct Measured {
     pub seed: u64,
 }
 
+impl Measured {
+    /// The surface of one file, with all options left out.
+    pub fn of_file(file: &str) -> Self {
+        Measured {
+            file: file.to_owned(),
+            further_files: Vec::new(),
+            as_line: false,
+            opposite: None,
+            unit: String::new(),
+            height_unit: String::new(),
+            spacing: None,
+            interpolate: false,
+            resample: false,
+            align_rows: false,
+            robust: false,
+            surface_name: None,
+            channel: None,
+            row: None,
+            column: None,
+            detrend: None,
+            periodic: false,
+            continue_to: None,
+            seed: default_seed(),
+        }
+    }
+}
+
 fn default_seed() -> u64 {
     default_of("roughness.seed")
 }
@@ -109,7 +136,7 @@ fn is_default_seed(seed: &u64) -> bool {
 
 /// Name of a typed unit; empty for none.
 #[cfg(feature = "clap")]
-fn unit_name(text: &str) -> Result<String, asperity_surface::UnitError> {
+fn unit_name(text: &str) -> Result<String, asperity_surface::SurfaceError> {
     if text.is_empty() { Ok(String::new()) } else { text.parse().map(|unit: Unit| unit.name().to_owned()) }
 }
 
@@ -137,7 +164,7 @@ impl Measured {
                 robust: self.robust,
                 surface_name: self.surface_name.clone(),
             },
-            spectrum: Options {
+            spectrum: AnalysisOptions {
                 detrend: self.detrend,
                 periodic: self.periodic,
                 end: self.continue_to.map_or(End::Ends, |wavelength| End::Continues(TAU / wavelength)),

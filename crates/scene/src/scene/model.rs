@@ -3,9 +3,9 @@
 //! These types hold values as written, valid or not; [`Scene::checked`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
-use super::fields::default_of;
+use super::fields::{SCENE_VERSION, default_of};
 use super::measured::Measured;
-use asperity_contact::{Edges, Move};
+use asperity_contact::{ContactError, Edges, Modulus, Move};
 use asperity_surface::{Form, MeasuredOptions, SelfAffine};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -80,12 +80,19 @@ impl Material {
         Material { youngs_modulus, poisson_ratio, effective_modulus: None }
     }
 
-    /// Effective modulus E* of eq. (2), Pa; NaN if a constant is missing.
+    /// Effective modulus E* of eq. (2), Pa; NaN if a constant is missing or out of its range.
     pub fn effective_modulus(&self) -> f64 {
+        self.modulus().map_or(f64::NAN, Modulus::pascals)
+    }
+
+    /// Effective modulus E* of eq. (2).
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a constant that is missing or out of its range.
+    pub fn modulus(&self) -> Result<Modulus, ContactError> {
         let [modulus, ratio] =
             [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
-        // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
-        self.effective_modulus.unwrap_or(modulus / ((1.0 - ratio) * (1.0 + ratio)))
+        self.effective_modulus.map_or_else(|| Modulus::isotropic(modulus, ratio), Modulus::effective)
     }
 }
 
@@ -120,6 +127,36 @@ pub enum Roughness {
 }
 
 impl Scene {
+    /// A scene of this material and this apparent diameter (m): nominally flat, smooth, without adhesion, and with the
+    /// defaults of a scene file.
+    ///
+    /// ```
+    /// use asperity_scene::{Adhesion, Material, Scene};
+    /// use asperity_surface::Form;
+    ///
+    /// let flat = Scene::new(Material::effective(1.0e6), 1.0e-4);
+    /// let form = Some(Form::Paraboloid { radius: 1.0e-3 });
+    /// let sphere = Scene { form, adhesion: Some(Adhesion::by_work(0.05)), ..flat.clone() };
+    /// assert!(sphere.checked().is_ok());
+    /// assert!(Scene { length: -1.0, ..flat }.checked().is_err());
+    /// ```
+    pub fn new(material: Material, length: f64) -> Self {
+        Scene {
+            version: SCENE_VERSION,
+            title: String::new(),
+            notice: String::new(),
+            material,
+            length,
+            form: None,
+            roughness: None,
+            adhesion: None,
+            loading_stiffness: None,
+            loading: default_loading(),
+            numerics: Numerics::default(),
+            observe: Vec::new(),
+        }
+    }
+
     /// Spring spacing Δx = L/N, m.
     pub fn spacing(&self) -> f64 {
         self.length / self.numerics.points as f64

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::document::{Document, LONGEST_TEXT};
 use super::errors::did_you_mean;
 use super::errors::{Origin, SceneError, SceneErrors};
-use super::library::{describe, find, own_folder, own_names, own_scene, presets};
+use super::library::{describe, find_scene, own_folder, own_names, own_scene, presets};
 use asperity_data::printable;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_limited};
 
@@ -24,7 +24,7 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     if is_file_name(name_or_path) {
         return document_of(text_of_file(path), name_or_path);
     }
-    if let Some(preset) = find(name_or_path) {
+    if let Some(preset) = find_scene(name_or_path) {
         return Document::parse(preset.text, preset.name);
     }
     if let Some(path) = own.as_ref().and_then(|own| own_scene(own, name_or_path)) {

@@ -1,13 +1,12 @@
 //! Outcome of a computed scene, or the reason why there is none.
 
-use super::reach::{BeyondFullContact, out_of_reach, rounded_up};
-use crate::analysis::figures::{Figures, Regime};
+use super::reach::BeyondFullContact;
 use crate::analysis::governing::{Governing, SteepWaves};
 use crate::analysis::instrument::InstrumentFigures;
+use crate::analysis::regime::Regime;
 use crate::scene::errors::SceneErrors;
-use asperity_contact::Move;
-use asperity_contact::{ContactError, History, Patch};
-use asperity_data::format_quantity;
+use asperity_contact::{ContactError, Figures, History, Patch};
+use asperity_data::{format_quantity, rounded_up};
 use asperity_surface::{Histogram, SurfaceError};
 use serde::Serialize;
 use thiserror::Error;
@@ -144,7 +143,7 @@ pub enum RunError {
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
     /// The contact could not be computed, for this reason.
-    #[error("{}", out_of_reach(.0, Move::ToTouch))]
+    #[error(transparent)]
     Contact(#[from] ContactError),
 }
 

@@ -1,10 +1,9 @@
-//! Targets out of reach of a contact or of the model, in words, with the nearest target within reach.
+//! Targets out of reach of the model, in words, with the nearest target within reach.
 
 use crate::scene::field::target_field;
+use asperity_contact::Contact;
 use asperity_contact::Move;
-use asperity_contact::{Contact, ContactError};
-use asperity_data::format_quantity;
-use asperity_data::round_to;
+use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 
 /// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. Beyond full
@@ -24,8 +23,8 @@ pub struct Reach {
 impl Reach {
     /// Finds the deepest state of a contact within reach of the model.
     pub fn of(contact: &Contact) -> Reach {
-        let length = contact.foundation().length;
-        let full_contact = (contact.full_contact_force(), contact.springs().deepest());
+        let length = contact.profile().length();
+        let full_contact = (contact.full_contact_force(), contact.profile().deepest());
         let force = full_contact.0 + force_of_a_length(contact);
         let indentation = full_contact.1 + length;
         let displacement = contact.displacement(indentation, force);
@@ -70,7 +69,7 @@ pub struct BeyondFullContact {
 
 /// Returns an error for a loading with a stage beyond the deepest state.
 pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFullContact> {
-    let length = contact.foundation().length;
+    let length = contact.profile().length();
     // Even without the way to full contact most loadings are within reach.
     let is_near = |stage: &Move| match *stage {
         Move::ToForce(force) => force <= force_of_a_length(contact),
@@ -87,29 +86,7 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
 
 /// Force by which an indentation of one length of the profile increases the force at full contact, N.
 fn force_of_a_length(contact: &Contact) -> f64 {
-    let foundation = contact.foundation();
-    foundation.spring_stiffness() * contact.gaps().len() as f64 * foundation.length
-}
-
-/// Reason why a body does not move to a target, in words, with forces rounded into the allowed range.
-pub fn out_of_reach(error: &ContactError, target: Move) -> String {
-    match (error, target) {
-        (ContactError::Stage { index, target, reason }, _) => {
-            format!("stage {}: {}", index + 1, out_of_reach(reason, *target))
-        }
-        (ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {
-            let [force, least] = [force, rounded_up(*smallest)].map(|force| format_quantity(force, "N"));
-            format!("the contact detaches before {force}; smallest force within reach: {least}")
-        }
-        (error, _) => error.to_string(),
-    }
-}
-
-/// The smallest number of four digits that is not below a value.
-pub(super) fn rounded_up(value: f64) -> f64 {
-    let nearest = round_to(value, 4);
-    let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
-    if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
+    contact.spring_stiffness() * contact.gaps().len() as f64 * contact.profile().length()
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ impl RoughnessMaker {
             Source::Measured { faces, options, length } => (faces, options, *length),
         };
         let file = faces.iter().flatten().next().map_or(Path::new(""), PathBuf::as_path);
-        let refused = |reason: String| SurfaceError::measured(file, &reason);
+        let refused = |error: SurfaceError| error.in_measured(file);
         let surface = self.surface(faces, options)?;
         let (heights, amplitude, modes) = match &*surface {
             MeasuredRoughness::Profile(profile) => {

@@ -3,17 +3,14 @@
 use super::outcome::RunError;
 use super::reversals::FEW_SAMPLES;
 use super::stages::Simulation;
-use super::stages::SmoothSprings;
-use crate::analysis::figures::Figures;
+use super::stages::{SmoothProfile, profile_of};
 use crate::analysis::governing::Governing;
 use crate::reference::smooth_adhesion_force;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::Scene;
-use asperity_contact::Move;
-use asperity_contact::{Body, Contact, Foundation, Reversal, Springs};
+use asperity_contact::{Body, Figures, Move, Profile, Reversal};
 use asperity_surface::Form;
 use asperity_surface::Line;
-use std::sync::Arc;
 
 impl Simulation {
     /// Adhesion force of the body of a scene without its roughness, N, after the preload in `figures`, or after zero force
@@ -37,11 +34,8 @@ impl Simulation {
         if let (Some(own), true) = (figures.adhesion_force, is_smooth && figures.preload >= Some(0.0)) {
             return Ok(Some(own));
         }
-        let springs = if is_smooth { self.springs_of(scene)? } else { self.smooth_springs(scene, form)? };
-        let spacing = length / scene.numerics.points as f64;
-        let foundation = Foundation { spacing, effective_modulus, length };
-        let rule = governing.hess_rule(foundation);
-        let contact = Contact::of(springs, scene.numerics.edges, foundation, rule);
+        let profile = if is_smooth { self.profile(scene)? } else { self.smooth_profile(scene, form)? };
+        let contact = governing.contact(&profile)?.edges(scene.numerics.edges).build()?;
         let mut force = None;
         let mut see = |_, reversal: Reversal| {
             force = reversal.adhesion_force();
@@ -54,18 +48,17 @@ impl Simulation {
         }
     }
 
-    /// Springs under a form without roughness: kept from the last scene if form, length and number are the same, or made.
-    fn smooth_springs(&mut self, scene: &Scene, form: &Form) -> Result<Arc<Springs>, RunError> {
+    /// Profile of a form without roughness: kept from the last scene if form, length and number are the same, or made.
+    fn smooth_profile(&mut self, scene: &Scene, form: &Form) -> Result<Profile, RunError> {
         let (length, points) = (scene.length, scene.numerics.points);
-        let is_same = |of: &&SmoothSprings| of.form == *form && of.length == length && of.points == points;
+        let is_same = |of: &&SmoothProfile| of.form == *form && of.length == length && of.points == points;
         if let Some(known) = self.smooth.as_ref().filter(is_same) {
-            return Ok(Arc::clone(&known.springs));
+            return Ok(known.profile.clone());
         }
         self.smooth = None;
         let line = Line::new(length, points as usize, Some(form), None, 0.0)?;
-        let springs = Arc::new(Springs::new(line.gaps));
-        self.smooth =
-            Some(SmoothSprings { form: form.clone(), length, points, springs: Arc::clone(&springs) });
-        Ok(springs)
+        let profile = profile_of(&line)?;
+        self.smooth = Some(SmoothProfile { form: form.clone(), length, points, profile: profile.clone() });
+        Ok(profile)
     }
 }

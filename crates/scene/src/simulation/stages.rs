@@ -4,16 +4,15 @@ use super::outcome::{LineFacts, Outcome, RunError, Timings};
 use super::reach;
 use super::roughness::{Rough, RoughnessKey, RoughnessMaker};
 use super::workload::{Stage, Workload};
-use crate::analysis::figures::{Figures, Regime};
-use crate::analysis::governing::{Governing, SteepWaves, ideal_adhesion_force, scene_tabor_number};
+use crate::analysis::governing::{Governing, SteepWaves, scene_tabor_number};
 use crate::analysis::instrument::InstrumentFigures;
+use crate::analysis::regime::Regime;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::{
-    Body, Contact, ContactError, ContactTree, Foundation, History, Leg, LegRecord, Patch, Solver, Springs,
-    Stepwise, Work, run,
+    Body, Contact, ContactError, ContactTree, Edges, Figures, History, Leg, LegRecord, Move, MovingBody,
+    Patch, Profile, Stepwise, Work, ideal_adhesion_force, load_body,
 };
-use asperity_contact::{Edges, Move};
 use asperity_data::{check_room, emptied};
 use asperity_surface::Form;
 use asperity_surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
@@ -42,9 +41,10 @@ pub struct Simulation {
     roughness: Option<Rough>,
     line: Option<(LineKey, Line)>,
     histogram: Option<Histogram>,
-    springs: Arc<Springs>,
-    /// Springs under the form alone, once they were needed for F_smooth.
-    pub(super) smooth: Option<SmoothSprings>,
+    /// The line as the profile of a contact, with its tree.
+    profile: Option<Profile>,
+    /// Profile of the form alone, once it was needed for F_smooth.
+    pub(super) smooth: Option<SmoothProfile>,
     /// Contact tree of a former profile, for the reuse of its memory.
     former_tree: ContactTree,
     /// Memory that is kept from former runs, bytes.
@@ -60,12 +60,12 @@ struct LineKey {
     form: Option<Form>,
 }
 
-/// Springs under a form without roughness, with all that they depend on.
-pub(super) struct SmoothSprings {
+/// Profile of a form without roughness, with all that it depends on.
+pub(super) struct SmoothProfile {
     pub form: Form,
     pub length: f64,
     pub points: u64,
-    pub springs: Arc<Springs>,
+    pub profile: Profile,
 }
 
 /// Contact of a scene before its loading, with the results of making the profile and the tree.
@@ -145,7 +145,7 @@ impl Simulation {
         let key = LineKey { roughness, scale, length, points, form: scene.form.clone() };
         if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
             let line = self.lay_line(scene, &key)?;
-            self.springs = Arc::new(Springs::new(Arc::clone(&line.gaps)));
+            self.profile = Some(profile_of(&line)?);
             self.line = Some((key, line));
         }
         let Some((_, line)) = &self.line else {
@@ -157,7 +157,7 @@ impl Simulation {
             spacing: line.spacing,
             first: line.first,
             summit: line.summit,
-            deepest: self.springs.deepest(),
+            deepest: line.deepest,
             modes,
             seed: scene.seed(),
             continuum_rms_gradient: scene
@@ -167,10 +167,18 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// Springs under the profile of a scene.
-    pub(super) fn springs_of(&mut self, scene: &CheckedScene) -> Result<Arc<Springs>, RunError> {
-        self.make_line(scene)?;
-        Ok(Arc::clone(&self.springs))
+    /// The profile of a checked scene.
+    ///
+    /// # Errors
+    /// As for [`Self::make_line`].
+    pub fn profile(&mut self, scene: &CheckedScene) -> Result<Profile, RunError> {
+        self.line_of(scene)?;
+        Ok(self.made()?.clone())
+    }
+
+    /// The profile that was made last.
+    fn made(&self) -> Result<&Profile, ContactError> {
+        self.profile.as_ref().ok_or(ContactError::Internal("the profile of the scene has not been made"))
     }
 
     /// Makes a profile from the heights of its roughness and its form.
@@ -178,8 +186,8 @@ impl Simulation {
         let LineKey { scale, length, points, .. } = *key;
         self.histogram = None;
         // Nothing else uses the springs unless a caller has kept a leg.
-        if let Some(springs) = Arc::into_inner(take(&mut self.springs)) {
-            self.former_tree = springs.into_tree();
+        if let Some(profile) = self.profile.take() {
+            self.former_tree = profile.into_tree();
         }
         let mut memory =
             self.line.take().and_then(|(_, line)| Arc::into_inner(line.gaps)).unwrap_or_default();
@@ -191,7 +199,7 @@ impl Simulation {
         if let Some(rough) = self.roughness.as_mut().filter(|_| self.single) {
             memory = take(&mut rough.heights);
         } else {
-            memory = emptied(memory, points).map_err(SurfaceError::from)?;
+            memory = emptied(memory, points).map_err(SurfaceError::of_springs)?;
             let heights = self.roughness.as_ref().map_or(&[][..], |rough| &rough.heights);
             memory.extend_from_slice(heights);
             memory.resize(points, 0.0);
@@ -202,7 +210,7 @@ impl Simulation {
     /// Makes the heights of a roughness; synthesised ones in the memory `memory`.
     fn roughen(&mut self, scene: &Scene, key: &RoughnessKey, memory: Vec<f64>) -> Result<(), RunError> {
         // The transform allocates its own memory, and would end the process on failure.
-        check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::from)?;
+        check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::of_springs)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
             self.maker.synthesizer = Synthesizer::default();
@@ -215,7 +223,7 @@ impl Simulation {
     fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
         let memory = take(&mut self.former_tree);
         if plan.runs(Stage::Tree) {
-            self.springs.tree_in(memory, edges)?;
+            self.made()?.build_tree(edges, memory)?;
         }
         let line = self.line().filter(|_| plan.runs(Stage::HeightHistogram) && self.histogram.is_none());
         let Some(line) = line else { return Ok(0) };
@@ -255,9 +263,7 @@ impl Simulation {
 
         let drawn_before = self.maker.phases_drawn;
         let clock = Instant::now();
-        let (line, facts, governing) = self.line_of(scene)?;
-        let Governing { effective_modulus, .. } = governing;
-        let foundation = Foundation { spacing: line.spacing, effective_modulus, length: line.length };
+        let (_, facts, governing) = self.line_of(scene)?;
         timings.line = clock.elapsed().as_secs_f64();
         interrupted()?;
         let random_phases = self.maker.phases_drawn - drawn_before;
@@ -267,9 +273,8 @@ impl Simulation {
         timings.tree = clock.elapsed().as_secs_f64();
         interrupted()?;
 
-        let hess = governing.hess_rule(foundation).filter(|_| plan.runs(Stage::RuleOfHess));
-        let contact = Contact::of(Arc::clone(&self.springs), edges, foundation, hess)
-            .with_loading_stiffness(scene.loading_stiffness.unwrap_or(f64::INFINITY));
+        let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+        let contact = governing.contact(self.made()?)?.edges(edges).loading_stiffness(stiffness).build()?;
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
@@ -344,6 +349,12 @@ impl Simulation {
     }
 }
 
+/// The profile of a contact on the springs under a line.
+pub(crate) fn profile_of(line: &Line) -> Result<Profile, ContactError> {
+    let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
+    Ok(profile.on_foundation(line.length, line.first)?.with_summit(line.summit))
+}
+
 /// Loads a contact with the solver of the scene; with `zero_load` also with turns at first touch and at zero force. Returns
 /// the history, and F_a(0) by both protocols, N, where the contact pulls.
 fn load(
@@ -360,12 +371,12 @@ fn load(
         SolverChoice::Stepwise { step } => {
             let body = |samples| Stepwise::new(contact, step, samples, stop);
             let mut solver = body(samples)?;
-            let mut history = run(&mut solver, &scene.loading, see)?;
+            let mut history = load_body(&mut solver, &scene.loading, see)?;
             timings.curve = solver.curve_seconds();
             if zero_load {
                 let clock = Instant::now();
                 for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
-                    let turned = match run(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
+                    let turned = match load_body(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
                         Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
                         // A turn out of reach of the steps has no F_a(0).
                         Err(_) => continue,
@@ -383,7 +394,7 @@ fn load(
         }
         SolverChoice::Exact => {
             let mut body = Body::new(contact, samples);
-            let mut history = run(&mut body, &scene.loading, see)?;
+            let mut history = load_body(&mut body, &scene.loading, see)?;
             timings.curve = body.curve_seconds();
             if zero_load && contact.has_adhesion() {
                 let clock = Instant::now();

@@ -1,8 +1,9 @@
 //! Figures of one path of the body, however the path is cut into stages.
 
 use super::body::*;
-use asperity_contact::{Direction, Edges, History, LegRecord, Move, Solver};
-use asperity_scene::{Figures, Outcome, Regime, Simulation, open};
+use asperity_contact::Figures;
+use asperity_contact::{Direction, Edges, History, LegRecord, Move, MovingBody};
+use asperity_scene::{Outcome, Regime, Simulation, open};
 use proptest::prelude::*;
 
 /// A scene with this loading.

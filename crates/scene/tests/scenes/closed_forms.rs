@@ -4,9 +4,9 @@
 mod one_piece;
 mod waves;
 
-use super::body::{Body, end};
+use super::body::{Body, Foundation, end};
 use super::numerics::observed_order;
-use asperity_contact::{Edges, Foundation, LegRecord, Move};
+use asperity_contact::{Edges, LegRecord, Move};
 use asperity_surface::{Form, Line, SelfAffine, Synthesizer};
 use one_piece::{Loop, OnePiece};
 
@@ -42,7 +42,7 @@ const FIGURES: [(&str, bool); 7] = [
 impl Problem {
     fn body(&self, edges: Edges, points: usize) -> Body {
         let line = Line::new(self.length, points, self.form.as_ref(), None, 0.0).unwrap();
-        let foundation = Foundation::endless(line.spacing, self.modulus);
+        let foundation = Foundation::new(line.spacing, self.modulus);
         let [closing_work, work] = self.works;
         Body { closing_work, ..Body::new(line.gaps.to_vec(), edges, foundation, work) }
     }
@@ -227,7 +227,7 @@ fn rough_bodies_of_few_modes_converge_with_the_square_of_the_distance_in_the_med
             let rough = Synthesizer::default().synthesize(spectrum, seed, points, shift, Vec::new()).unwrap();
             let line = Line::new(1.0, points, form.as_ref(), Some(&rough), 0.01).unwrap();
             let work = 1e-4 * spectrum.gradient_per_height(1.0) / (kappa * kappa);
-            let foundation = Foundation::endless(line.spacing, 1.0);
+            let foundation = Foundation::new(line.spacing, 1.0);
             let body = Body::new(line.gaps.to_vec(), Edges::SubCell, foundation, work);
             let legs = body.history(&[Move::ToForce(4e-3), Move::ToSeparation], 64).legs;
             [legs[1].smallest.force, legs.iter().map(|leg| leg.released_energy).sum()]

@@ -2,26 +2,25 @@
 
 use super::body::{cases, end};
 use asperity_contact::{
-    Body, Contact, CurvePoint, Direction, Edges, Foundation, HessRule, History, LegRecord, Move, run,
+    Body, ClosedForm, Contact, CurvePoint, Direction, Figures, History, LegRecord, Modulus, Move, Profile,
+    load_body,
 };
-use asperity_scene::{
-    DisplacementCurve, DisplacementPoint, Figures, InstrumentFigures, PowerLaw, displacements,
-};
+use asperity_scene::{DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements};
 use asperity_surface::{Form, Line};
 use proptest::prelude::*;
 
 /// A JKR sphere of radius 1 m with E* = γ = 1, and its closed form.
-fn sphere(points: usize, stiffness: f64) -> (Contact, PowerLaw) {
+fn sphere(points: usize, stiffness: f64) -> (Contact, ClosedForm) {
     let form = Form::Paraboloid { radius: 1.0 };
     let line = Line::new(12.0, points, Some(&form), None, 0.0).unwrap();
-    let foundation = Foundation { spacing: line.spacing, effective_modulus: 1.0, length: 12.0 };
-    let contact =
-        Contact::new(line.gaps, Edges::SubCell, foundation, Some(HessRule::from_works(foundation, 1.0, 1.0)));
-    (contact.with_loading_stiffness(stiffness), PowerLaw::of(&form, 1.0, 1.0).unwrap())
+    let profile = Profile::from_gaps(line.gaps, line.spacing).unwrap();
+    let modulus = Modulus::effective(1.0).unwrap();
+    let contact = Contact::builder(&profile, modulus).work_of_adhesion(1.0).loading_stiffness(stiffness);
+    (contact.build().unwrap(), ClosedForm::sphere(1.0, modulus, 1.0))
 }
 
 fn loaded(contact: &Contact, targets: &[Move]) -> History {
-    run(&mut Body::new(contact, 512), targets, |_, _| Ok(())).unwrap()
+    load_body(&mut Body::new(contact, 512), targets, |_, _| Ok(())).unwrap()
 }
 
 proptest! {
@@ -94,10 +93,11 @@ fn a_rigid_instrument_controls_the_indentation_and_a_soft_one_the_force() {
 fn a_sphere_jumps_off_where_the_closed_form_does() {
     let targets = [Move::ToDisplacement(2.0), Move::ToDisplacement(-40.0)];
     let (rigid, jkr) = sphere(1 << 14, f64::INFINITY);
+    let under = |stiffness| sphere(1 << 14, stiffness).0;
     let reference = loaded(&rigid, &[Move::ToIndentation(1.0), Move::ToSeparation]);
     let mut areas = vec![];
     for stiffness in [0.2, 1.0, 5.0, 100.0] {
-        let history = loaded(&rigid.clone().with_loading_stiffness(stiffness), &targets);
+        let history = loaded(&under(stiffness), &targets);
         let unloading = &history.legs[1];
         let smallest = reference.legs[1].smallest.force;
         assert!((unloading.smallest.force / smallest - 1.0).abs() < 1e-12);
@@ -110,10 +110,10 @@ fn a_sphere_jumps_off_where_the_closed_form_does() {
         // The free body follows the instrument, and to separation it ends where it jumps off.
         assert_eq!((end(unloading).indentation, end(unloading).springs), (-40.0, 0));
         let mut last = [targets[0], Move::ToSeparation];
-        let separated = loaded(&rigid.clone().with_loading_stiffness(stiffness), &last);
+        let separated = loaded(&under(stiffness), &last);
         assert_eq!(end(&separated.legs[1]).indentation, pull_off);
         last[1] = Move::ToDisplacement(pull_off.next_down());
-        assert_eq!(end(&loaded(&rigid.clone().with_loading_stiffness(stiffness), &last).legs[1]).springs, 0);
+        assert_eq!(end(&loaded(&under(stiffness), &last).legs[1]).springs, 0);
         // ∮F dD: the energy lost in the contact and in the instrument.
         let area: f64 = history
             .legs

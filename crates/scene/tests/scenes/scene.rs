@@ -2,11 +2,11 @@
 
 use asperity_contact::Move;
 use asperity_scene::{
-    DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Range, Roughness, Scene, Simulation, Span, Stage, Text,
-    Workload, open, presets, to_ron,
+    DEFAULT, Document, Effect, FIELDS, LONGEST_TEXT, Range, Roughness, Scene, Simulation, Stage, Text,
+    TextSpan, Workload, open, presets, to_ron,
 };
 
-fn locate(text: &str, path: &str) -> Option<Span> {
+fn locate(text: &str, path: &str) -> Option<TextSpan> {
     Text::new(text).ok()?.span(path).cloned()
 }
 

@@ -1,7 +1,7 @@
 //! Forms from a table of rows against the forms that they were computed from.
 
-use asperity_scene::{Document, Outcome, PowerLaw, RunError, Simulation};
-use asperity_surface::{Form, FormTable, Line, SurfaceError};
+use asperity_scene::{Document, Outcome, RunError, Simulation, closed_form};
+use asperity_surface::{Form, FormTable, Line};
 use dashu_float::{FBig, round::mode::HalfEven};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -85,7 +85,7 @@ fn a_table_without_a_file_or_too_short_is_refused() {
         let mut simulation = Simulation::new(folder.path().to_owned());
         let outcome = simulation.run(scene(form, 1e-4).scene(), &|| false, &mut |_, _, _| Ok(()));
         match outcome {
-            Err(RunError::Surface(SurfaceError::File { reason, .. })) => reason,
+            Err(RunError::Surface(error)) if error.field() == Some("form.file") => error.to_string(),
             other => panic!("{other:?}"),
         }
     };
@@ -109,7 +109,7 @@ fn a_table_without_a_file_or_too_short_is_refused() {
         assert!(run(form).contains(said), "{text}: {}", run(form));
     }
     let sphere = Form::Paraboloid { radius: 1.0 };
-    assert!(sphere.load(Path::new(""), 1.0).is_ok() && PowerLaw::of(&sphere, 1.0, 1.0).is_some());
+    assert!(sphere.load(Path::new(""), 1.0).is_ok() && closed_form(&sphere, 1.0, 1.0).is_some());
     assert!(Line::new(1.0, 9, Some(&sphere), None, 0.0).is_ok());
 }
 

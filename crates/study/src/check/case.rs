@@ -1,8 +1,8 @@
 //! A case of the catalogue of checks, and what its measurements share: adhesive rough bodies, loaded through the public
 //! interface.
 
-use asperity_contact::{Edges, Move};
-use asperity_scene::{CheckedScene, Contact, Cycle, Document, Material, Outcome, Profile, Simulation};
+use asperity_contact::{Contact, Cycle, Edges, LoadOptions, Modulus, Move, Profile};
+use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
 use asperity_surface::{Line, SelfAffine, phases};
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
@@ -159,9 +159,10 @@ impl Body {
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
         let legs: Vec<Move> = turns.chain(separates.then_some(Move::ToSeparation)).collect();
-        let profile = Profile::from_heights(&self.heights, self.length / self.heights.len() as f64)?;
-        let contact = Contact::builder(&profile, Material::effective(self.modulus));
-        let contact = contact.work_of_adhesion(self.work).edges(self.edges).samples(samples);
-        Ok(contact.build()?.load(&legs)?)
+        let profile =
+            Profile::from_heights(self.heights.as_slice(), self.length / self.heights.len() as f64)?;
+        let contact = Contact::builder(&profile, Modulus::effective(self.modulus)?);
+        let contact = contact.work_of_adhesion(self.work).edges(self.edges).build()?;
+        Ok(contact.load_with(&legs, LoadOptions::default().samples(samples))?)
     }
 }

@@ -2,7 +2,8 @@
 
 use super::case::Subject::Scene as OfScene;
 use super::case::{CLOSED_FORM, Case, Measured, both, largest, outcome, relative_errors};
-use asperity_scene::{CheckedScene, PowerLaw};
+use asperity_contact::ClosedForm;
+use asperity_scene::{CheckedScene, closed_form};
 use asperity_surface::Form;
 use std::f64::consts::PI;
 
@@ -38,10 +39,10 @@ pub const CASES: &[Case] = &[
         √(8πa³E*γ).", "force, indentation, energy"], &both(2e-15, 2e-15), OfScene(PUNCH, flat)),
 ];
 
-fn power_law(scene: &CheckedScene) -> Measured<PowerLaw> {
+fn power_law(scene: &CheckedScene) -> Measured<ClosedForm> {
     let work = scene.adhesion.and_then(|adhesion| adhesion.work()).unwrap_or(0.0);
     let modulus = scene.material.effective_modulus();
-    let closed = scene.form.as_ref().and_then(|form| PowerLaw::of(form, modulus, work));
+    let closed = scene.form.as_ref().and_then(|form| closed_form(form, modulus, work));
     Ok(closed.ok_or("no closed form")?)
 }
 

@@ -43,7 +43,7 @@ fn near_ties(body: &Body) -> Measured {
         let far = [1.037, 100.0].map(|share| share * (body.depth() + body.stretch()));
         let turns = [&far[..], &body.turns::<8>(16)].concat();
         let (exact, near) = (one.load(&turns, false, 2)?, other.load(&turns, false, 2)?);
-        largest(exact.legs().iter().zip(near.legs()).map(|(a, b)| {
+        largest(exact.stages().iter().zip(near.stages()).map(|(a, b)| {
             let [a, b] = [a, b].map(|leg| end(leg).force);
             Ok((a - b).abs() / (body.force_unit() + a.abs()))
         }))

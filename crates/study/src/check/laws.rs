@@ -6,8 +6,8 @@ use super::case::{
     Body, Case, INDEPENDENT, Measured, SELF_CONSISTENCY, both, ensure, largest, outcome, with,
 };
 use asperity_contact::Edges;
-use asperity_contact::{CurvePoint, LegRecord};
-use asperity_scene::{CheckedScene, Cycle, Solver};
+use asperity_contact::{CurvePoint, Cycle, LegRecord};
+use asperity_scene::{CheckedScene, Solver};
 
 const LAW: [&str; 2] = ["laws", SELF_CONSISTENCY];
 const COMPUTED: [&str; 2] = ["laws", INDEPENDENT];
@@ -39,8 +39,8 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
 
 fn no_adhesion(body: &Body) -> Measured {
     let cycle = Body { work: 0.0, ..body.clone() }.load(&[0.8 * body.depth()], true, 301)?;
-    let [loading, unloading] = cycle.legs() else { return Ok(f64::NAN) };
-    let is_lossless = cycle.legs().iter().all(|leg| leg.released_energy == 0.0);
+    let [loading, unloading] = cycle.stages() else { return Ok(f64::NAN) };
+    let is_lossless = cycle.stages().iter().all(|leg| leg.released_energy == 0.0);
     ensure(is_lossless, || "energy is lost".into())?;
     ensure(loading.curve.len() == unloading.curve.len(), || "other points on the way back".into())?;
     largest(loading.curve.iter().zip(unloading.curve.iter().rev()).map(|(one, other)| {
@@ -63,7 +63,7 @@ fn memory(body: &Body) -> Measured {
         let (one, other) = (body.load(short, false, 2)?, body.load(long, false, 2)?);
         ensure(one.patches() == other.patches(), || format!("{long:?} leaves another contact"))?;
         let force = |legs: &[LegRecord]| legs.last().map_or(f64::NAN, |leg| end(leg).force);
-        Ok((force(one.legs()) - force(other.legs())).abs() / body.force_unit())
+        Ok((force(one.stages()) - force(other.stages())).abs() / body.force_unit())
     }))
 }
 
@@ -72,7 +72,7 @@ fn energy(body: &Body) -> Measured {
     let [a, b] = body.turns(12);
     let (low, high) = (a.min(b), a.max(b).max(0.0));
     let lost = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
-    let of_loop = lost(&body.load(&[high, low, high], false, 2)?.legs()[1..]);
+    let of_loop = lost(&body.load(&[high, low, high], false, 2)?.stages()[1..]);
     ensure(of_loop >= -1e-14 * scale, || {
         format!("a loop from {high:e} to {low:e} m gains {:e} J", -of_loop)
     })?;
@@ -81,8 +81,8 @@ fn energy(body: &Body) -> Measured {
     let trapezium = |pair: &[CurvePoint]| {
         0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
     };
-    let done: f64 = cycle.legs().iter().flat_map(|leg| leg.curve.windows(2)).map(trapezium).sum();
-    Ok((lost(cycle.legs()) - done).abs() / scale)
+    let done: f64 = cycle.stages().iter().flat_map(|leg| leg.curve.windows(2)).map(trapezium).sum();
+    Ok((lost(cycle.stages()) - done).abs() / scale)
 }
 
 /// Scales lengths along the profile, heights and stresses by these powers of two, which must not change a bit of any
@@ -93,8 +93,9 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     // The sum with 0 makes −0 the same as 0.
     let bits = |cycle: &Cycle, height: f64, force: f64| -> Vec<_> {
         let points =
-            cycle.curve().map(|point| ([point.indentation * height, point.force * force], point.springs));
-        let lost = cycle.legs().iter().map(|leg| ([leg.released_energy * force * height, 0.0], leg.detached));
+            cycle.points().map(|point| ([point.indentation * height, point.force * force], point.springs));
+        let lost =
+            cycle.stages().iter().map(|leg| ([leg.released_energy * force * height, 0.0], leg.detached));
         points
             .chain(lost)
             .map(|(values, springs)| (values.map(|value| (value + 0.0).to_bits()), springs))

@@ -58,7 +58,7 @@ pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
 }
 
 /// Computes a check and its error.
-pub fn judge(check: Check) -> Verdict {
+pub fn judge_case(check: Check) -> Verdict {
     let (clock, edges) = (Instant::now(), check.edges);
     let error = match check.case.subject {
         Subject::Scene(text, measure) => scene(text, edges).and_then(|scene| measure(&scene)),
@@ -94,8 +94,8 @@ mod tests {
     #[test]
     fn an_error_above_the_bound_fails() {
         let check = checks(|case| case.name == "hertz-sphere")[0];
-        assert!(judge(check).passes());
-        assert!(!judge(Check { bound: 1e-12, ..check }).passes());
+        assert!(judge_case(check).passes());
+        assert!(!judge_case(Check { bound: 1e-12, ..check }).passes());
         let nothing = Verdict { check, error: Ok(f64::NAN), seconds: 0.0 };
         assert!(!nothing.passes());
     }

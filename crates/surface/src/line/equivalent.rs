@@ -1,29 +1,65 @@
 //! The equivalent line of measured surfaces: its modes, their amplitudes, and its moments.
 
-use super::SurfaceError;
-use super::measured::{Face, MeasuredOptions, MeasuredProfile};
+use super::measured::{Face, MeasuredOptions, MeasuredProfile, TRANSFORM_BYTES};
+use super::roughness::Synthesizer;
 use super::spectrum::Amplitude;
+use crate::error::{Place, SurfaceError, refused};
+use crate::spectrum::analysis::Analysis;
 use crate::spectrum::isotropic::{IsotropicSpectrum, LineMoments, line_moments};
+use asperity_data::check_room;
 use std::f64::consts::TAU;
 
 /// Relative excess of a wavelength over the length of the scan that is attributed to rounding.
 const ROUNDING: f64 = 1.0e-9;
 
 /// Equivalent line of the measured surfaces of one or two faces in contact; the spectra of the faces are added.
+///
+/// ```
+/// use asperity_surface::{AnalysisOptions, EquivalentLine, Topography, analyse};
+///
+/// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+/// let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
+/// let surface = Topography::from_profile(&heights, 1e-6)?;
+/// let line = EquivalentLine::from(&analyse(&[surface], &AnalysisOptions::default())?);
+/// // Two random profiles have the rms height of the line.
+/// for seed in [1, 2] {
+///     let profile = line.heights(2.56e-4, 1024, seed)?;
+///     let square = profile.iter().map(|z| z * z).sum::<f64>() / 1024.0;
+///     assert!((square.sqrt() / line.moments().rms_height.value - 1.0).abs() < 0.05);
+/// }
+/// # Ok::<(), asperity_surface::SurfaceError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquivalentLine {
     /// Spectra of the measured faces.
     pub faces: Vec<IsotropicSpectrum>,
 }
 
+impl From<&Analysis> for EquivalentLine {
+    fn from(face: &Analysis) -> Self {
+        EquivalentLine { faces: vec![face.isotropic.clone()] }
+    }
+}
+
 impl EquivalentLine {
     /// Analyses the surfaces in the files of all faces.
     ///
     /// # Errors
-    /// [`SurfaceError::File`] for a face without a file, and for a file that holds no surface or has no spectrum.
+    /// [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
         Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
+    }
+
+    /// Heights, m, of a random profile of the line: at the middles of `points` equal cells of this length (m), with the random
+    /// phases of the seed.
+    ///
+    /// # Errors
+    /// No wave of the spectrum fits on the length with these points, or too little memory.
+    pub fn heights(&self, length: f64, points: usize, seed: u64) -> Result<Vec<f64>, SurfaceError> {
+        let (modes, of_mode) = (self.modes(length, points)?, |mode: u64| self.amplitude(mode, length));
+        check_room(TRANSFORM_BYTES * points as u64).map_err(SurfaceError::of_springs)?;
+        Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
     }
 
     /// Equivalent line of spectra changed at random within the uncertainty of their fits; `share` scales the change, and
@@ -55,18 +91,20 @@ impl EquivalentLine {
 
     /// First and last mode k (q = 2πk/L) of a line of this length (m) on `points` springs: the waves of the spectrum that
     /// fit the line and that the springs resolve. Waves longer than the scan are unknown and omitted.
-    pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), String> {
+    pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
         let first = (low * waves * (1.0 - ROUNDING)).ceil().max(1.0);
         let last = (high * waves * (1.0 + ROUNDING)).floor().min((points / 2) as f64);
         if first > last {
-            return Err(format!(
+            let fault = format!(
                 "no wave of the spectrum, from {:e} to {:e} m, fits on length = {length:e} m with numerics.points = \
-                 {points}; allowed: at least 2 springs for each of at least one wave",
+                 {points}",
                 TAU / high,
                 TAU / low
-            ));
+            );
+            let allowed = "at least 2 springs for each of at least one wave";
+            return Err(refused(Place::File, fault, allowed));
         }
         Ok((first as u64, last as u64))
     }
@@ -109,7 +147,7 @@ impl MeasuredRoughness {
             [face] if options.as_line.is_some() && face.len() == 1 => {
                 let (path, content) = &face[0];
                 let profile = MeasuredProfile::new(content, options);
-                let profile = profile.map_err(|error| SurfaceError::measured(path, &error))?;
+                let profile = profile.map_err(|error| error.in_measured(path))?;
                 Ok(MeasuredRoughness::Profile(profile))
             }
             _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
@@ -120,7 +158,7 @@ impl MeasuredRoughness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::analysis::Options;
+    use crate::spectrum::analysis::AnalysisOptions;
     use crate::spectrum::isotropic::{End, Moment};
     use std::path::PathBuf;
 
@@ -132,7 +170,7 @@ mod tests {
     }
 
     fn continued() -> MeasuredOptions {
-        let spectrum = Options { end: End::Continues(TAU / 0.5e-6), ..Options::default() };
+        let spectrum = AnalysisOptions { end: End::Continues(TAU / 0.5e-6), ..AnalysisOptions::default() };
         MeasuredOptions { spectrum, ..MeasuredOptions::default() }
     }
 
@@ -147,8 +185,8 @@ mod tests {
         assert_eq!(line.modes(scan, 1024).unwrap(), (1, 127));
         assert_eq!(line.modes(scan, 64).unwrap(), (1, 32));
         assert_eq!(line.modes(4.0 * scan, 4096).unwrap().0, 4);
-        assert!(line.modes(scan, 1).unwrap_err().contains("allowed: at least 2 springs"));
-        assert!(line.modes(1e-6, 64).unwrap_err().contains("no wave of the spectrum"));
+        assert!(line.modes(scan, 1).unwrap_err().to_string().contains("allowed: at least 2 springs"));
+        assert!(line.modes(1e-6, 64).unwrap_err().to_string().contains("no wave of the spectrum"));
         let further = continued();
         let longer = line_with(&further);
         assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));

@@ -1,8 +1,7 @@
 //! Macroscopic forms f(r) and their MDR transforms g(x), which for waves contain a Struve function.
 
-use super::SurfaceError;
 use super::table::{FormTable, Rows};
-use crate::topography::UnitError;
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gauss_nodes_on_quarter_circle;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI, TAU};
@@ -64,23 +63,21 @@ impl Form {
     /// (m). All clones of the form then have the table; other forms need none. Until its table is read, a form is flat.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else { return Ok(()) };
-        let refused = |reason: &dyn ToString| SurfaceError::File {
-            field: "form.file",
-            file: folder.join(file).display().to_string(),
-            reason: reason.to_string(),
+        let in_file = |error: SurfaceError| {
+            error.within(|place| Place::FileOf("form.file", folder.join(file).display().to_string(), place))
         };
         if rows.0.get().is_none() {
             let unit = Some(unit.as_str()).filter(|unit| !unit.is_empty()).map(str::parse).transpose();
-            let unit = unit.map_err(|error: UnitError| refused(&error))?;
-            let table = FormTable::read(&folder.join(file), unit).map_err(|error| refused(&error))?;
+            let unit = unit.map_err(in_file)?;
+            let table = FormTable::read(&folder.join(file), unit).map_err(in_file)?;
             rows.0.get_or_init(|| table);
         }
         let reach = self.table().map_or(0.0, FormTable::reach);
         if 0.5 * length <= reach * (1.0 + 1e-9) {
             return Ok(());
         }
-        let allowed = 2.0 * reach;
-        Err(refused(&format!("the table ends at r = {reach:e} m; allowed: length at most {allowed:e} m")))
+        let (fault, most) = (format!("the table ends at r = {reach:e} m"), 2.0 * reach);
+        Err(in_file(refused(Place::File, fault, format!("length at most {most:e} m"))))
     }
 
     /// The table of a form that has one and has read it.

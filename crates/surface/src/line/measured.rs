@@ -1,10 +1,9 @@
 //! Measured surfaces as roughness: the measured profile itself, or the equivalent line with the measured spectrum and
 //! random phases.
 
-use super::SurfaceError;
 use super::spectrum::Amplitude;
-use crate::spectrum::analysis::{Analysis, Options, analyse};
-use crate::topography::TopographyError;
+use crate::error::{Place, SurfaceError, refused};
+use crate::spectrum::analysis::{Analysis, AnalysisOptions, analyse};
 use crate::topography::open::{content, parse, parse_all};
 use crate::topography::reading::ReadOptions;
 use crate::topography::surface::Detrend;
@@ -15,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Limit of the memory of the transform and its arrays, bytes per point: an odd number of points is transformed at twice
 /// the length.
-const TRANSFORM_BYTES: u64 = 96;
+pub(super) const TRANSFORM_BYTES: u64 = 96;
 
 /// Options of a scene for its measured surface.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,7 +24,7 @@ pub struct MeasuredOptions {
     /// Options for reading the files.
     pub reading: ReadOptions,
     /// Options of the analysis of the spectrum.
-    pub spectrum: Options,
+    pub spectrum: AnalysisOptions,
 }
 
 /// A measured profile.
@@ -44,7 +43,7 @@ pub struct MeasuredProfile {
 impl MeasuredProfile {
     /// Reads a profile, or a row or column of a map, from the content of a file. Removing a polynomial requires equally
     /// spaced points.
-    pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, TopographyError> {
+    pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
             surface.spacing()?;
@@ -118,12 +117,12 @@ impl MeasuredProfile {
     ///
     /// # Errors
     /// A profile shorter than `length` (m).
-    pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, String> {
+    pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, SurfaceError> {
         let begins = self.begins(length).map_err(|covers| {
-            format!("the profile covers {covers:e} m; allowed: at least length = {length:e} m")
+            let fault = format!("the profile covers {covers:e} m");
+            refused(Place::File, fault, format!("at least length = {length:e} m"))
         })?;
-        let heights = self.heights_from(begins, length / points as f64, points, shift);
-        heights.map_err(|error| error.to_string())
+        Ok(self.heights_from(begins, length / points as f64, points, shift)?)
     }
 
     /// Heights, m, at the centres of `points` cells of this width (m), the first of which begins at `begins` (m), displaced
@@ -192,7 +191,7 @@ pub type Face = Vec<(PathBuf, Vec<u8>)>;
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     let read = |path: &PathBuf| match content(path) {
         Ok(content) => Ok((path.clone(), content)),
-        Err(error) => Err(SurfaceError::measured(path, &error)),
+        Err(error) => Err(error.in_measured(path)),
     };
     faces.iter().map(|face| face.iter().map(read).collect()).collect()
 }
@@ -205,14 +204,13 @@ impl MeasuredOptions {
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let (mut surfaces, mut files) = (Vec::new(), Vec::new());
         for (path, content) in face {
-            let read =
-                parse_all(content, &self.reading).map_err(|error| SurfaceError::measured(path, &error))?;
+            let read = parse_all(content, &self.reading).map_err(|error| error.in_measured(path))?;
             files.resize(files.len() + read.len(), path);
             surfaces.extend(read);
         }
         analyse(&surfaces, &self.spectrum).map_err(|error| {
-            let file = files.get(error.surface());
-            SurfaceError::measured(file.map_or(Path::new(""), |path| path), &error)
+            let file = files.get(error.surface().unwrap_or(0));
+            error.in_measured(file.map_or(Path::new(""), |path| path))
         })
     }
 }
@@ -224,7 +222,7 @@ mod tests {
     use crate::topography::reading::ReadOptions;
     use std::f64::consts::TAU;
 
-    fn parsed(text: &str) -> Result<MeasuredProfile, TopographyError> {
+    fn parsed(text: &str) -> Result<MeasuredProfile, SurfaceError> {
         let reading = ReadOptions { convention: Some(Unit::METRE), ..ReadOptions::default() };
         MeasuredProfile::new(text.as_bytes(), &MeasuredOptions { reading, ..MeasuredOptions::default() })
     }
@@ -238,7 +236,7 @@ mod tests {
         assert_eq!(profile.sample(3.0, 6, 0.5).unwrap(), [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]);
         assert_eq!(profile.sample(3.0, 12, 0.0).unwrap()[11], -1.0);
         assert_eq!(profile.sample(1.0, 1, 0.0).unwrap(), [3.0]);
-        assert!(profile.sample(3.01, 3, 0.0).unwrap_err().contains("covers 3e0 m"));
+        assert!(profile.sample(3.01, 3, 0.0).unwrap_err().to_string().contains("covers 3e0 m"));
         // With the digits of a file.
         let rounded = parsed("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());

@@ -1,7 +1,7 @@
 //! The rigid profile as the input of the contact: gaps below its highest point.
 
-use super::SurfaceError;
 use super::form::Form;
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ impl Line {
     /// for even N; roughness has to be sampled with the same [`Form::shift`]. See [`Form::springs_under`] for a punch.
     ///
     /// # Errors
-    /// [`SurfaceError::OutOfMemory`], [`SurfaceError::NotFinite`], [`SurfaceError::NoSprings`].
+    /// Too little memory, a height that is not finite, or no spring under a punch.
     pub fn new(
         length: f64,
         points: usize,
@@ -55,7 +55,7 @@ impl Line {
         let (points, spacing) = (gaps.len(), length / gaps.len() as f64);
         let under = form.map_or(0..points as u64, |form| form.springs_under(length, points as u64));
         if under.is_empty() {
-            return Err(SurfaceError::NoSprings(spacing / 4.0));
+            return Err(no_springs(spacing));
         }
         let first = under.start as usize;
         gaps.truncate(under.end as usize);
@@ -73,7 +73,7 @@ impl Line {
                 (first..).zip(&mut gaps).for_each(|(index, z)| *z = scale * *z - depth(index));
             }
         }
-        let not_finite = |index| SurfaceError::NotFinite(first + index);
+        let not_finite = |index| not_finite(first + index);
         let summit = largest(&gaps).map_err(not_finite)?;
         gaps.iter_mut().for_each(|height| *height = summit - *height);
         let deepest = largest(&gaps).map_err(not_finite)?;
@@ -150,6 +150,18 @@ impl Histogram {
     }
 }
 
+/// No spring lies under the punch, whose diameter is rounded to whole cells of this width, m.
+fn no_springs(spacing: f64) -> SurfaceError {
+    let allowed = format!("at least a quarter of the spacing, {:e} m", spacing / 4.0);
+    refused(Place::Field("form.radius"), "no spring lies under the punch", allowed)
+}
+
+/// The height at this spring, by index, is not finite; earlier ones are.
+fn not_finite(spring: usize) -> SurfaceError {
+    let allowed = "a form and roughness whose heights are finite";
+    refused(Place::Point(spring + 1), "the line has a height that is not finite", allowed)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -179,7 +191,7 @@ mod tests {
         let line = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.2 }), None, 0.0).unwrap();
         assert_eq!((line.first, line.gaps.len()), (3, 4));
         let none = Line::new(1.0, 10, Some(&Form::Punch { radius: 0.02 }), None, 0.0);
-        assert_eq!(none, Err(SurfaceError::NoSprings(0.025)));
+        assert_eq!(none, Err(no_springs(0.1)));
     }
 
     #[test]
@@ -197,8 +209,8 @@ mod tests {
         let thin = Form::Punch { radius: 0.002 };
         let error = Line::new(1.0, 40, Some(&thin), Some(&rough), 0.3);
         assert_eq!(Line::from_roughness(rough, 1.0, Some(&thin), 0.3), error);
-        let not_finite = Line::from_roughness(vec![0.0, f64::INFINITY], 1.0, None, 1.0);
-        assert_eq!(not_finite, Err(SurfaceError::NotFinite(1)));
+        let refused = Line::from_roughness(vec![0.0, f64::INFINITY], 1.0, None, 1.0);
+        assert_eq!(refused, Err(not_finite(1)));
     }
 
     #[test]
@@ -221,11 +233,11 @@ mod tests {
     #[test]
     fn heights_that_are_not_finite_are_refused() {
         let result = Line::new(1.0, 3, None, Some(&[0.0, 1e300, 0.0]), 1e300);
-        assert_eq!(result, Err(SurfaceError::NotFinite(1)));
+        assert_eq!(result, Err(not_finite(1)));
         // The first spring under the punch is the second of the foundation.
         let rough = [0.0, 0.0, 1e308, 0.0, -1e308, 0.0];
         let result = Line::new(1.0, 6, Some(&Form::Punch { radius: 0.3 }), Some(&rough), 1.0);
-        assert_eq!(result, Err(SurfaceError::NotFinite(4)));
+        assert_eq!(result, Err(not_finite(4)));
         for points in 1..40 {
             for bad in 0..points {
                 let mut rough: Vec<f64> = (0..points).map(|i| (i * i % 7) as f64).collect();
@@ -235,7 +247,7 @@ mod tests {
                 assert_eq!(line.deepest, line.gaps.iter().copied().fold(0.0, f64::max));
                 rough[bad..].fill(f64::NAN);
                 let result = Line::new(1.0, points, None, Some(&rough), 1.0);
-                assert_eq!(result, Err(SurfaceError::NotFinite(bad)));
+                assert_eq!(result, Err(not_finite(bad)));
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Random-phase synthesis of a self-affine profile of rms height 1 by one inverse Fourier transform.
 
-use super::SurfaceError;
 use super::modes::{Modes, phases};
 use super::spectrum::SelfAffine;
+use crate::error::SurfaceError;
 use asperity_data::in_parallel;
 use asperity_data::memory;
 use asperity_fourier::{Complex64, ComplexToReal, plan_real_inverse};

@@ -3,9 +3,10 @@
 //! Between two rows the depth is a cubic with limited slopes at the rows, so that f′ = a + b s + c s² at the distance s
 //! behind a row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is a sum over the intervals between rows.
 
+use crate::error::{Place, SurfaceError, refused};
+use crate::topography::Unit;
 use crate::topography::open::{content, parse};
 use crate::topography::reading::ReadOptions;
-use crate::topography::{Place, TopographyError, Unit, refused};
 use asperity_data::gauss_nodes_on_quarter_circle;
 use asperity_data::{OutOfMemory, emptied};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -55,7 +56,7 @@ impl PartialEq for Rows {
 
 impl FormTable {
     /// Reads a table of two columns in m, unless the file states a unit or `unit` is given.
-    pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, TopographyError> {
+    pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let convention = Some(Unit::METRE);
         let options = ReadOptions { unit, convention, interpolate: true, ..ReadOptions::default() };
         let surface = parse(&content(path)?, &options)?;
@@ -70,7 +71,7 @@ impl FormTable {
     ///
     /// # Errors
     /// The row at fault and the allowed values.
-    pub fn new(radii: Vec<f64>, depths: &[f64]) -> Result<Self, TopographyError> {
+    pub fn new(radii: Vec<f64>, depths: &[f64]) -> Result<Self, SurfaceError> {
         let (rows, reach) = (radii.len(), radii.last().copied().unwrap_or(0.0));
         let row = |index: usize| Place::Point(index + 1);
         if rows < 2 || depths.len() != rows {

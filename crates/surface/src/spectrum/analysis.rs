@@ -1,17 +1,16 @@
 //! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and their limits.
 
-use super::SpectrumError;
-use super::fit::{Model, PowerLaw, fit_power_law};
+use super::fit::{Model, SelfAffineFit, fit_power_law};
 use super::interlaced;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
+use super::no_maximum;
 use super::observation;
 use super::observation::Observation;
 use super::periodogram::{Along, Bin, MapPower, ProfilePower, bins, square};
 use super::statistics::{PointStatistics, Sums, reliability_cutoff};
-use crate::topography;
+use crate::error::{Place, SurfaceError, refused};
 use crate::topography::surface::Detrend;
 use crate::topography::surface::Topography;
-use crate::topography::{Place, TopographyError};
 use std::f64::consts::{PI, TAU};
 
 /// Smallest allowed number of points along a row and of rows of a map.
@@ -42,7 +41,7 @@ const CONTINUED: f64 = 4.0;
 
 /// Options of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Options {
+pub struct AnalysisOptions {
     /// Polynomial removed before the analysis. `None`: as a container states, else the tilt, or only the mean of a periodic
     /// surface, where removing a plane would leave a step at the borders.
     pub detrend: Option<Detrend>,
@@ -57,6 +56,7 @@ pub struct Options {
 
 /// Statistics, spectra and equivalent line of measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Analysis {
     /// Statistics of the measured points.
     pub statistics: PointStatistics,
@@ -67,7 +67,7 @@ pub struct Analysis {
     /// Isotropic spectrum C2D of which the surfaces are samples.
     pub isotropic: IsotropicSpectrum,
     /// Self-affine fit; `None` if it does not converge or fits no exponent between 0 and 1.
-    pub power_law: Option<PowerLaw>,
+    pub power_law: Option<SelfAffineFit>,
     /// Moments of the equivalent line.
     pub line: LineMoments,
     /// Shortest wavelength that the tip resolves reliably, m; the largest of all surfaces.
@@ -108,10 +108,10 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// [`SpectrumError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
-pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, SpectrumError> {
+/// [`SurfaceError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
+pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Analysis, SurfaceError> {
     if surfaces.is_empty() {
-        return Err(SpectrumError::refused("no surface", "at least one"));
+        return Err(refused(Place::File, "no surface", "at least one"));
     }
     let mut sums = Sums::default();
     // Only the longest scans hold the height of the line, and only the finest ones its gradient.
@@ -152,10 +152,10 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     {
         let found = format!("the spectrum continues up to q = {to:e} rad/m");
         let allowed = format!("above the last resolved wave, q = {:e} rad/m", range[1]);
-        return Err(SpectrumError::refused(found, allowed));
+        return Err(refused(Place::File, found, allowed));
     }
     let fitted = |observations: &[Observation], end: End| {
-        Model::new(observations, range, end).fit().ok_or_else(SpectrumError::no_maximum)
+        Model::new(observations, range, end).fit().ok_or_else(no_maximum)
     };
     let self_affine = |observations: &[Observation], spectrum: &IsotropicSpectrum| {
         // The powers of the last waves depend on how the spectrum ends.
@@ -204,7 +204,7 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
     let line = line_moments(std::slice::from_ref(&isotropic));
     let values = [line.rms_height, line.rms_gradient, line.energy_per_modulus];
     if values.iter().any(|estimate| !(estimate.value.is_finite() && estimate.error.is_finite())) {
-        return Err(SpectrumError::no_maximum());
+        return Err(no_maximum());
     }
     Ok(Analysis {
         statistics: sums.statistics(),
@@ -226,13 +226,13 @@ pub fn analyse(surfaces: &[Topography], options: &Options) -> Result<Analysis, S
 }
 
 /// Checks that the heights without the removed polynomial exceed the rounding errors of the original heights.
-fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SpectrumError> {
+fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SurfaceError> {
     let largest = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
     let left = largest(after);
     if left > 1e-12 * largest(before) && left > 1e-100 {
         return Ok(());
     }
-    Err(SpectrumError::refused("no roughness is left after detrending", "heights that differ"))
+    Err(refused(Place::File, "no roughness is left after detrending", "heights that differ"))
 }
 
 impl Powers {
@@ -240,22 +240,22 @@ impl Powers {
     /// `check` receives them with the distances between the points (m).
     fn of(
         surfaces: &[Topography],
-        options: &Options,
+        options: &AnalysisOptions,
         quarters: usize,
-        mut check: impl FnMut(&Topography, &[f64], [f64; 2]) -> Result<(), SpectrumError>,
-    ) -> Result<Powers, SpectrumError> {
+        mut check: impl FnMut(&Topography, &[f64], [f64; 2]) -> Result<(), SurfaceError>,
+    ) -> Result<Powers, SurfaceError> {
         let mut powers = Powers::default();
         for (index, surface) in surfaces.iter().enumerate() {
-            let refused = |reason: TopographyError| SpectrumError::Surface { index, reason };
+            let within = |error: SurfaceError| error.within(|place| Place::Surface(index, place));
             let (columns, rows) = (surface.columns, surface.rows());
-            let distances = surface.spacing().map_err(refused)?;
+            let distances = surface.spacing().map_err(within)?;
             let points = if rows > 1 { columns.min(rows) } else { columns };
             if points < LEAST_POINTS {
                 let fault = format!("{points} points along an axis");
                 let allowed = format!("at least {LEAST_POINTS}");
-                return Err(refused(topography::refused(Place::File, fault, allowed)));
+                return Err(within(refused(Place::File, fault, allowed)));
             }
-            let mut heights = surface.copied_heights(quarters).map_err(refused)?;
+            let mut heights = surface.copied_heights(quarters).map_err(within)?;
             let periodic = options.periodic || surface.periodic;
             let default = if periodic { Detrend::Mean } else { Detrend::Tilt };
             options.detrend.or(surface.detrend).unwrap_or(default).remove(&mut heights, columns);
@@ -272,7 +272,7 @@ impl Powers {
         distances: [f64; 2],
         windowed: bool,
         aligned: bool,
-    ) -> Result<(), SpectrumError> {
+    ) -> Result<(), SurfaceError> {
         let [columns, rows] = points;
         // Rows, or columns.
         let lines = |axis: usize| {

@@ -5,7 +5,7 @@
 //!
 //! Also the self-affine fit: C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
 
-use super::isotropic::{End, Estimate, IsotropicSpectrum, Nodes, Term, cut};
+use super::isotropic::{End, IsotropicSpectrum, Nodes, Term, ValueWithError, cut};
 use super::linear::Cholesky;
 use super::observation::Observation;
 use std::f64::consts::TAU;
@@ -206,16 +206,16 @@ const HURST: [f64; 2] = [-0.5, 1.5];
 
 /// Self-affine spectrum fitted to observed powers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PowerLaw {
+pub struct SelfAffineFit {
     /// Hurst exponent H.
-    pub hurst: Estimate,
+    pub hurst: ValueWithError,
     /// Roll-off wave number, rad/m; `None` without a roll-off.
-    pub roll_off: Option<Estimate>,
+    pub roll_off: Option<ValueWithError>,
     /// C2D at the roll-off, or at the first wave number if there is no roll-off, m⁴.
-    pub level: Estimate,
+    pub level: ValueWithError,
 }
 
-impl PowerLaw {
+impl SelfAffineFit {
     /// PSD of a cut through the surface, m³, at a wave number, for a spectrum between two wave numbers, all in rad/m.
     pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
@@ -254,7 +254,7 @@ impl Parameters {
 
 /// Self-affine fit to the observations of a model; `spectrum` is the fit with nodes to the same observations. `None` if it
 /// does not converge or no exponent between 0 and 1 fits.
-pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<PowerLaw> {
+pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> Option<SelfAffineFit> {
     let low = model.nodes.first;
     let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
     // Above a third of the range no exponent could be determined.
@@ -280,10 +280,14 @@ pub(super) fn fit_power_law(model: &Model<'_>, spectrum: &IsotropicSpectrum) -> 
     let (_, information) = linearise(model, &parameters, free);
     let information = Cholesky::new(information, free)?;
     let error = |index: usize| scale * information.standard_error(index);
-    let exponential = |value: f64, error: f64| Estimate { value: value.exp(), error: value.exp() * error };
-    (0.0 < parameters.hurst && parameters.hurst < 1.0).then(|| PowerLaw {
+    let exponential =
+        |value: f64, error: f64| ValueWithError { value: value.exp(), error: value.exp() * error };
+    (0.0 < parameters.hurst && parameters.hurst < 1.0).then(|| SelfAffineFit {
         // A roll-off may be there even though chance could show it.
-        hurst: Estimate { value: parameters.hurst, error: error(1).hypot(with_roll_off - parameters.hurst) },
+        hurst: ValueWithError {
+            value: parameters.hurst,
+            error: error(1).hypot(with_roll_off - parameters.hurst),
+        },
         roll_off: (free == 3).then(|| exponential(parameters.roll_off, error(2))),
         level: exponential(parameters.level, error(0)),
     })

@@ -55,7 +55,7 @@ pub enum End {
 
 /// Value with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Estimate {
+pub struct ValueWithError {
     /// Value.
     pub value: f64,
     /// Standard error.
@@ -64,6 +64,7 @@ pub struct Estimate {
 
 /// A moment of a spectrum with its errors, all in the unit of the moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Moment {
     /// Value.
     pub value: f64,
@@ -106,6 +107,7 @@ impl Moment {
 
 /// Moments of the equivalent line, over all its waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LineMoments {
     /// Rms height h, m.
     pub rms_height: Moment,
@@ -195,6 +197,7 @@ impl Term {
 
 /// Values of a spectrum at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Node {
     /// Wave number q of the node, rad/m.
     pub wave_number: f64,

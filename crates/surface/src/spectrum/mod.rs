@@ -22,49 +22,9 @@ pub(crate) mod observation;
 pub(crate) mod periodogram;
 pub(crate) mod statistics;
 
-use crate::topography::TopographyError;
-use asperity_data::OutOfMemory;
-use thiserror::Error;
+use crate::error::{Place, SurfaceError, refused};
 
-/// Reason why surfaces cannot be analysed.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum SpectrumError {
-    /// One of the surfaces cannot be analysed.
-    #[error("{reason}")]
-    Surface {
-        /// Index of the surface, from 0.
-        index: usize,
-        /// Reason of the refusal.
-        reason: TopographyError,
-    },
-    /// The surfaces or the options of the analysis are not allowed.
-    #[error("{found}; allowed: {allowed}")]
-    Refused {
-        /// What was found, in words.
-        found: String,
-        /// What is allowed, and the option that helps.
-        allowed: String,
-    },
-    /// The Fourier transform refused its input.
-    #[error("the Fourier transform failed: {0}")]
-    Transform(String),
-    /// Insufficient memory.
-    #[error(transparent)]
-    OutOfMemory(#[from] OutOfMemory),
-}
-
-impl SpectrumError {
-    fn refused(found: impl ToString, allowed: impl ToString) -> Self {
-        SpectrumError::Refused { found: found.to_string(), allowed: allowed.to_string() }
-    }
-
-    fn no_maximum() -> Self {
-        let found = "the likelihood has no maximum: heights without noise or with few digits";
-        SpectrumError::refused(found, "measured heights")
-    }
-
-    /// Index of the surface that cannot be analysed; 0 if the fault lies in all of them together.
-    pub fn surface(&self) -> usize {
-        if let SpectrumError::Surface { index, .. } = self { *index } else { 0 }
-    }
+fn no_maximum() -> SurfaceError {
+    let fault = "the likelihood has no maximum: heights without noise or with few digits";
+    refused(Place::File, fault, "measured heights")
 }

@@ -1,6 +1,6 @@
 //! Periodograms: the power of each wave of a profile or a map.
 
-use super::SpectrumError;
+use crate::error::SurfaceError;
 use asperity_data::{check_room, emptied};
 use asperity_fourier::{Complex64, plan_forward, plan_real_forward};
 use serde::Serialize;
@@ -54,10 +54,7 @@ impl ProfilePower {
     }
 
     /// Adds the power spectra of profiles with equal points: the rows of one surface.
-    pub fn add(
-        &mut self,
-        rows: impl Iterator<Item = impl Iterator<Item = f64>>,
-    ) -> Result<(), SpectrumError> {
+    pub fn add(&mut self, rows: impl Iterator<Item = impl Iterator<Item = f64>>) -> Result<(), SurfaceError> {
         let scale = self.spacing / self.points as f64;
         transform(rows, self.points, self.windowed, |coefficients| {
             for ((_, sum), coefficient) in self.waves.iter_mut().zip(&coefficients[1..]) {
@@ -69,7 +66,7 @@ impl ProfilePower {
 }
 
 /// Spectrum C1D, m³, of the heights (m) of a line, averaged in bins. `windowed` for a line that is not periodic.
-pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SpectrumError> {
+pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SurfaceError> {
     let mut power = ProfilePower::new(heights.len(), spacing, windowed);
     // The mean of windowed heights would leak into the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
@@ -155,7 +152,7 @@ impl MapPower {
         [along, between]: [f64; 2],
         windowed: bool,
         aligned: bool,
-    ) -> Result<Self, SpectrumError> {
+    ) -> Result<Self, SurfaceError> {
         let rows = heights.len() / columns;
         let half = columns / 2 + 1;
         let points = heights.len();
@@ -225,7 +222,7 @@ fn transform(
     points: usize,
     windowed: bool,
     mut each: impl FnMut(&[Complex64]),
-) -> Result<(), SpectrumError> {
+) -> Result<(), SurfaceError> {
     let plan = plan_real_forward(points);
     let (mut input, mut output) = (plan.make_input_vec(), plan.make_output_vec());
     let mut scratch = plan.make_scratch_vec();
@@ -235,7 +232,7 @@ fn transform(
             *value = height * weight;
         }
         plan.process_with_scratch(&mut input, &mut output, &mut scratch)
-            .map_err(|error| SpectrumError::Transform(error.to_string()))?;
+            .map_err(|error| SurfaceError::Transform(error.to_string()))?;
         each(&output);
     }
     Ok(())

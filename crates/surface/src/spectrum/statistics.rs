@@ -4,6 +4,7 @@ use serde::Serialize;
 
 /// Statistics of the points of one or more surfaces after removal of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PointStatistics {
     /// Number of points.
     pub points: usize,

@@ -1,7 +1,7 @@
 //! Bounded reading of binary files: numbers, decompression and ZIP archives in memory, each within limits.
 
 use super::reading::MOST_POINTS;
-use super::{Place, TopographyError, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use asperity_data::gathered;
 use asperity_data::read_limited;
 use encoding_rs::WINDOWS_1252;
@@ -33,7 +33,7 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
 
 /// Returns the size in bytes of compressed points of `size` bytes from their number in a header; refuses a size above the
 /// limits.
-pub(super) fn unpacked_size(points: usize, size: usize, place: Place) -> Result<usize, TopographyError> {
+pub(super) fn unpacked_size(points: usize, size: usize, place: Place) -> Result<usize, SurfaceError> {
     let bytes = points.saturating_mul(size);
     if points <= MOST_POINTS && bytes <= MOST_BYTES {
         return Ok(bytes);
@@ -126,7 +126,7 @@ impl<'a> Bytes<'a> {
         self.bytes.len() - self.at
     }
 
-    pub fn take(&mut self, count: usize) -> Result<&'a [u8], TopographyError> {
+    pub fn take(&mut self, count: usize) -> Result<&'a [u8], SurfaceError> {
         let left = &self.bytes[self.at..];
         let taken = left.get(..count).ok_or_else(|| {
             let fault = format!("{} bytes up to the end", left.len());
@@ -137,17 +137,17 @@ impl<'a> Bytes<'a> {
     }
 
     /// Returns the next `count` bytes as a part of the file that keeps their places.
-    pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, TopographyError> {
+    pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, SurfaceError> {
         let at = self.at;
         self.take(count)?;
         Ok(Bytes { bytes: &self.bytes[..self.at], at, order: self.order })
     }
 
-    pub fn number(&mut self, of: Number) -> Result<f64, TopographyError> {
+    pub fn number(&mut self, of: Number) -> Result<f64, SurfaceError> {
         Ok(of.value(self.take(of.size())?, self.order))
     }
 
-    pub fn array<const N: usize>(&mut self, of: Number) -> Result<[f64; N], TopographyError> {
+    pub fn array<const N: usize>(&mut self, of: Number) -> Result<[f64; N], SurfaceError> {
         let mut array = [0.0; N];
         for value in &mut array {
             *value = self.number(of)?;
@@ -156,17 +156,17 @@ impl<'a> Bytes<'a> {
     }
 
     /// Returns the next number as a size, an offset or a code; 0 for a negative one.
-    pub fn size(&mut self, of: Number) -> Result<usize, TopographyError> {
+    pub fn size(&mut self, of: Number) -> Result<usize, SurfaceError> {
         Ok(self.number(of)? as usize)
     }
 
-    pub fn numbers(&mut self, count: usize, of: Number) -> Result<Vec<f64>, TopographyError> {
+    pub fn numbers(&mut self, count: usize, of: Number) -> Result<Vec<f64>, SurfaceError> {
         let bytes = self.take(count.saturating_mul(of.size()))?;
         Ok(gathered(count, bytes.chunks_exact(of.size()).map(|bytes| of.value(bytes, self.order)))?)
     }
 
     /// Returns the bytes up to the next zero, which is skipped.
-    pub fn text(&mut self) -> Result<&'a [u8], TopographyError> {
+    pub fn text(&mut self) -> Result<&'a [u8], SurfaceError> {
         let end = self.bytes[self.at..].iter().position(|byte| *byte == 0).ok_or_else(|| {
             refused(self.place(), "a text without an end", "a text that ends with a zero byte")
         })?;
@@ -195,7 +195,7 @@ fn plain_name(name: &str) -> String {
 }
 
 impl<'a> Archive<'a> {
-    pub fn new(bytes: &'a [u8]) -> Result<Self, TopographyError> {
+    pub fn new(bytes: &'a [u8]) -> Result<Self, SurfaceError> {
         let archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| {
             refused(Place::File, format!("a damaged archive ({error})"), "an archive of ZIP")
         })?;
@@ -206,7 +206,7 @@ impl<'a> Archive<'a> {
 
     /// Returns the one of `names` that is the index of the archive, the file of such a name nearest to the root. Names of
     /// other files are then relative to its folder.
-    pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, TopographyError> {
+    pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let of_path = |path: &String| {
             let (folder, file) = path.rsplit_once('/').unwrap_or(("", path));
             let name = names.iter().position(|name| *name == file)?;
@@ -217,7 +217,8 @@ impl<'a> Archive<'a> {
         if let [(depth, name, one), (other_depth, other_name, other), ..] = &found[..]
             && (depth, name) == (other_depth, other_name)
         {
-            let fault = format!("{} in the folders {} and {}", names[*name], shown(one), shown(other));
+            let fault =
+                format!("{} in the folders {} and {}", names[*name], shortened(one), shortened(other));
             return Err(refused(Place::File, fault, "an archive with one surface, or a container"));
         }
         Ok(found.into_iter().next().map(|(_, name, folder)| {
@@ -232,20 +233,20 @@ impl<'a> Archive<'a> {
     }
 
     /// Returns the content of a file of unknown size, at most `most` bytes.
-    pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
+    pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let content = self.unpacked_up_to(name, most.min(self.most))?;
         self.most -= content.len();
         Ok(content)
     }
 
     /// Returns the content of a file that a header states to have at most `most` bytes.
-    pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, TopographyError> {
+    pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let damaged = |error: &dyn std::fmt::Display| {
             let fault = format!("cannot be unpacked ({error})");
             refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
         };
         let place = self.places.get(&plain_name(&format!("{}/{name}", self.folder))).ok_or_else(|| {
-            let fault = format!("no file {} in the archive", shown(name));
+            let fault = format!("no file {} in the archive", shortened(name));
             refused(Place::File, fault, "an archive with all files that it names")
         })?;
         let entry = self.archive.by_index(*place).map_err(|error| damaged(&error))?;

@@ -3,7 +3,7 @@
 use super::Unit;
 use super::reading::{ReadOptions, Reading};
 use super::surface::Detrend;
-use super::{Place, TopographyError, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use serde::Deserialize;
 
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
@@ -82,7 +82,7 @@ pub(super) fn measurements(
     index: &str,
     content: &[u8],
     name: Option<&str>,
-) -> Result<Vec<Measurement>, TopographyError> {
+) -> Result<Vec<Measurement>, SurfaceError> {
     let wrong = |error: String| {
         let first = error.lines().next().unwrap_or_default();
         refused(Place::Part(index.to_owned()), first, "surfaces with their topographies and datafile")
@@ -93,7 +93,7 @@ pub(super) fn measurements(
         serde_saphyr::from_slice(content).map_err(|error| error.to_string())
     };
     let mut surfaces = read.map_err(wrong)?.surfaces;
-    let names = surfaces.iter().map(|surface| format!("{:?}", shown(&surface.name)));
+    let names = surfaces.iter().map(|surface| format!("{:?}", shortened(&surface.name)));
     let names = names.collect::<Vec<_>>().join(", ");
     let which = |fault: String| {
         let allowed =
@@ -107,7 +107,7 @@ pub(super) fn measurements(
         (Some(name), None) => {
             let mut all = surfaces.into_iter().flat_map(|surface| surface.topographies);
             let one = all.find(|measurement| measurement.name == name);
-            vec![one.ok_or_else(|| which(format!("no surface {:?}", shown(name))))?]
+            vec![one.ok_or_else(|| which(format!("no surface {:?}", shortened(name))))?]
         }
     };
     if !(1..=MOST_MEASUREMENTS).contains(&found.len()) {
@@ -119,7 +119,7 @@ pub(super) fn measurements(
 
 impl Measurement {
     /// Name of the file with the scaled heights, whose format is always the same; if there is none, of the measured file.
-    pub fn file(&self) -> Result<&str, TopographyError> {
+    pub fn file(&self) -> Result<&str, SurfaceError> {
         let names = self.datafile.squeezed.as_deref().or(self.datafile.original.as_deref());
         names.ok_or_else(|| {
             let place = Place::Part(format!("topography {}", self.name));
@@ -147,7 +147,7 @@ impl Measurement {
         }
     }
 
-    pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, TopographyError> {
+    pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
         let stated = Unit::stated(unit, Place::Part(format!("topography {}", self.name)))?;
         let is_filled = self.fill_undefined_data_mode.as_deref().is_some_and(|mode| mode != "do-not-fill");

@@ -1,6 +1,6 @@
 //! Names of formats that are not read, by their first bytes or the files of an archive, so that a message can state the way out.
 
-use super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 
 /// Formats that are read, for messages.
 pub(super) const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
@@ -58,7 +58,7 @@ const ARCHIVES: [(&str, &str, &str); 5] = [
 ];
 
 /// Returns an error with the name of the format if the content has a format that is known, but not read.
-pub(super) fn check(bytes: &[u8]) -> Result<(), TopographyError> {
+pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     let known = SIGNATURES.iter().find(|(signature, ..)| bytes.starts_with(signature));
     // A date of 24 letters, then zeros.
     let is_plu = bytes.get(..25).is_some_and(|head| head[24] == 0 && head[13] == b':' && head[16] == b':');
@@ -67,7 +67,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), TopographyError> {
     known.or(plu).map_or(Ok(()), |(name, allowed)| Err(unread(name, allowed)))
 }
 
-fn unread(name: &str, allowed: &str) -> TopographyError {
+fn unread(name: &str, allowed: &str) -> SurfaceError {
     refused(Place::File, format!("{name} is not read"), allowed)
 }
 
@@ -75,7 +75,7 @@ fn unread(name: &str, allowed: &str) -> TopographyError {
 pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     [x3p, in_json, in_yaml]: [&str; 3],
-) -> TopographyError {
+) -> SurfaceError {
     let found = ARCHIVES.iter().find(|(end, ..)| names.clone().any(|name| name.ends_with(end)));
     if let Some((_, name, allowed)) = found {
         return unread(name, allowed);

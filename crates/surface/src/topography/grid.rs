@@ -1,7 +1,7 @@
 //! Even grids whose positions are printed with few digits, and maps from lists of points.
 
 use super::surface::{UNEVEN, first_uneven};
-use super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 
 /// Smallest number of positions whose digits show an even grid: fewer may be uneven by intention.
@@ -107,7 +107,7 @@ fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
 }
 
 /// Moves positions onto an even grid if that changes none by more than its printed digits; otherwise they stay.
-pub(super) fn move_to_printed_grid(positions: &mut [f64], digits: Digits) -> Result<(), TopographyError> {
+pub(super) fn move_to_printed_grid(positions: &mut [f64], digits: Digits) -> Result<(), SurfaceError> {
     let [first, .., last] = positions else { return Ok(()) };
     let (first, distance) = (*first, (*last - *first) / (positions.len() - 1) as f64);
     if distance == 0.0 || first_uneven(positions, first, distance).is_none() {
@@ -132,7 +132,7 @@ pub(super) struct Axis {
 
 impl Axis {
     /// Lines through the positions, some of which may be missing; the inner error is a position that lies off the even grid.
-    pub fn of(positions: &[f64], digits: Digits) -> Result<Result<Axis, f64>, TopographyError> {
+    pub fn of(positions: &[f64], digits: Digits) -> Result<Result<Axis, f64>, SurfaceError> {
         let mut sorted = gathered(positions.len(), positions.iter().copied())?;
         sorted.sort_unstable_by(f64::total_cmp);
         sorted.dedup();
@@ -209,7 +209,7 @@ pub(super) fn map_of(
     heights: &[f64],
     digits: [Digits; 2],
     place: impl Fn(usize) -> Place,
-) -> Result<Map, TopographyError> {
+) -> Result<Map, SurfaceError> {
     let points = heights.len();
     if points < 2 {
         return Err(refused(Place::File, format!("{points} points"), "at least 2"));

@@ -3,14 +3,14 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
-use super::{Place, TopographyError, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
 /// Reads the data field `/N/data` of the channel with number N; without a number, of the only channel whose heights are in
 /// a unit of length, or if there is none, the only channel without a unit.
-pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
+pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     let mut file = Bytes::new(bytes, Order::Little);
     file.take(SIGNATURE.len())?;
     let mut content = object(&mut file)?;
@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
         (None, _, Some(channel)) => (format!("no channel {channel}; channels"), "a channel of heights"),
         (None, ..) => ("no channel in a unit of length; channels".to_owned(), "a channel of heights"),
     };
-    Err(refused(Place::File, format!("{fault}: {}", shown(&names)), allowed))
+    Err(refused(Place::File, format!("{fault}: {}", shortened(&names)), allowed))
 }
 
 /// Value of a component; types that are not needed are skipped.
@@ -52,14 +52,14 @@ enum Value<'a> {
 }
 
 /// Returns the content of the next object, after its name and its size.
-fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, TopographyError> {
+fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, SurfaceError> {
     bytes.text()?;
     let size = bytes.size(Number::U32)?;
     bytes.part(size)
 }
 
 /// Returns name and value of the next component of an object; `None` at its end.
-fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<(Cow<'a, str>, Value<'a>)>, TopographyError> {
+fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<(Cow<'a, str>, Value<'a>)>, SurfaceError> {
     if content.left() == 0 {
         return Ok(None);
     }
@@ -102,7 +102,7 @@ struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    fn parse(mut content: Bytes<'a>) -> Result<Self, TopographyError> {
+    fn parse(mut content: Bytes<'a>) -> Result<Self, SurfaceError> {
         let mut field = Field::default();
         while let Some((name, value)) = component(&mut content)? {
             match (&*name, value) {
@@ -119,7 +119,7 @@ impl<'a> Field<'a> {
         Ok(field)
     }
 
-    fn into_reading(self, number: u32) -> Result<Reading, TopographyError> {
+    fn into_reading(self, number: u32) -> Result<Reading, SurfaceError> {
         let place = || Place::Part(format!("channel {number}"));
         let Some(mut values) = self.heights else {
             return Err(refused(place(), "no heights", "a component data of numbers"));
@@ -141,7 +141,7 @@ impl<'a> Field<'a> {
     }
 }
 
-fn unit_text<'a>(mut content: Bytes<'a>) -> Result<&'a str, TopographyError> {
+fn unit_text<'a>(mut content: Bytes<'a>) -> Result<&'a str, SurfaceError> {
     let mut unit = "";
     while let Some((name, value)) = component(&mut content)? {
         if let ("unitstr", Value::Text(text)) = (&*name, value) {
@@ -153,7 +153,7 @@ fn unit_text<'a>(mut content: Bytes<'a>) -> Result<&'a str, TopographyError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::TopographyError;
+    use super::super::SurfaceError;
     use super::super::reading::ReadOptions;
     use super::*;
 
@@ -193,7 +193,7 @@ mod tests {
             let options =
                 ReadOptions { height_unit: unit.map(|unit| unit.parse().unwrap()), ..ReadOptions::default() };
             let read = read(&file(units), None).and_then(|reading| reading.resolve(&options));
-            read.map(|surface| surface.heights[3]).map_err(|error: TopographyError| error.to_string())
+            read.map(|surface| surface.heights[3]).map_err(|error: SurfaceError| error.to_string())
         };
         assert_eq!(height(&[""], Some("nm")), Ok(4e-9));
         let error = height(&[""], None).unwrap_err();

@@ -1,7 +1,7 @@
 //! Interpolation of missing points from their neighbours; and outliers, heights far from the heights around them, such as
 //! spikes of an instrument and grains of dust.
 
-use super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{OutOfMemory, gathered};
 use asperity_data::{between, median};
 use std::ops::Range;
@@ -30,7 +30,7 @@ pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2
 /// In a profile a missing height lies on the straight line between the nearest measured points on both sides, or equals the
 /// nearest one at an end. In a map it is the mean of its neighbours, like a soap film attached to the measured points: see
 /// [`fill`].
-pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, TopographyError> {
+pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, SurfaceError> {
     let missing = count(heights);
     let share = 1.0 - missing as f64 / heights.len() as f64;
     if share < LEAST_MEASURED {

@@ -1,9 +1,10 @@
 //! The format of Nanoscope (Digital Instruments, Veeco, Bruker): a header of text in sections, then the integer heights of each
 //! channel, from the lowest row up.
 
+use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::reading::Reading;
-use super::{Place, TopographyError, Unit, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use asperity_data::gathered;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
@@ -25,7 +26,7 @@ const PER_MAGNIFICATION: f64 = 1.0e-7;
 const DIFFERENT: f64 = 0.01;
 
 /// Reads the channel with this number, from 0; without a number, the only channel of heights.
-pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
+pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     let head = &bytes[..bytes.len().min(LONGEST_HEADER)];
     let end = head.windows(END.len()).position(|found| found.eq_ignore_ascii_case(END)).ok_or_else(|| {
         let allowed = format!("\"{}\" in the first {LONGEST_HEADER} bytes", END.escape_ascii());
@@ -58,8 +59,9 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Topogr
         ),
     };
     let describe = |(number, image): (usize, &&str)| {
-        let direction = entry(image, "Line direction").map(|name| format!(" {}", shown(name).to_lowercase()));
-        format!("{number} {:?}{}", shown(title(image)), direction.unwrap_or_default())
+        let direction =
+            entry(image, "Line direction").map(|name| format!(" {}", shortened(name).to_lowercase()));
+        format!("{number} {:?}{}", shortened(title(image)), direction.unwrap_or_default())
     };
     let names: Vec<String> = images.iter().enumerate().take(8).map(describe).collect();
     Err(refused(Place::File, format!("{fault}; channels: {}", names.join(", ")), allowed))
@@ -126,10 +128,10 @@ fn length_unit(text: &str) -> Option<Unit> {
     text.replace('~', "µ").parse().ok()
 }
 
-fn reading(bytes: &[u8], image: &str, sections: &[&str], number: usize) -> Result<Reading, TopographyError> {
+fn reading(bytes: &[u8], image: &str, sections: &[&str], number: usize) -> Result<Reading, SurfaceError> {
     let wrong = |key: &str, allowed: &str| {
         let found = entry(image, key).unwrap_or_default();
-        refused(Place::Part(format!("channel {number}")), format!("{key} = {:?}", shown(found)), allowed)
+        refused(Place::Part(format!("channel {number}")), format!("{key} = {:?}", shortened(found)), allowed)
     };
     let count = |key: &str| {
         let count = entry(image, key).and_then(|text| text.split_ascii_whitespace().next()?.parse().ok());

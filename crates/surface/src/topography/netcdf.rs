@@ -5,7 +5,7 @@ use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::reading::Reading;
 use super::surface::first_uneven;
-use super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
 /// First bytes of a file, before the version.
@@ -40,7 +40,7 @@ struct Dataset<'a> {
     variables: Vec<Variable<'a>>,
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let dataset = Dataset::new(bytes)?;
     let heights = dataset.variable(b"heights").ok_or_else(|| {
         refused(Place::File, "no variable `heights`", "NetCDF with `heights` over `x`, and `y` of a map")
@@ -90,7 +90,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
 }
 
 impl<'a> Dataset<'a> {
-    fn new(bytes: &'a [u8]) -> Result<Self, TopographyError> {
+    fn new(bytes: &'a [u8]) -> Result<Self, SurfaceError> {
         let mut header = Bytes::new(bytes, Order::Big);
         header.take(SIGNATURE.len())?;
         let place = header.place();
@@ -116,7 +116,7 @@ impl<'a> Dataset<'a> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
-    fn length(&self, dimension: usize) -> Result<usize, TopographyError> {
+    fn length(&self, dimension: usize) -> Result<usize, SurfaceError> {
         let (fault, allowed) = match self.dimensions.get(dimension) {
             Some(0) => ("a dimension without a fixed length".to_owned(), "fixed lengths".to_owned()),
             Some(length) => return Ok(*length),
@@ -126,10 +126,10 @@ impl<'a> Dataset<'a> {
     }
 
     /// Returns the values of a variable, with NaN for missing points.
-    fn values(&self, variable: &Variable) -> Result<Vec<f64>, TopographyError> {
+    fn values(&self, variable: &Variable) -> Result<Vec<f64>, SurfaceError> {
         let mut lengths = variable.dimensions.iter().map(|dimension| self.length(*dimension));
         let count = lengths
-            .try_fold(1_usize, |count, length| Ok::<_, TopographyError>(count.saturating_mul(length?)))?;
+            .try_fold(1_usize, |count, length| Ok::<_, SurfaceError>(count.saturating_mul(length?)))?;
         let mut data = Bytes::new(self.bytes, Order::Big);
         data.take(variable.begin)?;
         let mut values = data.numbers(count, variable.of)?;
@@ -142,7 +142,7 @@ impl<'a> Dataset<'a> {
 }
 
 impl Variable<'_> {
-    fn unit(&self) -> Result<Option<Unit>, TopographyError> {
+    fn unit(&self) -> Result<Option<Unit>, SurfaceError> {
         let place = Place::Part(format!("variable {}", String::from_utf8_lossy(self.name)));
         Unit::stated(decoded(self.unit).trim_matches([' ', '\0']), place)
     }
@@ -151,8 +151,8 @@ impl Variable<'_> {
 fn list<'a, T>(
     header: &mut Bytes<'a>,
     tag: usize,
-    entry: impl Fn(&mut Bytes<'a>) -> Result<T, TopographyError>,
-) -> Result<Vec<T>, TopographyError> {
+    entry: impl Fn(&mut Bytes<'a>) -> Result<T, SurfaceError>,
+) -> Result<Vec<T>, SurfaceError> {
     let place = header.place();
     match (header.size(Number::U32)?, header.size(Number::U32)?) {
         (0, 0) => Ok(Vec::new()),
@@ -163,19 +163,19 @@ fn list<'a, T>(
 }
 
 /// Returns `count` bytes, and skips their padding to a multiple of four.
-fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], TopographyError> {
+fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], SurfaceError> {
     let bytes = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;
     Ok(bytes)
 }
 
-fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], TopographyError> {
+fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], SurfaceError> {
     let length = header.size(Number::U32)?;
     padded(header, length)
 }
 
 /// Reads a type code; `None` for characters.
-fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
+fn number(header: &mut Bytes) -> Result<Option<Number>, SurfaceError> {
     let place = header.place();
     Ok(Some(match header.size(Number::U32)? {
         1 => Number::I8,
@@ -191,14 +191,14 @@ fn number(header: &mut Bytes) -> Result<Option<Number>, TopographyError> {
 /// Name, type (`None`: characters) and content of an attribute.
 type Attribute<'a> = (&'a [u8], Option<Number>, &'a [u8]);
 
-fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, TopographyError> {
+fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, SurfaceError> {
     let name = name(header)?;
     let of = number(header)?;
     let count = header.size(Number::U32)?;
     Ok((name, of, padded(header, count.saturating_mul(of.map_or(1, Number::size)))?))
 }
 
-fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>, TopographyError> {
+fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>, SurfaceError> {
     let name = name(header)?;
     let mut dimensions = Vec::new();
     for _ in 0..header.size(Number::U32)? {
@@ -223,7 +223,7 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
     Ok(Variable { name, dimensions, unit, missing, scale, offset, of, begin })
 }
 
-fn even_distance(positions: &[f64]) -> Result<f64, TopographyError> {
+fn even_distance(positions: &[f64]) -> Result<f64, SurfaceError> {
     let ([first, .., last], count) = (positions, positions.len()) else {
         return Err(refused(Place::File, "a map of one row", "at least 2 positions along each axis"));
     };

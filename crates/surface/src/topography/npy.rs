@@ -6,11 +6,11 @@
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
-use super::{Place, TopographyError, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use asperity_data::SIGNATURE;
 use asperity_data::{emptied, gathered};
 
-pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     const FORMAT: &str = "NumPy array";
     let (header, mut data) = Header::read(bytes)?;
     let even = |heights, columns| Ok(Reading::even(FORMAT, heights, columns, None, [None; 3]));
@@ -38,7 +38,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
 }
 
 /// Reads the columns of an array with at least two, and their names: the fields of the points, or the shorter of two axes.
-pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), TopographyError> {
+pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;
     let names = header.fields.into_iter().map(|(name, _)| name).filter(|name| !name.is_empty());
@@ -55,7 +55,7 @@ struct Header {
 
 impl Header {
     /// Reads the header of a file, and returns it with the bytes behind it.
-    fn read(bytes: &[u8]) -> Result<(Self, Bytes<'_>), TopographyError> {
+    fn read(bytes: &[u8]) -> Result<(Self, Bytes<'_>), SurfaceError> {
         let mut data = Bytes::new(bytes, Order::Little);
         data.take(SIGNATURE.len())?;
         let length = match data.take(2)?[0] {
@@ -73,10 +73,10 @@ impl Header {
     }
 
     /// Reads `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, in any order.
-    fn parse(text: &str) -> Result<Self, TopographyError> {
+    fn parse(text: &str) -> Result<Self, SurfaceError> {
         let wrong = |what: &str| {
             let allowed = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), } and the like";
-            refused(Place::Byte(10), format!("{what} in the header {:?}", shown(text)), allowed)
+            refused(Place::Byte(10), format!("{what} in the header {:?}", shortened(text)), allowed)
         };
         let entry = |key: &str| {
             let (_, rest) =
@@ -103,7 +103,7 @@ impl Header {
             }
             order = order.or(of_field);
             let number = Number::named(name).ok_or_else(|| {
-                let fault = format!("numbers of type {:?}", shown(descr));
+                let fault = format!("numbers of type {:?}", shortened(descr));
                 refused(Place::Byte(10), fault, "real and whole numbers: f2 to f8, i1 to u8")
             })?;
             fields.push((field.to_owned(), number));
@@ -127,7 +127,7 @@ impl Header {
     }
 
     /// The columns of the array: the fields of the points, or the shorter of two axes.
-    fn columns(&self, mut data: Bytes<'_>) -> Result<Vec<Vec<f64>>, TopographyError> {
+    fn columns(&self, mut data: Bytes<'_>) -> Result<Vec<Vec<f64>>, SurfaceError> {
         match (&self.fields[..], &self.shape[..]) {
             (&[(_, number)], &[rows, of_row]) => {
                 let values = data.numbers(self.points(), number)?;
@@ -155,7 +155,7 @@ impl Header {
         }
     }
 
-    fn wrong_axes(&self, allowed: &str) -> TopographyError {
+    fn wrong_axes(&self, allowed: &str) -> SurfaceError {
         refused(Place::Byte(10), format!("an array with {} axes", self.shape.len()), allowed)
     }
 }

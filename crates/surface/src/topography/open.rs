@@ -3,8 +3,8 @@
 use super::bytes::{Archive, MOST_BYTES, MOST_EXPANSION, ZIP, most_expanded};
 use super::reading::{ReadOptions, Reading};
 use super::surface::Topography;
-use super::{Place, TopographyError, refused};
 use super::{container, foreign, gwy, nanoscope, netcdf, npy, sdf, sur, text, x3p};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, TopographyError>;
+type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, SurfaceError>;
 
 /// First bytes of the binary formats, with their readers. All other formats but SDF and archives are text.
 const SIGNATURES: [(&[u8], BinaryReader); 7] = [
@@ -28,13 +28,13 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
 /// Reads a surface, or all measurements of a surface in a container, from a regular file of at most 1 GiB.
 ///
 /// # Errors
-/// [`TopographyError`] if the file cannot be read or holds no surface.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
+/// [`SurfaceError`] if the file cannot be read or holds no surface.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     parse_all(&content(path)?, options)
 }
 
 /// Reads the bytes of a regular file of at most 1 GiB, to pass to [`parse`].
-pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
+pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
     Ok(read_regular(path, MOST_BYTES)?)
 }
 
@@ -42,7 +42,7 @@ pub fn content(path: &Path) -> Result<Vec<u8>, TopographyError> {
 ///
 /// # Errors
 /// As for [`read`], and for several measurements.
-pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, TopographyError> {
+pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceError> {
     let mut surfaces = parse_all(bytes, options)?;
     match (surfaces.pop(), surfaces.len()) {
         (Some(surface), 0) => Ok(surface),
@@ -55,7 +55,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, Topograp
 }
 
 /// Reads a surface, or all measurements of a surface in a container, from the content of a file.
-pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, TopographyError> {
+pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {
         let allowed = "a container of surfaces, or no --channel, in a scene roughness.surface_name";
@@ -76,11 +76,12 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     let (mut surfaces, mut unreadable) = (Vec::new(), Vec::new());
     for measurement in measurements {
         let options = measurement.options(options)?;
-        let within = |error: TopographyError| error.within(&measurement.name);
+        let within =
+            |error: SurfaceError| error.within(|place| Place::Measurement(measurement.name.clone(), place));
         let content = archive.unpacked(measurement.file()?, MOST_BYTES)?;
         let reading = match reading(&content, &options).map_err(within) {
             Ok(reading) => measurement.completed(reading),
-            Err(TopographyError::OutOfMemory(error)) => return Err(error.into()),
+            Err(error @ SurfaceError::OutOfMemory { .. }) => return Err(error),
             Err(error) => {
                 unreadable.push(error);
                 continue;
@@ -107,7 +108,7 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
 }
 
 /// Reads the numbers of a file with one surface.
-fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyError> {
+fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError> {
     let content = unpacked(bytes)?;
     if content.starts_with(ZIP) {
         let mut archive = Archive::new(&content)?;
@@ -123,7 +124,7 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, TopographyErr
 }
 
 /// The surface in m, or the row or column of it that the options choose.
-fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, TopographyError> {
+fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, SurfaceError> {
     let mut surface = reading.resolve(options)?;
     if let Some(cut) = options.cut {
         surface = surface.cut(cut)?;
@@ -132,7 +133,7 @@ fn resolved(reading: Reading, options: &ReadOptions) -> Result<Topography, Topog
 }
 
 /// The content of a file, decompressed if it is gzip.
-pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
+pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());
     }

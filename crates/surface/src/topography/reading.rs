@@ -1,8 +1,9 @@
 //! Conversion of the numbers of a file to heights in m: units, distances between points, missing points.
 
 use super::surface::{Cropped, Cut, LARGEST, Layout, Topography};
-use super::{Place, TopographyError, refused};
 use super::{Unit, levels, missing};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::gathered;
 use std::ops::Range;
 
 /// Limit of the number of points of a surface: 2 GiB of heights.
@@ -99,7 +100,7 @@ impl Reading {
     }
 
     /// Converts heights and positions to m.
-    pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, TopographyError> {
+    pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         let points = self.heights.len();
         if !(2..=MOST_POINTS).contains(&points) {
             return Err(refused(Place::File, format!("{points} points"), format!("from 2 to {MOST_POINTS}")));
@@ -205,7 +206,7 @@ impl Reading {
     }
 
     /// Returns true if points are missing; an error if they are not to be interpolated and are part of what is read.
-    fn has_missing(&self, cropped: &Cropped, options: &ReadOptions) -> Result<bool, TopographyError> {
+    fn has_missing(&self, cropped: &Cropped, options: &ReadOptions) -> Result<bool, SurfaceError> {
         let is_missing = |index: &usize| !self.heights[*index].is_finite();
         let is_read = |index: &usize| {
             let [column, row] = [index % self.columns, index / self.columns];
@@ -231,15 +232,64 @@ impl Reading {
     }
 }
 
+impl Topography {
+    /// A profile of heights (m) at equal distances (m).
+    ///
+    /// # Errors
+    /// Fewer than two points, a height that is not finite, and a distance that is not above 0.
+    ///
+    /// ```
+    /// use asperity_surface::Topography;
+    ///
+    /// let waves: Vec<f64> = (0..64).map(|i| 1e-8 * (0.4 * f64::from(i)).sin()).collect(); // m
+    /// let profile = Topography::from_profile(&waves, 1e-7)?;
+    /// assert_eq!((profile.columns, profile.rows()), (64, 1));
+    /// let error = Topography::from_profile(&[0.0, f64::NAN], 1e-7).unwrap_err();
+    /// assert_eq!(error.to_string(), "point 2: a height of NaN m; allowed: finite heights");
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
+    pub fn from_profile(heights: &[f64], spacing: f64) -> Result<Self, SurfaceError> {
+        Topography::from_map(heights, heights.len(), [spacing; 2])
+    }
+
+    /// A map of heights (m), row by row in rows of `columns` points, with these distances (m) along and between rows. A map of
+    /// a single row or a single column is a profile.
+    ///
+    /// # Errors
+    /// As for [`Topography::from_profile`], and a number of heights that is no multiple of the columns.
+    ///
+    /// ```
+    /// use asperity_surface::Topography;
+    ///
+    /// let map = Topography::from_map(&[0.0, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9], 3, [1e-6, 2e-6])?;
+    /// assert_eq!((map.rows(), map.spacing()?), (2, [1e-6, 2e-6]));
+    /// assert!(Topography::from_map(&[0.0; 5], 3, [1e-6; 2]).is_err());
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
+    pub fn from_map(heights: &[f64], columns: usize, spacing: [f64; 2]) -> Result<Self, SurfaceError> {
+        if columns == 0 || !heights.len().is_multiple_of(columns) {
+            let fault = format!("{} heights in rows of {columns}", heights.len());
+            return Err(refused(Place::File, fault, "whole rows of at least one height"));
+        }
+        if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
+            let fault = format!("a height of {} m", heights[index]);
+            return Err(refused(Place::Point(index + 1), fault, "finite heights"));
+        }
+        let heights = gathered(heights.len(), heights.iter().copied())?;
+        let metres = [Some(Unit::METRE); 3];
+        Reading::even("array", heights, columns, Some(spacing), metres).resolve(&ReadOptions::default())
+    }
+}
+
 /// Returns an error if a length (m) for which `counts` is true exceeds [`LARGEST`].
-fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), TopographyError> {
+fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), SurfaceError> {
     let is_beyond = |length: &f64| counts(*length) && (length.is_nan() || length.abs() > LARGEST);
     let Some(index) = lengths.iter().position(is_beyond) else { return Ok(()) };
     let fault = format!("a {name} of {:e} m", lengths[index]);
     Err(refused(Place::Point(index + 1), fault, format!("from -{LARGEST:e} to {LARGEST:e} m")))
 }
 
-fn check_positions(positions: &[f64]) -> Result<(), TopographyError> {
+fn check_positions(positions: &[f64]) -> Result<(), SurfaceError> {
     check_range("position", positions, |_| true)?;
     // Units divide, and neighbours closer than the last digit coincide.
     let mut pairs = positions.windows(2).enumerate();
@@ -256,7 +306,7 @@ fn unit(
     option: Option<Unit>,
     convention: Option<Unit>,
     beside: Option<Unit>,
-) -> Result<Unit, TopographyError> {
+) -> Result<Unit, SurfaceError> {
     let (fault, allowed) = match (stated, option) {
         (Some(stated), Some(option)) if stated != option => (
             format!("the file states {stated} as the unit of {name}, the options state {option}"),
@@ -280,7 +330,7 @@ fn unit(
     Err(refused(Place::File, fault, allowed))
 }
 
-fn check_spacing(spacing: f64) -> Result<f64, TopographyError> {
+fn check_spacing(spacing: f64) -> Result<f64, SurfaceError> {
     if (1.0 / LARGEST / LARGEST..=LARGEST).contains(&spacing) {
         return Ok(spacing);
     }

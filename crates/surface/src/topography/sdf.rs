@@ -4,7 +4,7 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
-use super::{Place, TopographyError, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use std::ops::RangeInclusive;
 
 /// Types of heights, indexed by their number in the header: name in BCR, type, and the smallest and largest value, for real
@@ -40,7 +40,7 @@ pub(super) fn is_sdf(bytes: &[u8]) -> bool {
 }
 
 /// Reads the text or the binary form of any version.
-pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
     let version = match bytes.get(1..8) {
         Some(b"BCR-1.0") => Version::Bcr,
@@ -48,7 +48,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
         Some(b"ISO-2.0") => Version::Iso2,
         _ => {
             let found = String::from_utf8_lossy(&bytes[1..bytes.len().min(8)]);
-            let fault = format!("version {:?} of SDF", shown(&found));
+            let fault = format!("version {:?} of SDF", shortened(&found));
             return Err(refused(Place::Byte(1), fault, "BCR-1.0, ISO-1.0 and ISO-2.0"));
         }
     };
@@ -73,12 +73,12 @@ fn data_type(
     name: &str,
     version: Version,
     place: Place,
-) -> Result<(Number, RangeInclusive<f64>), TopographyError> {
+) -> Result<(Number, RangeInclusive<f64>), SurfaceError> {
     let mut types = TYPES.into_iter().enumerate();
     let is_it = |place: usize, of: &str| name == place.to_string() || name.eq_ignore_ascii_case(of);
     let Some((_, (_, number, [smallest, largest]))) = types.find(|(place, (of, ..))| is_it(*place, of))
     else {
-        return Err(refused(place, format!("DataType = {}", shown(name)), "from 0 to 7"));
+        return Err(refused(place, format!("DataType = {}", shortened(name)), "from 0 to 7"));
     };
     // Texts round the largest and the smallest real number to few digits.
     let reach = if matches!(number, Number::F32 | Number::F64) { f64::INFINITY } else { 0.0 };
@@ -88,7 +88,7 @@ fn data_type(
 }
 
 /// Reads the text form: `key = value` lines, `*`, heights separated by white space, `*`, and comments after semicolons.
-fn read_text(bytes: &[u8], version: Version) -> Result<Reading, TopographyError> {
+fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
     let text = String::from_utf8_lossy(bytes);
     let line_end = if text.contains('\n') { '\n' } else { '\r' };
@@ -117,7 +117,7 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, TopographyError>
             let height = match word.parse::<f64>() {
                 Ok(height) => height,
                 Err(_) if word.eq_ignore_ascii_case("BAD") => f64::NAN,
-                Err(_) => return Err(refused(place, format!("{:?}", shown(word)), "a number or BAD")),
+                Err(_) => return Err(refused(place, format!("{:?}", shortened(word)), "a number or BAD")),
             };
             if heights.len() == points {
                 let fault = format!("more than {points} heights");
@@ -136,7 +136,7 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, TopographyError>
     Ok(Reading { first_missing, ..reading(heights, columns, scales, &missing) })
 }
 
-fn entries<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Entries, TopographyError> {
+fn entries<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Entries, SurfaceError> {
     let mut entries = Entries::default();
     for (number, line) in lines.skip(1).filter(|(_, line)| !line.is_empty()) {
         if line == "*" {
@@ -148,7 +148,7 @@ fn entries<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<Ent
 }
 
 /// Reads the binary form, little-endian.
-fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, TopographyError> {
+fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     let mut data = Bytes::new(bytes, Order::Little);
     // Version, manufacturer, dates.
     data.take(8 + 10 + 12 + 12)?;
@@ -176,9 +176,9 @@ struct Entries {
 
 impl Entries {
     /// Reads one line of the header; `allowed` is for the message of an error.
-    pub fn take(&mut self, number: usize, line: &str, allowed: &str) -> Result<(), TopographyError> {
+    pub fn take(&mut self, number: usize, line: &str, allowed: &str) -> Result<(), SurfaceError> {
         let Some((key, value)) = line.split_once('=') else {
-            return Err(refused(Place::Line(number), format!("{:?}", shown(line)), allowed));
+            return Err(refused(Place::Line(number), format!("{:?}", shortened(line)), allowed));
         };
         self.entries.push((key.trim().to_ascii_lowercase(), value.trim().to_owned(), number));
         Ok(())
@@ -189,34 +189,34 @@ impl Entries {
         found.map(|(_, value, line)| (value.as_str(), Place::Line(*line)))
     }
 
-    pub fn number(&self, key: &str) -> Result<Option<f64>, TopographyError> {
+    pub fn number(&self, key: &str) -> Result<Option<f64>, SurfaceError> {
         let Some((value, place)) = self.text(key) else { return Ok(None) };
         match value.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(Some(number)),
-            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a number")),
+            _ => Err(refused(place, format!("{key} = {}", shortened(value)), "a number")),
         }
     }
 
     /// Positive integer of a key. The error for a missing key lists all `required` keys.
-    pub fn count(&self, key: &str, required: &str) -> Result<usize, TopographyError> {
+    pub fn count(&self, key: &str, required: &str) -> Result<usize, SurfaceError> {
         let Some((value, place)) = self.text(key) else { return Err(missing(key, required)) };
         match value.parse::<f64>() {
             Ok(count) if count >= 1.0 && count < usize::MAX as f64 && count.fract() == 0.0 => {
                 Ok(count as usize)
             }
-            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a whole number above 0")),
+            _ => Err(refused(place, format!("{key} = {}", shortened(value)), "a whole number above 0")),
         }
     }
 }
 
-fn missing(key: &str, required: &str) -> TopographyError {
+fn missing(key: &str, required: &str) -> SurfaceError {
     refused(Place::File, format!("no {key} in the header"), required)
 }
 
 pub(super) const GSF: &[u8] = b"Gwyddion Simple Field 1.0\n";
 
 /// Reads `key = value` lines up to a zero byte, then XRes × YRes numbers from the next multiple of four bytes.
-pub(super) fn read_gsf(bytes: &[u8]) -> Result<Reading, TopographyError> {
+pub(super) fn read_gsf(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let end = bytes.iter().position(|byte| *byte == 0).ok_or_else(|| {
         refused(Place::Byte(bytes.len()), "a header without an end", "a header that ends with a zero byte")
     })?;

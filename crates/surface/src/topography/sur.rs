@@ -3,7 +3,7 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded, unpacked_size};
 use super::reading::Reading;
-use super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::read_limited;
 use flate2::read::ZlibDecoder;
 
@@ -13,7 +13,7 @@ const MISSING_BELOW: f64 = 2.0;
 /// Limit of the number of compressed parts: each takes some microseconds, even for a single byte.
 const MOST_PARTS: usize = 1 << 16;
 
-pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let mut data = Bytes::new(bytes, Order::Little);
     let is_compressed = data.take(12)? == b"DSCOMPRESSED";
     let [order, _objects, _version, study] = data.array(Number::U16)?;
@@ -63,7 +63,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, TopographyError> {
     Ok(reading.scaled(|height| Some(height) == missing, scale))
 }
 
-fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
+fn count(data: &mut Bytes<'_>) -> Result<usize, SurfaceError> {
     let place = data.place();
     match data.number(Number::I32)? {
         count if count > 0.0 => Ok(count as usize),
@@ -73,14 +73,14 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, TopographyError> {
 
 /// Returns the unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code page, which in Windows-1252
 /// reads as æ.
-fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, TopographyError> {
+fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, SurfaceError> {
     let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
     let text = decoded(field);
     Unit::stated(if text.trim() == "æm" { "µm" } else { text.trim() }, place)
 }
 
 /// Decompresses heights: a table with the size of each part before and after compression, then the parts.
-fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, TopographyError> {
+fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, SurfaceError> {
     let place = data.place();
     let expected = unpacked_size(points, number.size(), place.clone())?;
     let parts = data.size(Number::U32)?;

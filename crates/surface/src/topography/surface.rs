@@ -1,7 +1,7 @@
 //! Measured heights in m with their positions.
 
 use super::missing;
-use super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::between;
 use asperity_data::gathered;
 use serde::{Deserialize, Serialize};
@@ -89,7 +89,7 @@ pub struct Topography {
 
 impl Topography {
     /// Returns the surface; an error if it has a slope above 1e9.
-    pub(super) fn checked(self) -> Result<Self, TopographyError> {
+    pub(super) fn checked(self) -> Result<Self, SurfaceError> {
         let slope = |index: usize| {
             let distance = match &self.layout {
                 Layout::Positions(positions) => positions[index] - positions[index - 1],
@@ -124,7 +124,7 @@ impl Topography {
     /// Copies the heights, m. With `quarters` above zero the copy differs by an estimate of the error of interpolation:
     /// points at this number of quarters of length and width from the interpolated points are interpolated too, and a
     /// resampled profile gets back what resampling to its former positions and back would take.
-    pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, TopographyError> {
+    pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
         if let (Layout::Even([spacing, _]), 1.., true) = (&self.layout, quarters, self.is_resampled()) {
@@ -161,7 +161,7 @@ impl Topography {
     ///
     /// # Errors
     /// For a map.
-    pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), TopographyError> {
+    pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         if rows > 1 {
             let fault = format!("a map of {rows} rows of {columns} points");
@@ -178,7 +178,7 @@ impl Topography {
     }
 
     /// The row or column `cut` of a map, as a profile.
-    pub(super) fn cut(self, cut: Cut) -> Result<Self, TopographyError> {
+    pub(super) fn cut(self, cut: Cut) -> Result<Self, SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         let (Layout::Even([along, between]), 2..) = (&self.layout, rows) else {
             return Err(refused(Place::File, "a profile, which has no rows and columns", "a map"));
@@ -220,7 +220,7 @@ impl Topography {
     /// # Errors
     /// For a profile with uneven spacing, the first point that lies off the even grid from the first to the last point by
     /// more than 0.1 % of the mean distance.
-    pub fn spacing(&self) -> Result<[f64; 2], TopographyError> {
+    pub fn spacing(&self) -> Result<[f64; 2], SurfaceError> {
         match &self.layout {
             Layout::Even(spacing) => Ok(*spacing),
             Layout::Positions(positions) => {
@@ -239,7 +239,7 @@ impl Topography {
 
     /// The profile resampled at its mean spacing by linear interpolation. An equally spaced profile and a map stay as they
     /// are.
-    pub(super) fn resampled(mut self) -> Result<Self, TopographyError> {
+    pub(super) fn resampled(mut self) -> Result<Self, SurfaceError> {
         if self.spacing().is_ok() {
             return Ok(self);
         }

@@ -4,7 +4,7 @@ use super::Unit;
 use super::bytes::{Archive, Bytes, Number, Order, unpacked_size};
 use super::grid::{Digits, map_of};
 use super::reading::Reading;
-use super::{Place, TopographyError, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use asperity_data::{emptied, gathered, push};
 use encoding_rs::{Encoding, UTF_8};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -20,14 +20,14 @@ pub(super) const INDEX: &str = "main.xml";
 const TYPES: [(&str, Number); 4] =
     [("I", Number::I16), ("L", Number::I32), ("F", Number::F32), ("D", Number::F64)];
 
-pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, TopographyError> {
+pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     let content = archive.unpacked(INDEX, LONGEST_INDEX)?;
     // A byte order mark overrules the declaration.
     let (index, ..) = declared_encoding(&content).unwrap_or(UTF_8).decode(&content);
     check_index(&index)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&index, options)
-        .map_err(|error| wrong(shown(&error.to_string()), "XML without a document type"))?;
+        .map_err(|error| wrong(shortened(&error.to_string()), "XML without a document type"))?;
     let root = document.root_element();
     let axis = |name: &str| find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"));
     let [x, y, z] = [axis("CX")?, axis("CY")?, axis("CZ")?];
@@ -69,7 +69,7 @@ struct Axis<'a> {
 }
 
 impl<'a> Axis<'a> {
-    fn of(axis: Node<'a, '_>) -> Result<Self, TopographyError> {
+    fn of(axis: Node<'a, '_>) -> Result<Self, SurfaceError> {
         let kind = text(axis, "AxisType");
         let name = axis.tag_name().name();
         let is_absolute = match kind {
@@ -78,7 +78,7 @@ impl<'a> Axis<'a> {
             "A" => true,
             "I" => false,
             _ => {
-                let fault = format!("the axis {name} is of type {:?}", shown(kind));
+                let fault = format!("the axis {name} is of type {:?}", shortened(kind));
                 return Err(wrong(fault, "\"I\", even distances, or \"A\", a position of each point"));
             }
         };
@@ -99,7 +99,7 @@ fn coordinates(
     link: Option<Node<'_, '_>>,
     points: usize,
     axes: &[Axis<'_>; 3],
-) -> Result<[Vec<f64>; 3], TopographyError> {
+) -> Result<[Vec<f64>; 3], SurfaceError> {
     let mut found = match link {
         Some(link) => linked(archive, root, trimmed(link), points, axes)?,
         None => listed(root, points, axes)?,
@@ -112,7 +112,7 @@ fn coordinates(
 }
 
 /// The points of a list without an order, by y and then by x.
-fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], TopographyError> {
+fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
     let [x, y, _] = &found;
     let mut order = gathered(x.len(), 0..x.len())?;
     order.sort_unstable_by(|one, other| y[*one].total_cmp(&y[*other]).then(x[*one].total_cmp(&x[*other])));
@@ -122,7 +122,7 @@ fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], TopographyError> {
 
 /// The profile, in one row of points with the same y, or the map of points with positions of their own. A point without a
 /// position is left out.
-fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, TopographyError> {
+fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, SurfaceError> {
     let is_one_row = columns == found[2].len();
     let [x, y, _] = &found;
     let measured = x.iter().zip(y).map(|(x, y)| x.is_finite() && y.is_finite());
@@ -148,7 +148,7 @@ fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
 }
 
 /// Returns an error for an index whose parsing would take far more time or memory than its length suggests.
-fn check_index(index: &str) -> Result<(), TopographyError> {
+fn check_index(index: &str) -> Result<(), SurfaceError> {
     // The parser reserves memory for each of these signs; an element has four characters.
     if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
         return Err(wrong("more than a quarter of the characters are < or =", "XML"));
@@ -162,7 +162,7 @@ fn check_index(index: &str) -> Result<(), TopographyError> {
     Ok(())
 }
 
-fn wrong(fault: impl std::fmt::Display, allowed: &str) -> TopographyError {
+fn wrong(fault: impl std::fmt::Display, allowed: &str) -> SurfaceError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
@@ -173,15 +173,15 @@ fn linked(
     link: &str,
     points: usize,
     axes: &[Axis<'_>; 3],
-) -> Result<[Vec<f64>; 3], TopographyError> {
+) -> Result<[Vec<f64>; 3], SurfaceError> {
     let of_axis = |axis: &Axis<'_>| {
         let found = TYPES.into_iter().find(|(letter, _)| *letter == axis.data_type);
-        let fault = || wrong(format!("coordinates of type {:?}", shown(axis.data_type)), "I, L, F or D");
+        let fault = || wrong(format!("coordinates of type {:?}", shortened(axis.data_type)), "I, L, F or D");
         found.map(|(_, number)| number).ok_or_else(fault)
     };
     let absolute = axes.iter().enumerate().filter(|(_, axis)| axis.is_absolute);
     let types = absolute.map(|(place, axis)| Ok((place, of_axis(axis)?)));
-    let types = types.collect::<Result<Vec<_>, TopographyError>>()?;
+    let types = types.collect::<Result<Vec<_>, SurfaceError>>()?;
     let mut read = |name: &str, bytes: usize, allowed: String| match archive.unpacked_up_to(name, bytes)? {
         content if content.len() == bytes => Ok(content),
         content => Err(refused(Place::Part(name.to_owned()), format!("{} bytes", content.len()), allowed)),
@@ -216,7 +216,7 @@ fn linked(
 }
 
 /// Reads the coordinates of a list in the index: the last number of each entry is a height; an empty entry is a missing point.
-fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Vec<f64>; 3], TopographyError> {
+fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
     let list =
         find(root, "DataList").ok_or_else(|| wrong("neither PointDataLink nor DataList", "one of them"))?;
     let mut found = [const { Vec::new() }; 3];
@@ -229,7 +229,7 @@ fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Ve
             let is_missing = cell.is_empty() && (place == 2 || text.is_empty());
             let value = if is_missing { Ok(f64::NAN) } else { cell.parse::<f64>() };
             let number = found[place].len() + 1;
-            let fault = |_| wrong(format!("Datum {number} = {:?}", shown(text)), "numbers");
+            let fault = |_| wrong(format!("Datum {number} = {:?}", shortened(text)), "numbers");
             push(&mut found[place], value.map_err(fault)?)?;
         }
     }
@@ -255,17 +255,17 @@ fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
 }
 
 /// Returns the number in the first element of this name; `None` if the element is missing or empty.
-fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, TopographyError> {
+fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, SurfaceError> {
     let Some(text) = find(axis, name).map(trimmed).filter(|text| !text.is_empty()) else { return Ok(None) };
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-    let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shown(text));
+    let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shortened(text));
     number.map(Some).ok_or_else(|| wrong(fault(), "a number"))
 }
 
-fn count(root: Node<'_, '_>, name: &str) -> Result<usize, TopographyError> {
+fn count(root: Node<'_, '_>, name: &str) -> Result<usize, SurfaceError> {
     let text = text(root, name);
     let count = text.parse().ok().filter(|count| *count > 0);
-    count.ok_or_else(|| wrong(format!("{name} = {:?}", shown(text)), "a whole number above 0"))
+    count.ok_or_else(|| wrong(format!("{name} = {:?}", shortened(text)), "a whole number above 0"))
 }
 
 #[cfg(test)]

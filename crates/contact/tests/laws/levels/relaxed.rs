@@ -1,8 +1,9 @@
 //! The rule on the line that runs straight from spring to spring, step by step along the levels: no tree, no
 //! threshold, no formula of the solver.
 
+use super::super::body::Foundation;
 use crate::body::Body;
-use asperity_contact::{Foundation, Patch};
+use asperity_contact::Patch;
 
 /// Points of a stretch of levels at which the rule is evaluated before bisection.
 const POINTS: usize = 24;

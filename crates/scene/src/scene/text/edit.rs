@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::index::{Span, Text};
+use super::index::{Text, TextSpan};
 
 /// Message for a text that is more than one value, or less than a whole one.
 pub(in crate::scene) const NOT_ONE_VALUE: &str = "not one RON value by itself, such as 1.0e-3 or (1, 512)";
@@ -26,7 +26,7 @@ impl Text {
         let inside = self.span(group).and_then(|entry| entry.inside.clone());
         let inside = inside.ok_or_else(|| format!("{group} has no fields here"))?;
         let rank = |name: &str| order.iter().position(|other| *other == name);
-        let ranked = |entry: &&&Span| rank(entry.path.rsplit('.').next().unwrap_or_default());
+        let ranked = |entry: &&&TextSpan| rank(entry.path.rsplit('.').next().unwrap_or_default());
         let entries = self.inside(group);
         let before = entries.iter().filter(|entry| ranked(entry) < rank(name)).max_by_key(ranked);
         let new = format!("{name}: {value}");
@@ -49,7 +49,7 @@ impl Text {
         let inside = self.span(list)?.inside.clone()?;
         let (old, mut start) = (self.inside(list), inside.start);
         let mut parts = Vec::new();
-        for (place, Span { value, comma, .. }) in old.iter().enumerate() {
+        for (place, TextSpan { value, comma, .. }) in old.iter().enumerate() {
             let after = comma.unwrap_or(value.end);
             let next = old.get(place + 1).map_or(inside.end, |next| next.value.start);
             let end = self.line_break_in(after..next).unwrap_or(after);
@@ -78,7 +78,7 @@ impl Text {
 
     /// Insertions that put an entry after another one in the same style: on a line of its own, after the comment on the
     /// line before, or on the same line.
-    fn splices_after(&self, anchor: &Span, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
+    fn splices_after(&self, anchor: &TextSpan, gap: Range<usize>, new: &str) -> Vec<(Range<usize>, String)> {
         let comma = if anchor.comma.is_some() { "," } else { "" };
         match (indentation(&self.source, anchor.entry.start), self.line_break_in(gap.clone())) {
             (Some(indentation), Some(line_break)) => {

@@ -15,14 +15,14 @@ const LONGEST_PATH: usize = 100;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub(super) source: String,
-    spans: Vec<Span>,
+    spans: Vec<TextSpan>,
     /// Byte range of each comment.
     pub(super) comments: Vec<Range<usize>>,
 }
 
 /// Place of a value, as byte ranges of the text.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Span {
+pub struct TextSpan {
     /// Path of the value.
     pub path: String,
     /// The whole entry, `name: value`; equal to `value` in a list.
@@ -80,7 +80,7 @@ impl Text {
     }
 
     /// Place of the value at a path.
-    pub fn span(&self, path: &str) -> Option<&Span> {
+    pub fn span(&self, path: &str) -> Option<&TextSpan> {
         self.spans.iter().find(|span| span.path == path)
     }
 
@@ -109,9 +109,9 @@ impl Text {
     }
 
     /// Values directly inside the group or list at a path, in order.
-    pub(super) fn inside(&self, path: &str) -> Vec<&Span> {
+    pub(super) fn inside(&self, path: &str) -> Vec<&TextSpan> {
         let group = |path: &str| path.rfind('.').unwrap_or(0);
-        let is_inside = |span: &&Span| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
+        let is_inside = |span: &&TextSpan| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
         self.spans.iter().filter(is_inside).collect()
     }
 
@@ -134,7 +134,7 @@ struct Tokens<'t> {
 impl Tokens<'_> {
     /// Indexes the value that starts at the token `first`, in an entry that starts at the token `start`, and the values
     /// inside it. Returns the token after the value.
-    fn add(&self, path: String, (start, first): (usize, usize), spans: &mut Vec<Span>) -> Option<usize> {
+    fn add(&self, path: String, (start, first): (usize, usize), spans: &mut Vec<TextSpan>) -> Option<usize> {
         let (end, inner) = (self.value_end(first)?, self.inside_some(first));
         let bytes = |first: usize, end: usize| self.tokens[first].start..self.tokens[end - 1].end;
         let open = if self.is(inner, Kind::Word) { inner + 1 } else { inner };
@@ -143,7 +143,7 @@ impl Tokens<'_> {
             Some(Kind::Open('[', close)) if open == inner => Some((open, close)),
             _ => None,
         };
-        spans.push(Span {
+        spans.push(TextSpan {
             path: path.clone(),
             entry: bytes(start, end),
             value: bytes(first, end),

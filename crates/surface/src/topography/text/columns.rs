@@ -1,7 +1,7 @@
 //! Meaning of the columns of a table: heights alone, a profile, points of a map, or rows of a map.
 
-use super::super::{Place, TopographyError, refused, shown};
-use super::header::{Column, Role};
+use super::names::{Role, TextColumn};
+use crate::error::{Place, SurfaceError, refused, shortened};
 
 /// Limit of the number of columns of positions and heights; more columns are rows of a map, unless their names say otherwise.
 const MOST_NAMED: usize = 3;
@@ -17,7 +17,7 @@ pub(super) struct List {
 }
 
 /// The columns of a list of points; `None` if the columns are rows of a map.
-pub(super) fn list_of(columns: &[Column]) -> Result<Option<List>, TopographyError> {
+pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceError> {
     let places = |role: Role| columns.iter().enumerate().filter(move |(_, column)| column.role == role);
     // `point 1`, `point 2` … are names of other things.
     let single = |role: Role| {
@@ -59,7 +59,7 @@ pub(super) fn list_of(columns: &[Column]) -> Result<Option<List>, TopographyErro
         _ => {}
     }
     let names: Vec<String> =
-        columns.iter().take(8).map(|column| format!("{:?}", shown(&column.name))).collect();
+        columns.iter().take(8).map(|column| format!("{:?}", shortened(&column.name))).collect();
     let fault = format!("{} columns {}", columns.len(), names.join(", "));
     let allowed =
         "a height, x and a height, or x, y and a height, beside a number of the point and a column valid";
@@ -69,12 +69,12 @@ pub(super) fn list_of(columns: &[Column]) -> Result<Option<List>, TopographyErro
 #[cfg(test)]
 mod tests {
     use super::super::super::Unit;
-    use super::super::header::Header;
+    use super::super::header::TextHeader;
     use super::super::layout::Separator;
     use super::*;
 
     fn list(names: &str) -> Result<Option<[Option<usize>; 4]>, String> {
-        let mut header = Header::default();
+        let mut header = TextHeader::default();
         header.take(names);
         let (separator, count) = (Separator::of(names), names.split(',').count());
         let found = list_of(&header.columns(count, count, separator, Unit::is_name))

@@ -1,6 +1,6 @@
 //! Cells of a line of text: separators, decimal marks and marks that separate thousands.
 
-use super::super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 
 /// Characters that begin a comment.
 pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
@@ -52,14 +52,14 @@ fn has_decimal_commas(line: &str) -> bool {
         let inside = word.split_once(',').is_none_or(|(before, after)| {
             before.ends_with(|c: char| c.is_ascii_digit()) && after.starts_with(|c: char| c.is_ascii_digit())
         });
-        inside && matches!(decimal.read(word, Separator::SPACE), Cell::Number(_) | Cell::Missing)
+        inside && matches!(decimal.read(word, Separator::SPACE), TextCell::Number(_) | TextCell::Missing)
     };
     line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
 }
 
 /// Content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
+pub enum TextCell {
     /// A number.
     Number(f64),
     /// A mark of a missing point, or an empty column.
@@ -74,7 +74,7 @@ pub enum Cell {
 /// Marks of missing points, besides an empty column and `NaN`.
 const MISSING: [&str; 9] = ["bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*"];
 
-/// Numbers that a text may have, for a message on a cell with [`Cell::OtherMark`].
+/// Numbers that a text may have, for a message on a cell with [`TextCell::OtherMark`].
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
@@ -96,7 +96,7 @@ pub struct Decimal {
 
 impl Decimal {
     /// Reads a cell; the first decimal mark of a text holds for all its numbers.
-    pub fn read(&mut self, cell: &str, separator: Separator) -> Cell {
+    pub fn read(&mut self, cell: &str, separator: Separator) -> TextCell {
         // The minus sign of spreadsheets and papers.
         if cell.contains('\u{2212}') {
             return self.read(&cell.replace('\u{2212}', "-"), separator);
@@ -107,7 +107,7 @@ impl Decimal {
         {
             let mark = mark.filter(|mark| [',', '.'].contains(mark));
             if mark.is_some() && mark == self.mark {
-                return Cell::OtherMark;
+                return TextCell::OtherMark;
             }
             self.group = self.group.or(mark);
             return self.read(&ungrouped, separator);
@@ -115,30 +115,30 @@ impl Decimal {
         let (value, mark) = if let Ok(value) = parsed {
             (value, cell.contains('.').then_some('.'))
         } else if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
-            return Cell::Missing;
+            return TextCell::Missing;
         } else if separator == Separator(',') {
-            return if may_be_grouped(cell) { Cell::OtherMark } else { Cell::NoNumber };
+            return if may_be_grouped(cell) { TextCell::OtherMark } else { TextCell::NoNumber };
         } else if cell.contains('.') {
-            return Cell::NoNumber;
+            return TextCell::NoNumber;
         } else {
-            let Ok(value) = cell.replacen(',', ".", 1).parse() else { return Cell::NoNumber };
+            let Ok(value) = cell.replacen(',', ".", 1).parse() else { return TextCell::NoNumber };
             self.is_certain = self.is_certain || !may_be_grouped(cell);
             (value, Some(','))
         };
         if value.is_nan() {
-            return Cell::Missing;
+            return TextCell::Missing;
         }
         if mark.is_some() && (mark == self.group || self.mark.is_some_and(|found| mark != Some(found))) {
-            return Cell::OtherMark;
+            return TextCell::OtherMark;
         }
         self.mark = self.mark.or(mark);
         self.has_whole |= mark.is_none();
-        Cell::Number(value)
+        TextCell::Number(value)
     }
 
     /// Returns an error if each comma of the numbers read may be a decimal mark or separate thousands: all have three digits
     /// behind the comma, and others have no comma.
-    pub fn check(&self) -> Result<(), TopographyError> {
+    pub fn check(&self) -> Result<(), SurfaceError> {
         if self.mark == Some(',') && self.has_whole && !self.is_certain {
             let fault = "each comma in a number may be a decimal mark or separate thousands, as in 1,234";
             return Err(refused(
@@ -185,7 +185,7 @@ fn ungrouped(cell: &str, known: Option<char>) -> Option<(String, Option<char>)> 
 mod tests {
     use super::*;
 
-    fn read(line: &str) -> Vec<Cell> {
+    fn read(line: &str) -> Vec<TextCell> {
         let separator = Separator::of(line);
         let mut decimal = Decimal::default();
         separator.split(line).map(|cell| decimal.read(cell, separator)).collect()
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn separators_and_decimal_marks_differ() {
-        use Cell::{Missing, NoNumber, Number, OtherMark};
+        use TextCell::{Missing, NoNumber, Number, OtherMark};
         for (line, expected) in [
             ("0.5 1.25", vec![Number(0.5), Number(1.25)]),
             ("0.5\t1.25", vec![Number(0.5), Number(1.25)]),
@@ -223,7 +223,7 @@ mod tests {
     /// A mark that may be a decimal mark separates thousands where it cannot be one.
     #[test]
     fn thousands_are_separated_where_no_mark_is_doubtful() {
-        use Cell::{NoNumber, Number, OtherMark};
+        use TextCell::{NoNumber, Number, OtherMark};
         for (line, expected) in [
             ("1,234.5;-2,345,678;1,234", vec![Number(1234.5), Number(-2345678.0), Number(1234.0)]),
             ("1.234,5;2.345;0,5", vec![Number(1234.5), Number(2345.0), Number(0.5)]),
@@ -260,7 +260,7 @@ mod tests {
             let mut decimal = Decimal::default();
             separator
                 .split(line)
-                .for_each(|cell| assert!(matches!(decimal.read(cell, separator), Cell::Number(_))));
+                .for_each(|cell| assert!(matches!(decimal.read(cell, separator), TextCell::Number(_))));
             assert_eq!(decimal.check().is_err(), is_doubtful, "{line}");
         }
     }

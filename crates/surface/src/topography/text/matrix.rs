@@ -2,7 +2,7 @@
 
 use super::super::grid::{Digits, Map, move_to_printed_grid};
 use super::super::surface::first_uneven;
-use super::super::{Place, TopographyError, refused};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
 /// Smallest number of evenly spaced numbers that are taken for positions, if the numbers along the other axis are not
@@ -14,7 +14,7 @@ fn even_steps(
     count: usize,
     numbers: impl Iterator<Item = f64>,
     digits: Digits,
-) -> Result<Option<[f64; 2]>, TopographyError> {
+) -> Result<Option<[f64; 2]>, SurfaceError> {
     let mut numbers = gathered(count, numbers)?;
     let is_ordered = |is_before: fn(&f64, &f64) -> bool| numbers.is_sorted_by(is_before);
     if count < LEAST_STEPS || !(is_ordered(|a, b| a < b) || is_ordered(|a, b| a > b)) {
@@ -33,7 +33,7 @@ pub(super) fn without_positions(
     columns: usize,
     digits: [Digits; 2],
     place: impl Fn(usize) -> Place,
-) -> Result<Map, TopographyError> {
+) -> Result<Map, SurfaceError> {
     let rows = numbers.len() / columns;
     if rows < 2 {
         return Ok(Map { heights: numbers, columns, distances: None });

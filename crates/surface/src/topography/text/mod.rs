@@ -1,6 +1,6 @@
 //! Surfaces in text: columns of heights, positions and heights, or rows of a map, of one channel or several.
 //!
-//! Lines before the first line of numbers are a header ([`header::Header`]). The first line of numbers fixes the separator
+//! Lines before the first line of numbers are a header ([`header::TextHeader`]). The first line of numbers fixes the separator
 //! ([`layout::Separator::of`]) and the number of columns ([`table::Table`]), which are heights, positions and heights, or rows
 //! of a map ([`columns::list_of`]). A header, or in rows of a map an empty line, amid the numbers begins another channel.
 
@@ -8,14 +8,15 @@ pub(crate) mod columns;
 pub(crate) mod header;
 pub(crate) mod layout;
 pub(crate) mod matrix;
+pub(crate) mod names;
 pub(crate) mod table;
 pub(crate) mod warnings;
-use header::Header;
+use header::TextHeader;
 
 use super::Unit;
 use super::foreign::FORMATS;
 use super::reading::Reading;
-use super::{Place, TopographyError, refused, shown};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use asperity_data::PROVENANCE;
 use asperity_data::check_room;
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
@@ -33,16 +34,16 @@ const MOST_LISTED: usize = 8;
 /// Numbers of a text, with the header before them.
 #[derive(Default)]
 struct Part {
-    header: Header,
+    header: TextHeader,
     table: Option<Table>,
 }
 
 /// Reads the channel with this number, from 0, of a text with several; without a number, the only channel whose heights are
 /// lengths.
-pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, TopographyError> {
+pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     // Tables of results are in SI units.
     let metre = bytes.starts_with(PROVENANCE.as_bytes()).then_some(Unit::METRE);
-    let mut parts = vec![Part { header: Header::in_unit(metre), table: None }];
+    let mut parts = vec![Part { header: TextHeader::in_unit(metre), table: None }];
     let (mut before, mut last_line) = (None::<(usize, String)>, 0);
     each_text(bytes, |number, line| {
         last_line = number;
@@ -86,18 +87,18 @@ fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
     if !is_comment {
         return !line.is_empty() && table.is_heading(line);
     }
-    let mut header = Header::default();
+    let mut header = TextHeader::default();
     header.take(line);
     header.channel.is_some()
 }
 
-fn no_numbers() -> TopographyError {
+fn no_numbers() -> SurfaceError {
     refused(Place::File, "no line of numbers", "a line of numbers for each point or row")
 }
 
 /// Index of the part and the rows of the channel with this number; without a number, of the only channel, or the only one
 /// whose heights are lengths.
-fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), TopographyError> {
+fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), SurfaceError> {
     let with_numbers =
         parts.iter().enumerate().filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
     let channels: Vec<(usize, Range<usize>)> = with_numbers
@@ -117,9 +118,9 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
     }
     let describe = |(number, (part, rows)): (usize, &(usize, Range<usize>))| {
         let Part { header, table } = &parts[*part];
-        let name = header.channel.as_ref().map(|name| format!(" {:?}", shown(name))).unwrap_or_default();
+        let name = header.channel.as_ref().map(|name| format!(" {:?}", shortened(name))).unwrap_or_default();
         let unit = header.unit(2, None).map(Unit::name).or(header.other_unit.as_deref());
-        let unit = unit.map(|unit| format!(" in {}", shown(unit))).unwrap_or_default();
+        let unit = unit.map(|unit| format!(" in {}", shortened(unit))).unwrap_or_default();
         let line = table.as_ref().map_or(0, |table| table.line(rows.start));
         format!("{number}{name}{unit} from line {line}")
     };
@@ -136,8 +137,8 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
 /// skipped, since its words may look like units.
 pub fn each_text(
     bytes: &[u8],
-    mut take: impl FnMut(usize, &str) -> Result<(), TopographyError>,
-) -> Result<(), TopographyError> {
+    mut take: impl FnMut(usize, &str) -> Result<(), SurfaceError>,
+) -> Result<(), SurfaceError> {
     let mut in_provenance = false;
     let text = decoded(bytes)?;
     let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
@@ -157,7 +158,7 @@ pub fn each_text(
 const LONGEST_LINE: usize = 1 << 24;
 
 /// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
-fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
+fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
     let text = &bytes[mark..];
     if encoding == UTF_8 {
@@ -169,7 +170,7 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, TopographyError> {
 
 /// Returns a line without white space around it, as UTF-8, or if that is invalid as Windows-1252, in which older programs
 /// write µ and °.
-fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, TopographyError> {
+fn line_text<'a>(line: &'a [u8], place: &Place) -> Result<Cow<'a, str>, SurfaceError> {
     let (fault, allowed) = if line.len() > LONGEST_LINE {
         (format!("longer than {LONGEST_LINE} bytes"), format!("at most {LONGEST_LINE} bytes"))
     } else if let Some(at) = line.iter().position(|byte| *byte == 0) {

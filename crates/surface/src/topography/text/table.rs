@@ -4,11 +4,12 @@ use super::super::Unit;
 use super::super::grid::{Digits, Map, map_of, move_to_printed_grid};
 use super::super::reading::Reading;
 use super::super::surface::LARGEST;
-use super::super::{Place, TopographyError, refused, shown};
 use super::columns::{List, list_of};
-use super::header::{Column, Header, Role};
-use super::layout::{Cell, Decimal, ONE_MARK, Separator};
+use super::header::TextHeader;
+use super::layout::{Decimal, ONE_MARK, Separator, TextCell};
+use super::names::{Role, TextColumn};
 use super::{matrix, warnings};
+use crate::error::{Place, SurfaceError, refused, shortened};
 use asperity_data::{gathered, push, reserve};
 use std::ops::Range;
 
@@ -50,7 +51,7 @@ fn widths(separator: Separator, line: &str) -> (usize, usize) {
 }
 
 /// Returns an error if one of the two axes of positions has a unit and the other has none.
-fn check_both([x, y]: [Option<Unit>; 2]) -> Result<(), TopographyError> {
+fn check_both([x, y]: [Option<Unit>; 2]) -> Result<(), SurfaceError> {
     let (Some(unit), None) = (x.or(y), x.and(y)) else { return Ok(()) };
     let found = format!("{unit} is the unit of one position, and the other one has none");
     Err(refused(Place::File, found, "units of both x and y in the file, or of none"))
@@ -63,7 +64,7 @@ fn is_word(cell: &str) -> bool {
 /// Returns true for a line before the numbers: its first cell is no number, another cell is a word, or all cells are empty.
 pub(super) fn is_header(line: &str) -> bool {
     let separator = Separator::of(line);
-    let is_none = |cell: &str| Decimal::default().read(cell, separator) == Cell::NoNumber;
+    let is_none = |cell: &str| Decimal::default().read(cell, separator) == TextCell::NoNumber;
     let mut cells = separator.split(line);
     cells.next().is_none_or(is_none)
         || cells.any(|cell| is_none(cell) && is_word(cell))
@@ -93,11 +94,12 @@ impl Table {
 
     /// Begins a table with its first line of numbers. The line before belongs to the table if it has as many cells, most of
     /// them numbers: positions after a word, as in `y\x 0 1 2`.
-    pub fn new(before: Option<(usize, &str)>, number: usize, line: &str) -> Result<Self, TopographyError> {
+    pub fn new(before: Option<(usize, &str)>, number: usize, line: &str) -> Result<Self, SurfaceError> {
         let mut table = Table::empty(line);
         if let Some((number, before)) = before {
             let separator = table.separator;
-            let is_number = |cell: &str| matches!(Decimal::default().read(cell, separator), Cell::Number(_));
+            let is_number =
+                |cell: &str| matches!(Decimal::default().read(cell, separator), TextCell::Number(_));
             let mut cells = separator.split(before);
             let first = cells.next().unwrap_or_default();
             let numbers = separator.split(before).filter(|cell| is_number(cell)).count();
@@ -138,7 +140,7 @@ impl Table {
             return false;
         }
         let mut decimal = self.decimal;
-        let is_number = |cell: &str| matches!(decimal.read(cell, self.separator), Cell::Number(_));
+        let is_number = |cell: &str| matches!(decimal.read(cell, self.separator), TextCell::Number(_));
         let width = widths(self.separator, line).1;
         let is_other =
             width != self.width || (width < FEW_COLUMNS && !self.separator.split(line).any(is_number));
@@ -146,7 +148,7 @@ impl Table {
     }
 
     /// Reads a line without white space around it. The first lines may count the rows and columns that follow.
-    pub fn take(&mut self, number: usize, line: &str) -> Result<(), TopographyError> {
+    pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         let are_counts = self.values.iter().all(|value| *value >= 1.0 && value.fract() == 0.0);
         if (1..=MOST_COUNTS).contains(&self.values.len()) && self.counts.is_none() && are_counts {
             let table = Table::empty(line);
@@ -159,7 +161,7 @@ impl Table {
     }
 
     /// Reads a line; with `has_corner` its first cell may be a word.
-    fn take_cells(&mut self, number: usize, line: &str, has_corner: bool) -> Result<(), TopographyError> {
+    fn take_cells(&mut self, number: usize, line: &str, has_corner: bool) -> Result<(), SurfaceError> {
         let (start, row) = (self.values.len(), self.rows());
         let (mut found, mut width) = (0, 0);
         reserve(&mut self.values, self.cells)?;
@@ -200,16 +202,16 @@ impl Table {
         Ok(())
     }
 
-    fn value(&mut self, number: usize, cell: &str) -> Result<f64, TopographyError> {
-        let quoted = || format!("{:?}", shown(cell));
+    fn value(&mut self, number: usize, cell: &str) -> Result<f64, SurfaceError> {
+        let quoted = || format!("{:?}", shortened(cell));
         let (fault, allowed) = match self.decimal.read(cell, self.separator) {
-            Cell::Number(value) if value.abs() <= LARGEST * 1e12 => return Ok(value),
-            Cell::Missing => return Ok(f64::NAN),
-            Cell::OtherMark => {
+            TextCell::Number(value) if value.abs() <= LARGEST * 1e12 => return Ok(value),
+            TextCell::Missing => return Ok(f64::NAN),
+            TextCell::OtherMark => {
                 let fault = format!("{} has another decimal mark than the numbers before", quoted());
                 (fault, ONE_MARK.to_owned())
             }
-            Cell::Number(_) | Cell::NoNumber => {
+            TextCell::Number(_) | TextCell::NoNumber => {
                 (quoted(), format!("a number from -{LARGEST:e} to {LARGEST:e}"))
             }
         };
@@ -234,10 +236,10 @@ impl Table {
     /// The surface in these rows. `is_open` is true if the last line has no line end.
     pub fn reading(
         mut self,
-        header: &Header,
+        header: &TextHeader,
         rows: Range<usize>,
         is_open: bool,
-    ) -> Result<Reading, TopographyError> {
+    ) -> Result<Reading, SurfaceError> {
         self.decimal.check()?;
         let cells = self.cells;
         if rows.len() < self.rows() {
@@ -259,7 +261,7 @@ impl Table {
                     1.0 => {}
                     0.0 => *height = f64::NAN,
                     other => {
-                        let fault = format!("{other:e} in the column {:?}", shown(&columns[valid].name));
+                        let fault = format!("{other:e} in the column {:?}", shortened(&columns[valid].name));
                         return Err(refused(place(row), fault, "1 for a measured point, or 0"));
                     }
                 }
@@ -275,11 +277,11 @@ impl Table {
     /// The profile or map of a list of points.
     fn points(
         mut self,
-        header: &Header,
-        columns: &[Column],
+        header: &TextHeader,
+        columns: &[TextColumn],
         List { x, y, height, .. }: List,
         heights: Vec<f64>,
-    ) -> Result<Reading, TopographyError> {
+    ) -> Result<Reading, SurfaceError> {
         let format = "text columns";
         let unit = |axis: usize, column: usize| header.unit(axis, Some(&columns[column]));
         let is_y = |column: usize| columns[column].role == Role::Y;
@@ -314,7 +316,7 @@ impl Table {
     }
 
     /// The map of rows of heights.
-    fn map(mut self, header: &Header, is_open: bool) -> Result<Reading, TopographyError> {
+    fn map(mut self, header: &TextHeader, is_open: bool) -> Result<Reading, SurfaceError> {
         let (cells, columns) = (self.cells, self.columns());
         let mut index = 0;
         self.values.retain(|_| {
@@ -364,7 +366,7 @@ impl Table {
     }
 
     /// The positions in a column; they take the memory of all numbers, which are no longer needed.
-    fn take_positions(&mut self, column: usize) -> Result<Vec<f64>, TopographyError> {
+    fn take_positions(&mut self, column: usize) -> Result<Vec<f64>, SurfaceError> {
         let (cells, mut index) = (self.cells, 0);
         let mut positions = std::mem::take(&mut self.values);
         positions.retain(|_| {
@@ -376,19 +378,19 @@ impl Table {
         Ok(positions)
     }
 
-    fn check_measured(&self, positions: &[f64]) -> Result<(), TopographyError> {
+    fn check_measured(&self, positions: &[f64]) -> Result<(), SurfaceError> {
         let Some(row) = positions.iter().position(|x| x.is_nan()) else { return Ok(()) };
         Err(refused(Place::Line(self.line(row)), "a position is missing", "a number for each position"))
     }
 
-    fn column(&self, column: usize) -> Result<Vec<f64>, TopographyError> {
+    fn column(&self, column: usize) -> Result<Vec<f64>, SurfaceError> {
         let values = self.values.iter().skip(column).step_by(self.cells).copied();
         Ok(gathered(self.rows(), values)?)
     }
 
     /// Returns an error unless the numbers before the first row are the numbers of rows, of distances between them, of
     /// columns or of points.
-    fn check_counts(&self, of_map: &[usize]) -> Result<(), TopographyError> {
+    fn check_counts(&self, of_map: &[usize]) -> Result<(), SurfaceError> {
         let Some((line, counts)) = &self.counts else { return Ok(()) };
         let rows = if of_map.is_empty() { self.rows() } else { of_map[1] };
         let columns = of_map.first().copied().unwrap_or(self.columns());
@@ -405,7 +407,7 @@ impl Table {
     }
 
     /// Returns an error unless the positions of a profile all ascend or all descend.
-    fn check_order(&self, positions: &[f64]) -> Result<(), TopographyError> {
+    fn check_order(&self, positions: &[f64]) -> Result<(), SurfaceError> {
         let [first, second, ..] = positions else { return Ok(()) };
         let (is_before, allowed): (fn(f64, f64) -> bool, _) = if first < second {
             (|before, x| before < x, "ascending positions, as before")

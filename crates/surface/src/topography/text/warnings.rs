@@ -1,6 +1,6 @@
 //! Warnings of heights that are far from all others, since they may be marks of missing points or numbers that were cut off.
 
-use super::super::Place;
+use crate::error::Place;
 use asperity_data::median;
 
 /// Distance of a height from the median, over the median of all such distances, from which on the height is an error of the

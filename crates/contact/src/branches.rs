@@ -1,7 +1,7 @@
 //! Branches of a loading history, and the preload and pull-off on them. These depend on the path of the body alone, not on
 //! how it is divided into loading stages.
 
-use asperity_contact::{CurvePoint, Direction, LegRecord};
+use super::history::{CurvePoint, Direction, LegRecord};
 use std::ops::Range;
 
 /// Relative difference within which forces, which are different sums, and indentations count as equal.

@@ -1,0 +1,138 @@
+//! Closed forms that a profile must reproduce: adhesive contact of a power-law body b rⁿ, which includes JKR (n = 2) and the
+//! cone (n = 1), of the flat punch (Kendall), and of a flat face.
+
+use super::modulus::Modulus;
+use std::f64::consts::PI;
+
+/// A body with the equivalent profile g(x) = c |x|ⁿ on a half-space with adhesion: force and indentation over the contact
+/// radius, and its pull-off.
+///
+/// ```
+/// use asperity_contact::{ClosedForm, Modulus};
+///
+/// let sphere = ClosedForm::sphere(1.0e-4, Modulus::effective(1.0e6)?, 0.05);
+/// let (radius, force) = sphere.force_controlled_pull_off();
+/// // Johnson, Kendall and Roberts: −(3/2)πγR, and the force is smallest there.
+/// assert!((force / (-1.5 * std::f64::consts::PI * 0.05 * 1.0e-4) - 1.0).abs() < 1e-14);
+/// assert!(sphere.force(1.01 * radius) > force && sphere.force(0.99 * radius) > force);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosedForm {
+    /// Coefficient c of the equivalent profile, m^(1−n).
+    pub line_coefficient: f64,
+    /// Exponent n > 1/2.
+    pub exponent: f64,
+    /// Effective modulus E*, Pa.
+    pub effective_modulus: f64,
+    /// Work of adhesion γ, J/m².
+    pub work_of_adhesion: f64,
+}
+
+impl ClosedForm {
+    /// A sphere of this radius (m), or the summit of a paraboloid: g(x) = x²/R, the contact of Johnson, Kendall and Roberts.
+    pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
+        let effective_modulus = modulus.pascals();
+        ClosedForm { line_coefficient: radius.recip(), exponent: 2.0, effective_modulus, work_of_adhesion }
+    }
+
+    /// A cone whose flank rises at this angle (rad) from the surface: g(x) = (π/2) |x| tan θ.
+    pub fn cone(angle: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
+        let effective_modulus = modulus.pascals();
+        ClosedForm {
+            line_coefficient: 0.5 * PI * angle.tan(),
+            exponent: 1.0,
+            effective_modulus,
+            work_of_adhesion,
+        }
+    }
+
+    /// Indentation d(a) = c aⁿ − √(2π a γ/E*), m, at contact radius a.
+    pub fn indentation(&self, radius: f64) -> f64 {
+        // Rule of Hess, eq. (3).
+        let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
+        self.line_coefficient * radius.powf(self.exponent) - stretch
+    }
+
+    /// Force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ), N, at contact radius a.
+    pub fn force(&self, radius: f64) -> f64 {
+        let n = self.exponent;
+        let pressed =
+            2.0 * self.effective_modulus * n * self.line_coefficient * radius.powf(n + 1.0) / (n + 1.0);
+        pressed - self.detaching(radius)
+    }
+
+    /// Contact radius, m, and force, N, at pull-off under force control, where dF/da = 0: the smallest force.
+    pub fn force_controlled_pull_off(&self) -> (f64, f64) {
+        let n = self.exponent;
+        let radius = self.critical_radius(9.0);
+        (radius, -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
+    }
+
+    /// Contact radius, m, and force, N, at pull-off under displacement control, where dd/da = 0.
+    pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
+        let n = self.exponent;
+        let radius = self.critical_radius(1.0);
+        (radius, -(2.0 * n + 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius))
+    }
+
+    /// Contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)), m, for m = `multiple`.
+    fn critical_radius(&self, multiple: f64) -> f64 {
+        let n = self.exponent;
+        let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.effective_modulus;
+        (multiple * PI * self.work_of_adhesion / scale).powf((2.0 * n - 1.0).recip())
+    }
+
+    fn detaching(&self, radius: f64) -> f64 {
+        flat_punch(radius, self.effective_modulus, self.work_of_adhesion)
+    }
+}
+
+/// Adhesion force √(8π a³ E* γ), N, of a flat punch of radius a (m) with effective modulus E* (Pa) and work of adhesion γ
+/// (J/m²). Kendall (1971).
+///
+/// ```
+/// use asperity_contact::{flat_punch, ideal_adhesion_force};
+///
+/// // A punch as wide as the profile is a flat face: L = 2a.
+/// let [punch, face] = [flat_punch(1.0e-5, 1.0e6, 0.05), ideal_adhesion_force(0.05, 1.0e6, 2.0e-5)];
+/// assert!((punch / face - 1.0).abs() < 1e-14);
+/// ```
+pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
+    (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
+}
+
+/// Ideal adhesion force F_a,max = √(πγE*L³), N, of a flat face of length L (m) with work of adhesion γ (J/m²) and effective
+/// modulus E* (Pa). Popov and Filippov (2012), eq. (14); Kendall (1971).
+pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
+    (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_paraboloid_is_jkr() {
+        let (radius, work) = (2.0e-3, 0.07);
+        let body = ClosedForm::sphere(radius, Modulus::effective(1.5e6).unwrap(), work);
+        let scale = PI * work * radius;
+        assert!((body.force_controlled_pull_off().1 / (-1.5 * scale) - 1.0).abs() < 1e-14);
+        assert!((body.displacement_controlled_pull_off().1 / (-5.0 / 6.0 * scale) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn pull_off_radii_are_where_the_derivatives_vanish() {
+        for (line_coefficient, exponent) in [(0.5, 1.0), (2.5, 1.5), (0.7, 4.0)] {
+            let body =
+                ClosedForm { line_coefficient, exponent, effective_modulus: 3.0, work_of_adhesion: 0.5 };
+            let (a, force) = body.force_controlled_pull_off();
+            assert!((body.force(a) / force - 1.0).abs() < 1e-12);
+            assert!(body.force(a * 1.001) > force && body.force(a * 0.999) > force);
+            let (a, force) = body.displacement_controlled_pull_off();
+            assert!((body.force(a) / force - 1.0).abs() < 1e-12);
+            let d = body.indentation(a);
+            assert!(body.indentation(a * 1.001) > d && body.indentation(a * 0.999) > d);
+        }
+    }
+}

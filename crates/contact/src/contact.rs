@@ -1,0 +1,190 @@
+//! The contact of a rigid profile with an elastic half-space: what stays the same while the body moves.
+
+use super::adhesive::levels::Edges;
+use super::adhesive::loading::Closing;
+use super::error::{ContactError, LARGEST, check, is_positive};
+use super::foundation::{Foundation, HessRule};
+use super::history::{CurvePoint, Patch};
+use super::modulus::Modulus;
+use super::profile::Profile;
+use std::sync::{Arc, OnceLock};
+
+/// A rigid profile on an elastic half-space, with or without adhesion. Loading it gives exact forces, without a step error.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// // On the line the gaps of a sphere of radius R are x²/R.
+/// let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
+/// // Johnson, Kendall and Roberts: (3/2)πγR.
+/// let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
+/// assert!((cycle.pull_off_force().unwrap() / expected - 1.0).abs() < 1e-4);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Contact {
+    pub(super) profile: Profile,
+    pub(super) foundation: Foundation,
+    pub(super) edges: Edges,
+    pub(super) hess: Option<HessRule>,
+    /// Stiffness k of the instrument that moves the body, N/m; infinite for a rigid one.
+    pub(super) loading_stiffness: f64,
+    closing: Arc<OnceLock<Closing>>,
+}
+
+/// Properties of a [`Contact`] that is being built.
+///
+/// ```
+/// use asperity_contact::{Contact, Edges, Modulus, Profile};
+///
+/// let profile = Profile::from_gaps(vec![0.0, 4.0e-8, 1.0e-8], 1.0e-6)?;
+/// let builder = Contact::builder(&profile, Modulus::effective(1.0e6)?);
+/// let soft = builder.clone().works_of_adhesion([1.0e-4, 2.0e-4]).loading_stiffness(50.0).edges(Edges::Grid);
+/// assert!(soft.build()?.has_adhesion());
+/// let refused = builder.works_of_adhesion([2.0e-4, 1.0e-4]).build().unwrap_err();
+/// assert_eq!(refused.to_string(), "closing work = 2e-4; allowed: from 0 J/m² to the work of adhesion");
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ContactBuilder {
+    profile: Profile,
+    modulus: Modulus,
+    /// Works of adhesion on closing and on opening, J/m².
+    works: [f64; 2],
+    loading_stiffness: f64,
+    edges: Edges,
+}
+
+impl ContactBuilder {
+    /// Sets the work of adhesion γ, J/m²; by default 0, a contact without adhesion.
+    #[must_use]
+    pub fn work_of_adhesion(self, work: f64) -> Self {
+        self.works_of_adhesion([work; 2])
+    }
+
+    /// Sets the works of adhesion on closing, γ₁, and on opening, γ, J/m²; γ₁ is at most γ.
+    #[must_use]
+    pub fn works_of_adhesion(self, works: [f64; 2]) -> Self {
+        ContactBuilder { works, ..self }
+    }
+
+    /// Sets the stiffness k of the instrument that moves the body, N/m; by default infinite, a rigid instrument. Stages
+    /// [`Move::ToDisplacement`](crate::Move::ToDisplacement) then prescribe D = d + F/k.
+    #[must_use]
+    pub fn loading_stiffness(self, stiffness: f64) -> Self {
+        ContactBuilder { loading_stiffness: stiffness, ..self }
+    }
+
+    /// Sets the edge model of the contact patches; by default [`Edges::SubCell`], edges between springs.
+    #[must_use]
+    pub fn edges(self, edges: Edges) -> Self {
+        ContactBuilder { edges, ..self }
+    }
+
+    /// Builds the contact.
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a value out of range.
+    pub fn build(self) -> Result<Contact, ContactError> {
+        let ContactBuilder { profile, modulus, works: [closing, work], loading_stiffness, edges } = self;
+        check("work of adhesion", work, (0.0..=LARGEST).contains(&work), "from 0 to 1e50 J/m²")?;
+        let is_allowed = (0.0..=work).contains(&closing);
+        check("closing work", closing, is_allowed, "from 0 J/m² to the work of adhesion")?;
+        let is_allowed = loading_stiffness == f64::INFINITY || is_positive(loading_stiffness);
+        let allowed = "from 1e-50 to 1e50 N/m, or infinite: rigid";
+        check("loading stiffness", loading_stiffness, is_allowed, allowed)?;
+        let Profile { spacing, length, .. } = profile;
+        let foundation = Foundation { spacing, effective_modulus: modulus.pascals(), length };
+        let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
+        Ok(Contact { profile, foundation, edges, hess, loading_stiffness, closing: Arc::default() })
+    }
+}
+
+impl Contact {
+    /// Begins a contact of a profile with a half-space of this modulus; by default without adhesion, with edges between
+    /// springs and a rigid instrument.
+    #[must_use]
+    pub fn builder(profile: &Profile, modulus: Modulus) -> ContactBuilder {
+        let (edges, loading_stiffness, profile) = (Edges::SubCell, f64::INFINITY, profile.clone());
+        ContactBuilder { profile, modulus, works: [0.0; 2], loading_stiffness, edges }
+    }
+
+    /// The same contact with whole springs and a rigid instrument, as the stepwise solver moves it.
+    pub(super) fn of_whole_springs(&self) -> Self {
+        let closing = Arc::default();
+        Contact { edges: Edges::Grid, loading_stiffness: f64::INFINITY, closing, ..self.clone() }
+    }
+
+    /// Begins a contact of the same profile with another modulus, by default without adhesion and with a rigid instrument;
+    /// the edge model remains.
+    #[must_use]
+    pub fn with(&self, modulus: Modulus) -> ContactBuilder {
+        Contact::builder(&self.profile, modulus).edges(self.edges)
+    }
+
+    /// Force at which the last spring touches the rigid body, N.
+    pub fn full_contact_force(&self) -> f64 {
+        let deepest = self.profile.deepest();
+        self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
+    }
+
+    /// Displacement of the instrument at an indentation (m) and a force (N), D = d + F/k, m.
+    pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
+        indentation + force / self.loading_stiffness
+    }
+
+    /// The profile, which other contacts may share.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// Gaps along the profile, m.
+    pub fn gaps(&self) -> &[f64] {
+        self.profile.gaps()
+    }
+
+    /// Edge model of the contact patches.
+    pub fn edges(&self) -> Edges {
+        self.edges
+    }
+
+    /// Effective modulus E*, Pa.
+    pub fn effective_modulus(&self) -> f64 {
+        self.foundation.effective_modulus
+    }
+
+    /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
+    pub fn spring_stiffness(&self) -> f64 {
+        self.foundation.spring_stiffness()
+    }
+
+    /// Half the distance between the outermost edges of the contact, m; zero in separation. `patches` and `point` describe
+    /// one state of this contact.
+    pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
+        self.foundation.contact_radius(patches, point)
+    }
+
+    /// Returns true if the work of adhesion is above zero.
+    pub fn has_adhesion(&self) -> bool {
+        self.hess.is_some()
+    }
+
+    /// Rule of Hess; without adhesion the rule with no stretch.
+    pub(super) fn rule(&self) -> HessRule {
+        self.hess.unwrap_or(HessRule::NO_ADHESION)
+    }
+
+    /// Returns the closing thresholds of a loading from separation; `close` computes them at the first call.
+    pub(super) fn closing(
+        &self,
+        close: impl FnOnce() -> Result<Closing, ContactError>,
+    ) -> Result<&Closing, ContactError> {
+        match self.closing.get() {
+            Some(closing) => Ok(closing),
+            None => close().map(|closing| self.closing.get_or_init(|| closing)),
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! The loading of a contact and its result: force curve, figures and patches.
+
+use super::body::{Body, MovingBody, Reversal, load_body};
+use super::contact::Contact;
+use super::error::{ContactError, LARGEST, check};
+use super::figures::Figures;
+use super::history::{CurvePoint, History, LegRecord};
+use super::leg::{Leg, PatchState};
+use super::target::Move;
+
+/// Number of samples of the force curve of a stage, if none is given.
+const SAMPLES: usize = 512;
+
+/// Options of [`Contact::load_with`].
+///
+/// ```
+/// use asperity_contact::{Contact, ContactError, LoadOptions, Modulus, Move, Profile};
+///
+/// let profile = Profile::from_heights(vec![0.0, -4.0e-8, -1.0e-8], 1.0e-6)?;
+/// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).build()?;
+/// let stages = [Move::ToIndentation(5.0e-8), Move::ToSeparation];
+/// // The forces at given indentations, beside a short curve.
+/// let cycle = contact.load_with(&stages, LoadOptions::default().samples(2).indentations(&[1.0e-8, 2.0e-8]))?;
+/// assert!(cycle.at(0)[1].force > cycle.at(0)[0].force);
+/// // Only one stage: then the loading is stopped.
+/// let stopped = contact.load_with(&stages, LoadOptions::default().before_stage(&mut |stage| stage == 0));
+/// assert_eq!(stopped.err(), Some(ContactError::Interrupted));
+/// # Ok::<(), ContactError>(())
+/// ```
+#[derive(Default)]
+pub struct LoadOptions<'a> {
+    samples: Option<u64>,
+    indentations: &'a [f64],
+    before_stage: Option<&'a mut dyn FnMut(usize) -> bool>,
+}
+
+impl<'a> LoadOptions<'a> {
+    /// Sets the number of samples of the force curve on each loading stage, from 2 to a million; by default 512. Extremes of
+    /// the force are exact for any number.
+    #[must_use]
+    pub fn samples(self, samples: u64) -> Self {
+        LoadOptions { samples: Some(samples), ..self }
+    }
+
+    /// Sets ascending indentations, m, at which each stage that passes them has points besides its curve; see
+    /// [`Cycle::at`].
+    #[must_use]
+    pub fn indentations(self, indentations: &'a [f64]) -> Self {
+        LoadOptions { indentations, ..self }
+    }
+
+    /// Sets a function that is called before each stage with the index of the stage, from 0. If it returns false, the
+    /// loading ends with [`ContactError::Interrupted`].
+    #[must_use]
+    pub fn before_stage(self, proceed: &'a mut dyn FnMut(usize) -> bool) -> Self {
+        LoadOptions { before_stage: Some(proceed), ..self }
+    }
+}
+
+/// Result of a loading history that begins separated.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
+/// assert!((cycle.preload().unwrap() / 1.0e-4 - 1.0).abs() < 1e-12);
+/// // The loss in the jumps into and out of contact is the area of the loop.
+/// let curve = cycle.curve();
+/// let area: f64 = (1..curve.force.len())
+///     .map(|i| 0.5 * (curve.force[i] + curve.force[i - 1]) * (curve.indentation[i] - curve.indentation[i - 1]))
+///     .sum();
+/// assert!((area / cycle.dissipated_energy().unwrap() - 1.0).abs() < 0.01);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Cycle {
+    history: History,
+    figures: Figures,
+    at: Vec<Vec<CurvePoint>>,
+    /// Leg of the last stage, or of the separated body without stages.
+    leg: Leg,
+}
+
+/// The force curve of a loading history in columns of one length: one row for each point, in the order of the motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Curve {
+    /// Indices of the loading stages, from 0.
+    pub stage: Vec<usize>,
+    /// Indentations d, m.
+    pub indentation: Vec<f64>,
+    /// Forces F, N; compression positive.
+    pub force: Vec<f64>,
+    /// Displacements of the instrument D = d + F/k, m; of a rigid instrument the indentations.
+    pub displacement: Vec<f64>,
+    /// Lengths in contact, m.
+    pub contact_length: Vec<f64>,
+    /// Numbers of contact patches.
+    pub patches: Vec<u64>,
+    /// Stored elastic energies, J.
+    pub stored_energy: Vec<f64>,
+}
+
+impl Contact {
+    /// Loads the separated body through these loading stages, one after the other.
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target that
+    /// the contact cannot reach, [`ContactError::OutOfMemory`].
+    pub fn load(&self, stages: &[Move]) -> Result<Cycle, ContactError> {
+        self.load_with(stages, LoadOptions::default())
+    }
+
+    /// Loads the separated body as [`Contact::load`] does, with options.
+    ///
+    /// # Errors
+    /// As for [`Contact::load`], [`ContactError::Value`] for an option out of its range, and [`ContactError::Interrupted`].
+    pub fn load_with(&self, stages: &[Move], options: LoadOptions<'_>) -> Result<Cycle, ContactError> {
+        let LoadOptions { samples, indentations, mut before_stage } = options;
+        check_targets(stages)?;
+        check_ascending(indentations)?;
+        let samples = samples.unwrap_or(SAMPLES as u64);
+        check("samples", samples as f64, (2..=1_000_000).contains(&samples), "from 2 to 1000000")?;
+        let (mut body, mut at) = (Body::new(self, samples as usize), Vec::with_capacity(stages.len()));
+        let mut may_proceed = |stage| match before_stage.as_mut().is_none_or(|proceed| proceed(stage)) {
+            true => Ok(()),
+            false => Err(ContactError::Interrupted),
+        };
+        if !stages.is_empty() {
+            may_proceed(0)?;
+        }
+        let history = load_body(&mut body, stages, |record, leg| {
+            at.push(points_between(record, leg, indentations)?);
+            if at.len() < stages.len() { may_proceed(at.len()) } else { Ok(()) }
+        })?;
+        Ok(Cycle { figures: Figures::of(&history), history, at, leg: body.leg() })
+    }
+
+    /// Loads the separated body once, and unloads it from the end of each of these stages, every one of which begins at
+    /// separation. The results equal [`Contact::load`] of each stage followed by [`Move::ToSeparation`], at the cost of a
+    /// few loads. A tensile force is reached where the loading first has it, at touch or while adhesion draws the bodies
+    /// together.
+    ///
+    /// Each result has the forces at the ascending `indentations`, m, that are not above its turning point.
+    ///
+    /// ```
+    /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
+    ///
+    /// // Five springs, which attach one after the other.
+    /// let profile = Profile::from_heights(&[0.0, -4.0e-8, -1.0e-8, -4.0e-8, -9.0e-8], 1.0e-6)?;
+    /// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).work_of_adhesion(2.0e-4);
+    /// let turns = [0.0, 1.0e-8, 5.0e-8].map(Move::ToIndentation);
+    /// let found = contact.edges(Edges::Grid).build()?.reversals(&turns, &[-1.0e-8, 0.0])?;
+    /// for (reversal, force) in found.iter().zip([25.07e-9, 40.13e-9, 130.53e-9]) {
+    ///     assert!((reversal.adhesion_force().unwrap() - force).abs() < 0.01e-9);
+    ///     assert_eq!(reversal.forces.len(), 2);
+    /// }
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50 or for indentations that do not ascend,
+    /// [`ContactError::Stage`] for a target without contact or out of reach, [`ContactError::OutOfMemory`].
+    pub fn reversals(&self, ends: &[Move], indentations: &[f64]) -> Result<Vec<Reversal>, ContactError> {
+        check_targets(ends)?;
+        check_ascending(indentations)?;
+        let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
+        let mut see = |index, reversal| {
+            found.push((index, reversal));
+            Ok(())
+        };
+        Body::new(self, SAMPLES).reversals(ends, indentations, &mut see)?;
+        found.sort_by_key(|&(index, _)| index);
+        Ok(found.into_iter().map(|(_, reversal)| reversal).collect())
+    }
+}
+
+/// Points of a stage at the indentations that it passes, m, in their ascending order.
+fn points_between(
+    record: &LegRecord,
+    leg: &Leg,
+    indentations: &[f64],
+) -> Result<Vec<CurvePoint>, ContactError> {
+    let (low, high) = (record.start().min(record.end()), record.start().max(record.end()));
+    let first = indentations.partition_point(|&at| at < low);
+    let end = indentations.partition_point(|&at| at <= high);
+    leg.curve(&indentations[first..end.max(first)])
+}
+
+/// Returns an error for a target with which a result might not be a finite number.
+fn check_targets(targets: &[Move]) -> Result<(), ContactError> {
+    for (index, target) in targets.iter().enumerate() {
+        if let Move::ToForce(value) | Move::ToIndentation(value) | Move::ToDisplacement(value) = *target {
+            let name = format!("target of stage {}", index + 1);
+            check(&name, value, value.abs() <= LARGEST, "from -1e50 to 1e50")?;
+        }
+    }
+    Ok(())
+}
+
+/// Returns an error for indentations that are not ascending finite numbers.
+fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
+    let mut before = -LARGEST;
+    for (index, &at) in indentations.iter().enumerate() {
+        let name = format!("indentation with index {index}");
+        check(&name, at, (before..=LARGEST).contains(&at), "from -1e50 to 1e50 m, ascending")?;
+        before = at;
+    }
+    Ok(())
+}
+
+impl Cycle {
+    /// Pull-off force, N: minus the smallest force of the last unloading, which may take several stages. `None` if that force
+    /// is above zero, or if the unloading ends in contact while the force still falls.
+    #[must_use]
+    pub fn pull_off_force(&self) -> Option<f64> {
+        self.figures.adhesion_force
+    }
+
+    /// Indentation at the pull-off force, m; `None` without a pull-off force.
+    #[must_use]
+    pub fn pull_off_indentation(&self) -> Option<f64> {
+        self.figures.pull_off_indentation
+    }
+
+    /// Preload, N: largest force while loading, since the last separation and before the last unloading. `None` if no stage
+    /// loads the body in contact.
+    #[must_use]
+    pub fn preload(&self) -> Option<f64> {
+        self.figures.preload
+    }
+
+    /// Dissipated energy, J. `None` if the history ends in contact.
+    #[must_use]
+    pub fn dissipated_energy(&self) -> Option<f64> {
+        self.figures.dissipated_energy
+    }
+
+    /// Preload, pull-off, their indentations, and the dissipated energy.
+    #[must_use]
+    pub fn figures(&self) -> Figures {
+        self.figures
+    }
+
+    /// Points of the force curve of all loading stages in their order.
+    pub fn points(&self) -> impl Iterator<Item = &CurvePoint> {
+        self.history.legs.iter().flat_map(|leg| &leg.curve)
+    }
+
+    /// Force curve of all loading stages in columns.
+    #[must_use]
+    pub fn curve(&self) -> Curve {
+        let mut curve = Curve::default();
+        let stiffness = self.leg.contact().loading_stiffness;
+        for (stage, leg) in self.history.legs.iter().enumerate() {
+            for point in &leg.curve {
+                curve.stage.push(stage);
+                curve.indentation.push(point.indentation);
+                curve.force.push(point.force);
+                curve.displacement.push(point.displacement(stiffness));
+                curve.contact_length.push(point.contact_length);
+                curve.patches.push(point.fragments);
+                curve.stored_energy.push(point.stored_energy);
+            }
+        }
+        curve
+    }
+
+    /// Points of a stage at the indentations of [`LoadOptions::indentations`] that it passes, in ascending order; empty for
+    /// a stage that does not exist.
+    #[must_use]
+    pub fn at(&self, stage: usize) -> &[CurvePoint] {
+        self.at.get(stage).map_or(&[], Vec::as_slice)
+    }
+
+    /// Loading stages with their curves, exact extremes and dissipated energies.
+    #[must_use]
+    pub fn stages(&self) -> &[LegRecord] {
+        &self.history.legs
+    }
+
+    /// Contact patches at the end, from left to right, with their edges, forces and stretches.
+    #[must_use]
+    pub fn patches(&self) -> Vec<PatchState> {
+        let end = self.history.legs.last().and_then(LegRecord::end_in_contact);
+        end.map_or_else(Vec::new, |end| self.leg.patch_states(end.indentation))
+    }
+}

@@ -1,0 +1,111 @@
+//! The elastic foundation by the method of dimensionality reduction, and the rule of Hess.
+
+use super::history::{CurvePoint, Direction, Patch};
+
+/// A foundation of independent springs, equivalent to an elastic half-space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foundation {
+    /// Distance Δx between springs, m.
+    pub spacing: f64,
+    /// Effective modulus E*, Pa, eq. (2).
+    pub effective_modulus: f64,
+    /// Length L of the foundation, m; infinite if it extends beyond any contact.
+    pub length: f64,
+}
+
+impl Foundation {
+    /// Length in contact of this number of cells, m. It is never above the length of the foundation, and equals it where
+    /// the cells cover the foundation, although N times Δx may differ by a rounding.
+    #[inline]
+    pub fn contact_length(&self, cells: f64) -> f64 {
+        let length = cells * self.spacing;
+        if length > self.length * (1.0 - 2.0 * f64::EPSILON) { self.length } else { length }
+    }
+
+    /// Half the distance between the outermost edges of the contact, m; zero in separation. `patches` and `point` describe
+    /// one state. Separated regions between patches are whole cells; the outermost edges may lie inside a cell.
+    pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
+        let outermost = patches.first().zip(patches.last()).map(|(one, other)| other.last - one.first + 1);
+        let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
+        0.5 * (point.contact_length + between as f64 * self.spacing)
+    }
+
+    /// Stiffness Δk = E* Δx of one spring, N/m, eq. (1).
+    pub fn spring_stiffness(&self) -> f64 {
+        self.effective_modulus * self.spacing
+    }
+}
+
+/// The rule of Hess, eqs. (3) and (10): largest stretch of the springs of a contact fragment before they detach.
+///
+/// If the work of adhesion on opening exceeds that on closing, springs attach to a contact patch by the closing rule and detach
+/// from it by the opening rule; between both limits the edges of the patch do not move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HessRule {
+    /// Largest stretch of a single spring before it detaches, m.
+    opening: f64,
+    /// Largest stretch with which a single spring attaches, m; at most `opening`.
+    closing: f64,
+}
+
+impl HessRule {
+    /// The rule without adhesion: the largest stretch is zero.
+    pub const NO_ADHESION: HessRule = HessRule { opening: 0.0, closing: 0.0 };
+
+    /// The rule for a work of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
+    ///
+    /// A γ₂ smaller than γ₁ is replaced by γ₁: a spring would detach where it had just attached.
+    pub fn from_works(foundation: Foundation, closing: f64, opening: f64) -> Self {
+        let stretch = |work: f64| {
+            // The quotient γ/E* first: scaling both by one power of two then changes no bit.
+            let range = work / foundation.effective_modulus;
+            (std::f64::consts::PI * foundation.spacing * range).sqrt()
+        };
+        let closing = stretch(closing);
+        HessRule { opening: stretch(opening).max(closing), closing }
+    }
+
+    /// Largest stretch of a fragment of one spring, m: on unloading before it detaches, on loading as it attaches.
+    pub fn stretch(&self, direction: Direction) -> f64 {
+        match direction {
+            Direction::Loading => self.closing,
+            Direction::Unloading => self.opening,
+        }
+    }
+
+    /// Returns true if springs attach and detach by the same rule.
+    pub fn is_one(&self) -> bool {
+        self.opening == self.closing
+    }
+
+    /// Largest stretch Δl_max = √(π n Δx γ/E*) of a fragment of n = `springs` springs, m, eq. (10).
+    ///
+    /// Rounding keeps the order: the value never falls with the number of springs.
+    pub fn largest_stretch(&self, direction: Direction, springs: usize) -> f64 {
+        self.stretch(direction) * (springs as f64).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// All cells are as long as the foundation, to the last bit; fewer have their own length, and more are no
+        /// longer.
+        #[test]
+        fn no_contact_is_longer_than_the_foundation(springs in 2_usize..400, length in 1e-6..10.0_f64) {
+            let spacing = length / springs as f64;
+            let foundation = Foundation { spacing, effective_modulus: 1.0, length };
+            let endless = Foundation { length: f64::INFINITY, ..foundation };
+            prop_assert_eq!(foundation.contact_length(springs as f64), length);
+            prop_assert_eq!(foundation.contact_length(springs as f64 + 0.5), length);
+            for cells in 0..springs {
+                let own = cells as f64 * foundation.spacing;
+                prop_assert_eq!(foundation.contact_length(cells as f64), own);
+                prop_assert_eq!(endless.contact_length(cells as f64), own);
+            }
+        }
+    }
+}

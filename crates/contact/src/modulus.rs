@@ -1,0 +1,68 @@
+//! The effective modulus of two bodies in contact.
+
+use super::error::{ContactError, check, is_positive};
+
+/// Effective modulus E* of two bodies in contact, Pa: a number from 1e-50 to 1e50.
+///
+/// ```
+/// use asperity_contact::Modulus;
+///
+/// // Rubber under a rigid body: E/(1 − ν²).
+/// let rubber = Modulus::isotropic(3.0e6, 0.5)?;
+/// assert!((rubber.pascals() / 4.0e6 - 1.0).abs() < 1e-15);
+/// let refused = Modulus::isotropic(3.0e6, 0.7).unwrap_err();
+/// assert_eq!(refused.to_string(), "Poisson's ratio = 0.7; allowed: above -1 and at most 0.5");
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Modulus(f64);
+
+const PASCALS: &str = "from 1e-50 to 1e50 Pa";
+
+impl Modulus {
+    /// An effective modulus E*, Pa.
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a number that is not from 1e-50 to 1e50.
+    pub fn effective(pascals: f64) -> Result<Self, ContactError> {
+        check("effective modulus", pascals, is_positive(pascals), PASCALS)?;
+        Ok(Modulus(pascals))
+    }
+
+    /// Effective modulus E/(1 − ν²) of an isotropic body with Young's modulus E (Pa) and Poisson's ratio ν under a rigid
+    /// body.
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a Young's modulus that is not from 1e-50 to 1e50 Pa, and for a Poisson's ratio that is
+    /// not above −1 and at most 0.5.
+    pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
+        check("Young's modulus", youngs_modulus, is_positive(youngs_modulus), PASCALS)?;
+        let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
+        check("Poisson's ratio", poisson_ratio, is_allowed, "above -1 and at most 0.5")?;
+        // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
+        Modulus::effective(youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio)))
+    }
+
+    /// Effective modulus of two elastic bodies, 1/E* = 1/E₁* + 1/E₂*, from the effective modulus of each body under a rigid
+    /// body; eq. (2).
+    ///
+    /// ```
+    /// use asperity_contact::Modulus;
+    ///
+    /// let body = Modulus::isotropic(2.0e9, 0.3)?;
+    /// assert_eq!(Modulus::pair(body, body)?.pascals(), 0.5 * body.pascals());
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for an effective modulus of both below 1e-50 Pa.
+    pub fn pair(one: Modulus, other: Modulus) -> Result<Self, ContactError> {
+        let (softer, stiffer) = (one.0.min(other.0), one.0.max(other.0));
+        Modulus::effective(softer / (1.0 + softer / stiffer))
+    }
+
+    /// The effective modulus E*, Pa.
+    pub fn pascals(self) -> f64 {
+        self.0
+    }
+}

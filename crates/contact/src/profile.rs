@@ -1,0 +1,223 @@
+//! The rigid profile above the springs: its gaps at equally spaced points, and the contact trees that follow from them.
+
+use super::adhesive::levels::Edges;
+use super::adhesive::tree::ContactTree;
+use super::error::{ContactError, LARGEST, check, is_positive};
+use super::totals::GapScale;
+use std::sync::{Arc, OnceLock};
+
+/// Largest number of points of a profile.
+const MOST_POINTS: usize = 1 << 28;
+
+/// One-dimensional equivalent profile of a rigid body: heights at equally spaced points, positive towards the half-space.
+///
+/// N points at a spacing Δx cover the length N Δx; each point lies in the middle of its cell. Clones share their memory, and
+/// all contacts of a profile share its contact trees.
+///
+/// ```
+/// use asperity_contact::Profile;
+///
+/// let profile = Profile::from_heights(vec![0.0, -4.0e-8, -1.0e-8], 1.0e-6)?; // m
+/// assert_eq!((profile.points(), profile.length()), (3, 3.0 * 1.0e-6));
+/// assert_eq!(profile.gaps(), [0.0, 4.0e-8, 1.0e-8]);
+/// let refused = Profile::from_heights(&[0.0, f64::NAN], 1.0e-6).unwrap_err();
+/// assert_eq!(refused.to_string(), "height with index 1 = NaN; allowed: from -1e50 to 1e50 m");
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Profile {
+    pub(super) springs: Arc<Springs>,
+    pub(super) spacing: f64,
+    pub(super) length: f64,
+    first: usize,
+    summit: f64,
+}
+
+/// The gaps under a profile, and the contact trees, which depend on the gaps and the edge model alone. A tree is built when
+/// a contact first needs it.
+#[derive(Debug)]
+pub struct Springs {
+    pub gaps: Arc<Vec<f64>>,
+    pub deepest: f64,
+    /// One tree for each edge model, by its number.
+    trees: [OnceLock<Arc<ContactTree>>; 2],
+}
+
+impl Profile {
+    /// Creates a profile of measured or computed heights (m) at this spacing (m). The memory of a `Vec` becomes the memory
+    /// of the gaps; a slice is copied.
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] without points, or for a spacing or a height out of its range.
+    pub fn from_heights(heights: impl Into<Vec<f64>>, spacing: f64) -> Result<Self, ContactError> {
+        let mut heights = heights.into();
+        let [_, summit] = ends(&heights, LARGEST).map_err(|index| {
+            let allowed = "from -1e50 to 1e50 m";
+            value(format!("height with index {index}"), heights[index], allowed)
+        })?;
+        heights.iter_mut().for_each(|height| *height = summit - *height);
+        Ok(Profile { summit, ..Profile::from_gaps(heights, spacing)? })
+    }
+
+    /// Creates a profile of gaps below its highest point (m) at this spacing (m); at least one of them is 0. A shared `Arc`
+    /// is not copied.
+    ///
+    /// ```
+    /// use asperity_contact::Profile;
+    ///
+    /// let wedge: Vec<f64> = (-50..=50).map(|i| 1.0e-8 * f64::from(i).abs()).collect();
+    /// assert_eq!(Profile::from_gaps(wedge, 1.0e-7)?.deepest(), 50.0 * 1.0e-8);
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] without points, for a spacing or a gap out of its range, or if the smallest gap is not 0.
+    pub fn from_gaps(gaps: impl Into<Arc<Vec<f64>>>, spacing: f64) -> Result<Self, ContactError> {
+        let gaps = gaps.into();
+        let points = gaps.len();
+        let is_allowed = (1..=MOST_POINTS).contains(&points);
+        check("number of points", points as f64, is_allowed, "from 1 to 268435456")?;
+        let metres = "from 1e-50 to 1e50 m";
+        let length = spacing * points as f64;
+        check("spacing", spacing, is_positive(spacing), metres)?;
+        check("spacing times points", length, is_positive(length), metres)?;
+        let not_finite = |index| value(format!("gap with index {index}"), gaps[index], "from 0 to 1e50 m");
+        let [smallest, deepest] = ends(&gaps, f64::MAX).map_err(not_finite)?;
+        check("smallest gap of the profile", smallest, smallest == 0.0, "0: the highest point has no gap")?;
+        check("largest gap of the profile", deepest, deepest <= LARGEST, "at most 1e50 m")?;
+        let springs = Arc::new(Springs { gaps, deepest, trees: Default::default() });
+        Ok(Profile { springs, spacing, length, first: 0, summit: 0.0 })
+    }
+
+    /// The same profile on a foundation of this length (m) whose spring with the index `first` is the first one under the
+    /// body. A punch covers a part of its foundation.
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a length out of its range.
+    pub fn on_foundation(self, length: f64, first: usize) -> Result<Self, ContactError> {
+        check("length", length, is_positive(length), "from 1e-50 to 1e50 m")?;
+        Ok(Profile { length, first, ..self })
+    }
+
+    /// The same profile with this height of its highest point, m.
+    pub fn with_summit(self, summit: f64) -> Self {
+        Profile { summit, ..self }
+    }
+
+    /// Number of points.
+    pub fn points(&self) -> usize {
+        self.gaps().len()
+    }
+
+    /// Distance Δx between points, m.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// Length of the foundation under the profile, m: the number of points times their distance, except under a punch.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Gaps below the highest point, m, at least 0.
+    pub fn gaps(&self) -> &[f64] {
+        &self.springs.gaps
+    }
+
+    /// Gaps below the highest point, m, in the memory of the profile.
+    pub fn shared_gaps(&self) -> &Arc<Vec<f64>> {
+        &self.springs.gaps
+    }
+
+    /// Largest gap, m.
+    pub fn deepest(&self) -> f64 {
+        self.springs.deepest
+    }
+
+    /// Heights, m, to rounding.
+    pub fn heights(&self) -> impl Iterator<Item = f64> {
+        self.gaps().iter().map(|gap| self.summit - gap)
+    }
+
+    /// Position x of the point with this index, m, from the left end of the foundation.
+    pub fn position(&self, index: usize) -> f64 {
+        self.place(index as f64 + 0.5)
+    }
+
+    /// Position, m, of a place in cells from the left end of the first cell under the body.
+    pub(super) fn place(&self, cells: f64) -> f64 {
+        (self.first as f64 + cells) * self.spacing
+    }
+
+    /// Builds the contact tree for an edge model, unless the profile has it already, in the memory of a former tree. Without
+    /// this call the first contact with adhesion builds it.
+    ///
+    /// # Errors
+    /// [`ContactError::OutOfMemory`].
+    pub fn build_tree(&self, edges: Edges, memory: ContactTree) -> Result<(), ContactError> {
+        self.springs.tree_in(memory, edges).map(|_| ())
+    }
+
+    /// Returns a contact tree that nothing else uses, for the reuse of its memory; an empty tree if there is none.
+    pub fn into_tree(self) -> ContactTree {
+        let trees = Arc::into_inner(self.springs).map(|springs| springs.trees);
+        let trees = trees.into_iter().flatten().filter_map(OnceLock::into_inner);
+        trees.filter_map(Arc::into_inner).next().unwrap_or_default()
+    }
+}
+
+/// Equal profiles have the same heights at the same places.
+impl PartialEq for Profile {
+    fn eq(&self, other: &Self) -> bool {
+        let of = |profile: &Self| [profile.spacing, profile.length, profile.summit];
+        of(self) == of(other) && self.first == other.first && self.springs.gaps == other.springs.gaps
+    }
+}
+
+impl Springs {
+    /// Fixed-point scale of exact sums over the gaps.
+    pub fn scale(&self) -> GapScale {
+        GapScale::for_gaps_up_to(self.deepest)
+    }
+
+    /// Returns the contact tree of the gaps for an edge model.
+    pub fn tree(&self, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
+        self.tree_in(ContactTree::default(), edges)
+    }
+
+    fn tree_in(&self, memory: ContactTree, edges: Edges) -> Result<&Arc<ContactTree>, ContactError> {
+        let tree = &self.trees[edges as usize];
+        if let Some(tree) = tree.get() {
+            return Ok(tree);
+        }
+        let built = Arc::new(memory.rebuild(&self.gaps, self.deepest, edges)?);
+        Ok(tree.get_or_init(|| built))
+    }
+}
+
+fn value(name: String, value: f64, allowed: &'static str) -> ContactError {
+    ContactError::Value { name, value, allowed }
+}
+
+/// Smallest and largest value; the error is the index of the first value whose magnitude is not at most `most`.
+fn ends(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
+    // In parallel: a sequence of comparisons would wait for each one.
+    let (mut smallest, mut largest, mut is_number) = ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8], true);
+    let mut take = |values: &[f64]| {
+        for ((smallest, largest), &value) in smallest.iter_mut().zip(&mut largest).zip(values) {
+            *smallest = if value < *smallest { value } else { *smallest };
+            *largest = if value > *largest { value } else { *largest };
+            is_number &= !value.is_nan();
+        }
+    };
+    let (whole, rest) = values.as_chunks::<8>();
+    whole.iter().for_each(|eight| take(eight));
+    take(rest);
+    let smallest = smallest.into_iter().fold(f64::INFINITY, f64::min);
+    let largest = largest.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    let is_allowed = |value: f64| value.abs() <= most;
+    if values.is_empty() || is_number && is_allowed(smallest) && is_allowed(largest) {
+        return Ok([smallest, largest]);
+    }
+    Err(values.iter().position(|&value| !is_allowed(value)).unwrap_or(0))
+}

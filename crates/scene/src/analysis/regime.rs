@@ -1,0 +1,133 @@
+//! The regime of adhesion (Fig. 4) of one loading.
+
+use asperity_contact::Figures;
+use serde::Serialize;
+use strum::IntoStaticStr;
+
+/// Share of the adhesion force after the preload from which on adhesion without a preload counts as pressure-insensitive:
+/// half of the adhesion needs no pressing.
+pub const INSENSITIVE_SHARE: f64 = 0.5;
+
+/// Share of the adhesion force of the smooth body below which adhesion without a preload has vanished. The transition from
+/// above one half to below one twentieth spans a factor of about three in κ, so the choice has little effect on the boundary.
+pub const VANISHING_SHARE: f64 = 0.05;
+
+/// Adhesion coefficient F_a/F_n below which adhesion is negligible: the bodies adhere with less than a
+/// hundredth of the force that pressed them together.
+pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
+
+/// Regime of adhesion: how adhesion depends on the load, Fig. 4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
+pub enum Regime {
+    /// (a) Adhesion exists at first contact and hardly depends on the preload.
+    PressureInsensitive,
+    /// (b) Adhesion appears, or grows considerably, only under a preload.
+    PressureSensitive,
+    /// (c) Almost no adhesion under any preload.
+    NonAdhesive,
+}
+
+impl Regime {
+    /// All regimes in the order of decreasing adhesion.
+    pub const ALL: [Regime; 3] =
+        [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
+
+    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force. `zero_load` is the
+    /// adhesion force F_a(0) by the touch or the zero-force protocol and `smooth` that of the same body without roughness,
+    /// both in N and `None` without adhesion. F_a(0) is larger by the zero-force protocol, so where both protocols give
+    /// different regimes, the zero-force one gives the pressure-insensitive regime.
+    ///
+    /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
+    /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
+    /// [`NEGLIGIBLE_COEFFICIENT`] or, without a preload, if the adhesion force is below [`VANISHING_SHARE`] of the smooth
+    /// body's; pressure-sensitive in all other cases.
+    pub fn of_loading(figures: &Figures, zero_load: Option<f64>, smooth: Option<f64>) -> Option<Self> {
+        let preload = figures.preload.unwrap_or(0.0);
+        match (figures.adhesion_force, zero_load, smooth) {
+            (Some(_), None, None) => Some(Regime::NonAdhesive),
+            (Some(adhesion), Some(zero_load), Some(smooth)) => {
+                Some(Regime::of_forces(zero_load, adhesion, preload, smooth))
+            }
+            _ => None,
+        }
+    }
+
+    fn of_forces(zero_load: f64, adhesion: f64, preload: f64, smooth: f64) -> Self {
+        let present = zero_load >= VANISHING_SHARE * smooth && zero_load > 0.0;
+        if present && zero_load >= INSENSITIVE_SHARE * adhesion {
+            Regime::PressureInsensitive
+        } else if adhesion <= NEGLIGIBLE_COEFFICIENT * preload
+            || (preload <= 0.0 && adhesion < VANISHING_SHARE * smooth)
+        {
+            Regime::NonAdhesive
+        } else {
+            Regime::PressureSensitive
+        }
+    }
+
+    /// Number of characters of the longest name of a regime.
+    pub const LONGEST_NAME: usize = "pressure-insensitive".len();
+
+    /// Name of the regime in words.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+
+    /// Name of the regime with the protocols for F_a(0) that give it; also the regime after zero net force, if that differs.
+    pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
+        let name = self.name();
+        match after_zero_force {
+            Some(same) if same == self && self == Regime::NonAdhesive => name.to_owned(),
+            Some(same) if same == self => format!("{name} (d=0, F=0)"),
+            None => format!("{name} (d=0)"),
+            Some(other) => format!("{name} (d=0), {} (F=0)", other.name().trim_start_matches("pressure-")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_regime_names_its_protocols() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        assert_eq!(non_adhesive.by_protocols(Some(non_adhesive)), "non-adhesive");
+        assert_eq!(sensitive.by_protocols(Some(sensitive)), "pressure-sensitive (d=0, F=0)");
+        assert_eq!(
+            sensitive.by_protocols(Some(insensitive)),
+            "pressure-sensitive (d=0), insensitive (F=0)"
+        );
+        assert_eq!(sensitive.by_protocols(None), "pressure-sensitive (d=0)");
+    }
+
+    #[test]
+    fn thresholds_belong_to_the_stronger_regime() {
+        let [insensitive, sensitive, non_adhesive] = Regime::ALL;
+        for (zero_load, adhesion, preload, smooth, expected) in [
+            // Half of the adhesion needs no pressing; slightly less does not count.
+            (0.5, 1.0, 5.0, 1.0, insensitive),
+            (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
+            // A twentieth of the smooth body's adhesion exists; slightly less has vanished.
+            (VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
+            (VANISHING_SHARE.next_down(), 0.09, 1.0, 1.0, sensitive),
+            (0.2, 0.1, 1.0, 4.0, insensitive),
+            (0.19, 0.1, 1.0, 4.0, sensitive),
+            (0.0, 0.0, 0.0, 0.0, non_adhesive),
+            // A hundredth of the preload is negligible; slightly more is not.
+            (0.0, NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
+            (0.0, NEGLIGIBLE_COEFFICIENT.next_up(), 1.0, 1.0, sensitive),
+            // Without a preload adhesion below a twentieth of the smooth body's is none; a twentieth is some.
+            (0.01, VANISHING_SHARE.next_down(), 0.0, 1.0, non_adhesive),
+            (0.01, VANISHING_SHARE.next_down(), -1.0, 1.0, non_adhesive),
+            (0.01, VANISHING_SHARE, 0.0, 1.0, sensitive),
+            (0.3, 1.0, 0.0, 1.0, sensitive),
+            (0.3, 1.0, -1.0, 1.0, sensitive),
+        ] {
+            let found = Regime::of_forces(zero_load, adhesion, preload, smooth);
+            assert_eq!(found, expected, "{zero_load} {adhesion} {preload} {smooth}");
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! Profiles for programs that use the library: a form and a roughness, as in a scene.
+
+use crate::analysis::governing::Governing;
+use crate::error::Error;
+use crate::scene::adhesion::Adhesion;
+use crate::scene::checked::CheckedScene;
+use crate::scene::measured::Measured;
+use crate::scene::model::{Material, Numerics, Roughness, SPRINGS_PER_WAVE, Scene};
+use crate::simulation::outcome::{Outcome, RunError};
+use crate::simulation::stages::Simulation;
+use asperity_contact::{ContactError, Modulus, Move, Profile};
+use asperity_surface::{Form, Line, MeasuredRoughness};
+use std::sync::Arc;
+
+/// Builder of the equivalent profile of a form and a roughness: the same profile, to the bit, as that of a scene with these
+/// values. By default nominally flat and smooth.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move};
+/// use asperity_scene::ProfileBuilder;
+///
+/// // A rough sphere on a length of 100 µm with 4096 points.
+/// let rough = ProfileBuilder::new(1.0e-4, 4096).sphere(1.0e-3);
+/// let rough = rough.self_affine(0.7).rms_height(5.0e-8).wavelengths(5.0e-5, 2.0e-7).seed(3);
+/// let contact = Contact::builder(&rough.build()?, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
+/// assert!(cycle.pull_off_force() > Some(0.0));
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ProfileBuilder {
+    length: f64,
+    points: usize,
+    form: Option<Form>,
+    roughness: Option<Roughness>,
+    /// Measured surface in memory, in place of the files of the roughness.
+    surface: Option<Arc<MeasuredRoughness>>,
+}
+
+/// Changes a member of the self-affine roughness, which has no Hurst exponent yet if it begins here.
+macro_rules! with_member {
+    ($builder:expr, $member:ident, $value:expr) => {{
+        let (mut builder, value) = ($builder, $value);
+        if !matches!(builder.roughness, Some(Roughness::SelfAffine { .. })) {
+            builder = builder.self_affine(f64::NAN);
+        }
+        if let Some(Roughness::SelfAffine { $member, .. }) = &mut builder.roughness {
+            *$member = value;
+        }
+        builder
+    }};
+}
+
+impl ProfileBuilder {
+    /// Begins a profile of this length (m) with this number of points.
+    #[must_use]
+    pub fn new(length: f64, points: usize) -> Self {
+        ProfileBuilder { length, points, form: None, roughness: None, surface: None }
+    }
+
+    /// Sets the macroscopic form.
+    #[must_use]
+    pub fn form(self, form: Form) -> Self {
+        ProfileBuilder { form: Some(form), ..self }
+    }
+
+    /// Sets a sphere of this radius (m) as the form.
+    #[must_use]
+    pub fn sphere(self, radius: f64) -> Self {
+        self.form(Form::Paraboloid { radius })
+    }
+
+    /// Begins a random self-affine roughness with this Hurst exponent H: cosines with amplitudes ∝ k^(−H−1/2) and random
+    /// phases. It needs an amplitude, [`Self::rms_height`] or [`Self::rms_gradient`], and waves, [`Self::modes`] or
+    /// [`Self::wavelengths`].
+    #[must_use]
+    pub fn self_affine(self, hurst: f64) -> Self {
+        let roughness = Roughness::SelfAffine {
+            hurst,
+            rms_height: None,
+            rms_gradient: None,
+            modes: None,
+            wavelengths: None,
+            roll_off: None,
+            seed: 1,
+        };
+        ProfileBuilder { roughness: Some(roughness), surface: None, ..self }
+    }
+
+    /// Sets the rms height of the self-affine roughness, m.
+    #[must_use]
+    pub fn rms_height(self, rms_height: f64) -> Self {
+        with_member!(self, rms_height, Some(rms_height))
+    }
+
+    /// Sets the rms gradient of the self-affine roughness, in place of its rms height.
+    #[must_use]
+    pub fn rms_gradient(self, rms_gradient: f64) -> Self {
+        with_member!(self, rms_gradient, Some(rms_gradient))
+    }
+
+    /// Sets the first and the last mode of the self-affine roughness, in waves per length.
+    #[must_use]
+    pub fn modes(self, first: u64, last: u64) -> Self {
+        with_member!(self, modes, Some((first, last)))
+    }
+
+    /// Sets the longest and the shortest wavelength of the self-affine roughness, m, in place of its modes.
+    #[must_use]
+    pub fn wavelengths(self, longest: f64, shortest: f64) -> Self {
+        with_member!(self, wavelengths, Some((longest, shortest)))
+    }
+
+    /// Sets the wavelength, m, above which the spectrum of the self-affine surface is flat; by default there is none.
+    #[must_use]
+    pub fn roll_off(self, wavelength: f64) -> Self {
+        with_member!(self, roll_off, Some(wavelength))
+    }
+
+    /// Sets a measured surface as the roughness, in place of a self-affine one.
+    #[must_use]
+    pub fn surface(self, surface: Arc<MeasuredRoughness>) -> Self {
+        let as_line = matches!(*surface, MeasuredRoughness::Profile(_));
+        let measured = Measured { as_line, ..Measured::of_file("surface in memory") };
+        ProfileBuilder { roughness: Some(Roughness::Measured(measured)), surface: Some(surface), ..self }
+    }
+
+    /// Sets the seed of the random phases; by default 1. A seed determines the phases on any machine and for any number of
+    /// points.
+    #[must_use]
+    pub fn seed(mut self, wanted: u64) -> Self {
+        if let Some(Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. })) =
+            &mut self.roughness
+        {
+            *seed = wanted;
+        }
+        self
+    }
+
+    /// Makes the profile.
+    ///
+    /// ```
+    /// use asperity_scene::ProfileBuilder;
+    ///
+    /// let refused = ProfileBuilder::new(1.0e-4, 1024).self_affine(1.7).rms_height(1.0e-7).modes(1, 64).build();
+    /// assert_eq!(
+    ///     refused.unwrap_err().to_string(),
+    ///     "roughness.hurst = 1.7: allowed: above 0 and below 1 (Hurst exponent)"
+    /// );
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Values`] for values that a scene does not allow, [`Error::Contact`] for waves of fewer than four points,
+    /// [`Error::Run`] for a surface or a form that cannot be used, or for lack of memory.
+    pub fn build(&self) -> Result<Profile, Error> {
+        let scene = self.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
+        if let Some(last) = scene.spectrum().map(|spectrum| spectrum.last)
+            && last > scene.numerics.points / SPRINGS_PER_WAVE
+        {
+            let allowed =
+                "from the first mode to a quarter of the number of points, for four springs to a wave";
+            return Err(
+                ContactError::Value { name: "last mode".to_owned(), value: last as f64, allowed }.into()
+            );
+        }
+        Ok(self.simulation().profile(&scene)?)
+    }
+
+    /// Makes the profile of the form with these heights (m), one for each point, in place of a roughness. Point N/2, rounded
+    /// down, is on the axis of the form.
+    ///
+    /// ```
+    /// use asperity_scene::ProfileBuilder;
+    ///
+    /// let bump = |point: u32| if point == 60 { 1.0e-6 } else { 0.0 };
+    /// let profile = ProfileBuilder::new(1.0e-4, 100).sphere(1.0e-3).build_with((0..100).map(bump).collect())?;
+    /// assert_eq!(profile.gaps()[60], 0.0);
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Self::build`], and [`Error::Contact`] for another number of heights or a height that is not finite.
+    pub fn build_with(&self, heights: Vec<f64>) -> Result<Profile, Error> {
+        let smooth = ProfileBuilder { roughness: None, surface: None, ..self.clone() };
+        let scene = smooth.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
+        let value =
+            |name: String, value: f64, allowed| Err(ContactError::Value { name, value, allowed }.into());
+        if heights.len() != self.points {
+            let name = "number of heights".to_owned();
+            return value(name, heights.len() as f64, "the number of points of the profile");
+        }
+        if let Some(index) = heights.iter().position(|height| height.abs() > 1e50 || height.is_nan()) {
+            return value(format!("height with index {index}"), heights[index], "from -1e50 to 1e50 m");
+        }
+        let line = Line::from_roughness(heights, self.length, scene.form.as_ref(), 1.0);
+        Ok(crate::simulation::stages::profile_of(&line.map_err(RunError::from)?)?)
+    }
+
+    /// The scene with this profile, modulus, adhesion and loading. Other fields can be changed by [`CheckedScene::with`].
+    ///
+    /// # Errors
+    /// [`Error::Values`] for values out of their ranges.
+    pub fn scene(
+        &self,
+        modulus: Modulus,
+        adhesion: Option<Adhesion>,
+        loading: &[Move],
+    ) -> Result<CheckedScene, Error> {
+        let scene = Scene {
+            form: self.form.clone(),
+            roughness: self.roughness.clone(),
+            adhesion,
+            loading: loading.to_vec(),
+            numerics: Numerics { points: self.points as u64, ..Numerics::default() },
+            ..Scene::new(Material::effective(modulus.pascals()), self.length)
+        };
+        Ok(scene.checked()?)
+    }
+
+    /// κ, e_el/γ and the amplitude of the roughness, for a modulus and an adhesion.
+    ///
+    /// ```
+    /// use asperity_contact::Modulus;
+    /// use asperity_scene::{Adhesion, ProfileBuilder};
+    ///
+    /// let rough = ProfileBuilder::new(1.0e-4, 4096).self_affine(0.7).rms_height(1.0e-7).modes(1, 1024);
+    /// let modulus = Modulus::effective(2.0e6)?;
+    /// let governing = rough.governing(modulus, Some(Adhesion::by_work(0.02)))?;
+    /// let amplitude = governing.amplitude.unwrap();
+    /// let expected = (1.0e-7 * amplitude.rms_gradient * 2.0e6 / 0.02).sqrt();
+    /// assert!((governing.kappa.unwrap() / expected - 1.0).abs() < 1e-12);
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Self::build`].
+    pub fn governing(&self, modulus: Modulus, adhesion: Option<Adhesion>) -> Result<Governing, Error> {
+        let scene = self.scene(modulus, adhesion, &[Move::ToTouch])?;
+        Ok(self.simulation().make_line(&scene)?.2)
+    }
+
+    /// Loads a contact with this profile, and computes all results of a scene: force curve and figures, κ, e_el/γ, Tabor
+    /// number, F_a,max, the adhesion forces after turns at first touch and at zero force, and the regimes.
+    ///
+    /// ```
+    /// use asperity_contact::{Modulus, Move};
+    /// use asperity_scene::{Adhesion, ProfileBuilder, Regime, RoughnessParameter};
+    ///
+    /// let rough = ProfileBuilder::new(1.0e-4, 4096).self_affine(0.7).rms_height(1.0e-7).modes(1, 1024);
+    /// let kappa = Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0);
+    /// let stages = [Move::ToForce(1.0e-5), Move::ToSeparation];
+    /// let outcome = rough.run(Modulus::effective(2.0e6)?, Some(kappa), &stages)?;
+    /// assert_eq!(outcome.regime, Some(Regime::PressureInsensitive));
+    /// assert!((0.85..0.88).contains(&outcome.adhesion_share().unwrap()));
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Self::build`], and [`Error::Contact`] for a stage out of reach.
+    pub fn run(
+        &self,
+        modulus: Modulus,
+        adhesion: Option<Adhesion>,
+        loading: &[Move],
+    ) -> Result<Outcome, Error> {
+        let scene = self.scene(modulus, adhesion, loading)?;
+        Ok(self.simulation().run(&scene, &|| false, &mut |_, _, _| Ok(()))?)
+    }
+
+    fn simulation(&self) -> Simulation {
+        let simulation = Simulation::default().for_one_scene();
+        match &self.surface {
+            Some(surface) => simulation.with_measured(Arc::clone(surface)),
+            None => simulation,
+        }
+    }
+}

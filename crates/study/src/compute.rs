@@ -1,0 +1,177 @@
+//! Computation of the streaks of a plan on all cores, and of a whole plan in memory; no bit of a result depends on the number
+//! of threads.
+
+use super::cells::{Cells, Streak};
+use super::error::StudyError;
+use super::measured::profile;
+use super::plan::Plan;
+use super::recorder::{Recorded, Recorder};
+use super::results::Results;
+use asperity_contact::ContactError;
+use asperity_data::{Control, on_threads};
+use asperity_scene::Simulation;
+use asperity_surface::MeasuredRoughness;
+use std::panic::resume_unwind;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
+use std::thread::Builder;
+
+/// The streaks of a plan that are computed, and with what.
+pub(super) struct Streaks<'a> {
+    pub cells: &'a Cells<'a>,
+    /// Units of the plan, by their numbers.
+    pub units: &'a [u64],
+    /// Returns true for a streak with a missing record.
+    pub is_missing: &'a (dyn Fn(&Streak) -> bool + Sync),
+    /// The measured roughness of the plan, if it has one: read once, so that all threads compute from the same bytes.
+    pub profile: Option<&'a Arc<MeasuredRoughness>>,
+}
+
+impl Streaks<'_> {
+    /// Computes the missing streaks on this number of threads, until `stop` returns true after a streak. `receive` takes each
+    /// streak with its records on the thread that computed it, and returns false to end the computation.
+    ///
+    /// # Errors
+    /// Too little memory for a record.
+    pub fn compute(
+        &self,
+        plan: &Plan,
+        threads: usize,
+        stop: &(dyn Fn() -> bool + Sync),
+        receive: &(dyn Fn(Streak, Vec<Recorded>) -> bool + Sync),
+    ) -> Result<(), StudyError> {
+        let ended = &AtomicBool::new(false);
+        let worker = || {
+            let simulation = Simulation::new(PathBuf::new());
+            let simulation = match self.profile {
+                Some(profile) => simulation.with_measured(Arc::clone(profile)),
+                None => simulation,
+            };
+            let mut recorder = Recorder::new(plan, simulation, &|| false);
+            move |number: u64| -> Result<(), StudyError> {
+                for streak in self.cells.streaks(self.units[number as usize]) {
+                    if !(self.is_missing)(&streak) {
+                        continue;
+                    }
+                    if stop() || ended.load(Ordering::SeqCst) {
+                        break;
+                    }
+                    let records = recorder.record_each(&streak).map_err(|error| {
+                        ended.store(true, Ordering::SeqCst);
+                        let (cell, seed) = (streak.cells.start, plan.seed_of(streak.line));
+                        let place = format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
+                        StudyError::Run { place, error }
+                    })?;
+                    ended.fetch_or(!receive(streak, records), Ordering::SeqCst);
+                }
+                Ok(())
+            }
+        };
+        on_threads(self.units.len() as u64, threads, worker).map(drop)
+    }
+}
+
+/// Computes all records of a plan in memory. A record that cannot be computed keeps the reason in place of its values. The
+/// progress is the number of records.
+///
+/// # Errors
+/// A measured file cannot be read, too little memory, no threads, or a stop.
+///
+/// ```
+/// use asperity_data::Control;
+/// use asperity_study::{Plan, Quantity, compute};
+///
+/// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "1024")?;
+/// let plan = Plan::new(&scene, &[("adhesion.kappa", &[1.0, 8.0, 40.0])], 4, &[Quantity::AdhesionShare])?;
+/// let results = compute(&plan, Control::default())?;
+/// let median = |cell| results.statistics(cell, Quantity::AdhesionShare).map(|one| one.quartiles[1]);
+/// assert!(median(0) > median(1) && median(1) > median(2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn compute(plan: &Plan, mut control: Control<'_>) -> Result<Results, StudyError> {
+    let (threads, stop) = (control.threads(), control.stop());
+    StudyError::check_threads(threads)?;
+    plan.memory(threads as u64)?;
+    let profile = profile(plan, Path::new(""))?;
+    let cells = Cells::of(plan);
+    let units: Vec<u64> = (0..cells.units()).collect();
+    let streaks = Streaks { cells: &cells, units: &units, is_missing: &|_| true, profile: profile.as_ref() };
+    let mut results = Results::empty(plan.clone())?;
+    let (sender, receiver) = channel();
+    let work = move || {
+        // The receiver lives until all threads have ended.
+        let send = move |streak, records| sender.send((streak, records)).is_ok();
+        streaks.compute(plan, threads, stop, &send)
+    };
+    let mut done = 0;
+    std::thread::scope(|scope| {
+        let computing = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
+        for (streak, records) in receiver.iter() {
+            done += records.len() as u64;
+            let places = streak.cells.map(|cell| cell * plan.lines + streak.line);
+            places.zip(records).for_each(|(place, one)| results.set_record(place, one));
+            control.report(done);
+        }
+        computing.join().unwrap_or_else(|panic| resume_unwind(panic))
+    })?;
+    if done < plan.records_in_all() {
+        let error = ContactError::Interrupted.into();
+        return Err(StudyError::Run { place: String::new(), error });
+    }
+    Ok(results)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quantity::Quantity;
+    use asperity_scene::open;
+
+    fn plan() -> Plan {
+        let document = open("pressure-sensitive").unwrap().set("numerics.points", "1024").unwrap();
+        let axes: [(&str, &[f64]); 2] = [("roughness.hurst", &[0.3, 0.7]), ("preload", &[0.01, 0.1, 1e9])];
+        Plan::new(&document, &axes, 3, &[Quantity::AdhesionForce, Quantity::Regime]).unwrap()
+    }
+
+    /// Each record is that of a recorder of its own; one that cannot be computed has its reason.
+    #[test]
+    fn a_plan_in_memory_has_the_records_of_single_cells() {
+        let plan = plan();
+        let mut parts = Vec::new();
+        let mut see = |done| parts.push(done);
+        let found = compute(&plan, Control::default().on_threads(3).reporting_to(&mut see)).unwrap();
+        assert_eq!(compute(&plan, Control::default().on_threads(1)).unwrap(), found);
+        assert_eq!(parts, [3, 6, 9, 12, 15, 18]);
+        for (cell, line) in (0..plan.cells()).flat_map(|cell| (0..plan.lines).map(move |line| (cell, line))) {
+            let mut recorder = Recorder::new(&plan, Simulation::default(), &|| false);
+            let one = &recorder.record_each(&Streak { cells: cell..cell + 1, line }).unwrap()[0];
+            let values = plan.record.iter().map(|quantity| found.value(cell, line, *quantity));
+            let expected = plan.record.iter().enumerate().map(|(index, _)| {
+                one.as_ref().ok().map(|values| values[index]).filter(|value| !value.is_nan())
+            });
+            assert!(values.eq(expected), "{cell} {line}: {one:?}");
+        }
+        assert_eq!(found.failed().count(), 6);
+    }
+
+    #[test]
+    fn a_plan_that_is_stopped_or_without_threads_is_an_error() {
+        let plan = plan();
+        let stopped = compute(&plan, Control::default().stopped_by(&|| true)).unwrap_err();
+        assert!(stopped.is_interruption(), "{stopped}");
+        let none = compute(&plan, Control::default().on_threads(0)).unwrap_err();
+        assert_eq!(none.to_string(), "0 threads; allowed: at least one");
+        let document = open("pressure-sensitive").unwrap();
+        for (path, values, said) in [
+            ("roughness.hurts", &[0.3][..], "did you mean roughness.hurst?"),
+            ("roughness.hurst", &[], "no values; allowed: at least one"),
+            ("roughness.hurst", &[f64::NAN], "values must be finite"),
+            ("roughness.hurst", &[1.5], "allowed: "),
+        ] {
+            let error = Plan::new(&document, &[(path, values)], 2, &[Quantity::Regime]).unwrap_err();
+            assert!(error.to_string().contains(said), "{path}: {error}");
+        }
+    }
+}

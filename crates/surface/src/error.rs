@@ -1,0 +1,197 @@
+//! The error of this crate: the place, what was found there, and what is allowed.
+
+use asperity_data::{OutOfMemory, ReadError, printable};
+use std::fmt;
+use std::path::Path;
+use thiserror::Error;
+
+/// Number of characters from which on a text of a file is shortened in messages.
+const MOST_SHOWN: usize = 40;
+
+/// Place of a fault. Lines and points count from 1; bytes count from 0, after decompression.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Place {
+    /// The file, or the argument, as a whole.
+    #[default]
+    File,
+    /// A line of a text.
+    Line(usize),
+    /// A point of a surface or of a curve.
+    Point(usize),
+    /// A byte, by its offset.
+    Byte(usize),
+    /// Named part of a container: a file of an archive, an element, a channel.
+    Part(String),
+    /// A field of the scene.
+    Field(&'static str),
+    /// A place in the file of the measurement with this name.
+    Measurement(String, Box<Place>),
+    /// A place in one of several surfaces, by its index from 0.
+    Surface(usize, Box<Place>),
+    /// A place in a file that a field of the scene names: the field, the path of the file, and the place in it.
+    FileOf(&'static str, String, Box<Place>),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::File => Ok(()),
+            Place::Line(number) => write!(f, "line {number}: "),
+            Place::Point(number) => write!(f, "point {number}: "),
+            Place::Byte(offset) => write!(f, "byte {offset}: "),
+            Place::Part(name) => write!(f, "{}: ", shortened(name)),
+            Place::Field(name) => write!(f, "{name}: "),
+            Place::Measurement(name, place) => write!(f, "{}: {place}", shortened(name)),
+            Place::Surface(_, place) => place.fmt(f),
+            Place::FileOf(field, file, place) => write!(f, "{field} = {file:?}: {place}"),
+        }
+    }
+}
+
+impl Place {
+    /// This place and all places inside which it lies, from the outermost to the innermost.
+    fn all(&self) -> impl Iterator<Item = &Place> {
+        std::iter::successors(Some(self), |place| match place {
+            Place::Measurement(_, inner) | Place::Surface(_, inner) | Place::FileOf(_, _, inner) => {
+                Some(&**inner)
+            }
+            _ => None,
+        })
+    }
+}
+
+/// Reason why a surface, a form or a profile cannot be read, made or analysed. The caller prepends the name of the file,
+/// unless the place has it.
+///
+/// ```
+/// use asperity_surface::{ReadOptions, SurfaceError, Unit, parse};
+///
+/// let metres = ReadOptions { unit: Some(Unit::METRE), ..ReadOptions::default() };
+/// let error = parse(b"0 1\n1 bad\n2 3\n", &metres).unwrap_err();
+/// assert_eq!(error.line(), Some(2));
+/// assert!(matches!(error, SurfaceError::Refused { allowed, .. } if allowed.contains("--interpolate")));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SurfaceError {
+    /// A value, a file or a request is not allowed.
+    #[error("{place}{found}; allowed: {allowed}")]
+    Refused {
+        /// Place of the fault.
+        place: Place,
+        /// What was found there, in words.
+        found: String,
+        /// What is allowed there, and the option that helps, in words.
+        allowed: String,
+    },
+    /// The system cannot read a file.
+    #[error("{place}{reason}")]
+    Unreadable {
+        /// The file.
+        place: Place,
+        /// The reason of the system.
+        reason: String,
+    },
+    /// The Fourier transform refused its input.
+    #[error("the Fourier transform failed: {0}")]
+    Transform(String),
+    /// An array does not fit into memory.
+    #[error("{place}{error}")]
+    OutOfMemory {
+        /// The surface or the field of the scene that takes the memory.
+        place: Place,
+        /// The missing memory.
+        error: OutOfMemory,
+    },
+}
+
+impl SurfaceError {
+    /// Place of the fault.
+    pub fn place(&self) -> &Place {
+        match self {
+            SurfaceError::Refused { place, .. }
+            | SurfaceError::Unreadable { place, .. }
+            | SurfaceError::OutOfMemory { place, .. } => place,
+            SurfaceError::Transform(_) => &Place::File,
+        }
+    }
+
+    /// Number of the line of the fault, from 1; `None` for a fault elsewhere.
+    pub fn line(&self) -> Option<usize> {
+        self.place()
+            .all()
+            .find_map(|place| if let Place::Line(number) = place { Some(*number) } else { None })
+    }
+
+    /// Index of the surface with the fault, from 0; `None` if the fault lies in all surfaces together.
+    pub fn surface(&self) -> Option<usize> {
+        self.place()
+            .all()
+            .find_map(|place| if let Place::Surface(index, _) = place { Some(*index) } else { None })
+    }
+
+    /// Field of the scene with the fault, such as `roughness.file`; `None` for a surface that belongs to no scene.
+    pub fn field(&self) -> Option<&'static str> {
+        self.place().all().find_map(|place| match place {
+            Place::Field(name) | Place::FileOf(name, ..) => Some(*name),
+            _ => None,
+        })
+    }
+
+    /// Path of the file that a scene names; `None` for a fault outside of such a file.
+    pub fn file(&self) -> Option<&str> {
+        self.place()
+            .all()
+            .find_map(|place| if let Place::FileOf(_, file, _) = place { Some(&**file) } else { None })
+    }
+
+    /// The error, with a place around its place.
+    #[must_use]
+    pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
+        match &mut self {
+            SurfaceError::Refused { place, .. }
+            | SurfaceError::Unreadable { place, .. }
+            | SurfaceError::OutOfMemory { place, .. } => *place = outer(Box::new(std::mem::take(place))),
+            SurfaceError::Transform(_) => {}
+        }
+        self
+    }
+
+    /// The error of a file with a measured surface that a scene names.
+    #[must_use]
+    pub fn in_measured(self, file: &Path) -> Self {
+        self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
+    }
+
+    /// The error of the springs of a profile that do not fit into memory.
+    pub fn of_springs(error: OutOfMemory) -> Self {
+        SurfaceError::OutOfMemory { place: Place::Field("numerics.points"), error }
+    }
+}
+
+impl From<OutOfMemory> for SurfaceError {
+    fn from(error: OutOfMemory) -> Self {
+        SurfaceError::OutOfMemory { place: Place::File, error }
+    }
+}
+
+impl From<ReadError> for SurfaceError {
+    fn from(error: ReadError) -> Self {
+        SurfaceError::Unreadable { place: Place::File, reason: error.to_string() }
+    }
+}
+
+/// Creates the error of a place: what was found there and what is allowed.
+pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> SurfaceError {
+    SurfaceError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
+}
+
+/// Text of a file, for a message: on one line and shortened.
+pub fn shortened(text: &str) -> String {
+    let short = match text.char_indices().nth(MOST_SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    };
+    printable(&short).into_owned()
+}

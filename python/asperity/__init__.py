@@ -1,0 +1,68 @@
+"""Adhesion of rough elastic contacts: exact hysteresis loops by the method of dimensionality reduction.
+
+    import asperity as asp
+
+    ball = asp.profile("100 µm", form=asp.sphere("100 µm"))
+    loop = asp.load(ball, modulus="1 MPa", work="50 mJ/m²", stages="100 µN, separation")
+    loop.pull_off                                     # N, (3/2)πγR by Johnson, Kendall and Roberts
+
+A quantity is a number in SI units or a text with its unit. Compressive forces are positive, and the indentation is 0 at first
+touch. Long calls run without the lock of Python and stop at Ctrl-C.
+"""
+
+from ._functions import (
+    cone,
+    ensemble,
+    find,
+    load,
+    power,
+    preloads,
+    presets,
+    profile,
+    punch,
+    reference,
+    reversals,
+    run,
+    scene,
+    self_affine,
+    sphere,
+    table,
+    wavy_sphere,
+)
+from ._native import FieldError, LoadingError, Loop, Profile, Scene, __version__, quantity
+from ._notation import Form
+from ._results import Ensemble, Found, Outcome, Preloads, Reference, Result, Reversals
+
+__all__ = [
+    "Ensemble",
+    "FieldError",
+    "Form",
+    "Found",
+    "LoadingError",
+    "Loop",
+    "Outcome",
+    "Preloads",
+    "Profile",
+    "Reference",
+    "Result",
+    "Reversals",
+    "Scene",
+    "cone",
+    "ensemble",
+    "find",
+    "load",
+    "power",
+    "preloads",
+    "presets",
+    "profile",
+    "punch",
+    "quantity",
+    "reference",
+    "reversals",
+    "run",
+    "scene",
+    "self_affine",
+    "sphere",
+    "table",
+    "wavy_sphere",
+]

@@ -1,0 +1,18 @@
+"""The program: `asperity` and `python -m asperity` open the explorer and run its commands."""
+
+import signal
+import sys
+
+
+def main() -> int:
+    """Runs the program with the arguments of this process."""
+    from asperity._native import program
+
+    # The program handles the terminal and its signals itself; an interrupt ends a command at once.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    return program(sys.argv)
+
+
+if __name__ == "__main__":
+    sys.argv[0] = "asperity"
+    sys.exit(main())
