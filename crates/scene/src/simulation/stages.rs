@@ -15,7 +15,7 @@ use asperity_contact::{
 };
 use asperity_data::{check_room, emptied};
 use asperity_surface::Form;
-use asperity_surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
+use asperity_surface::{EquivalentLine, Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
 use std::mem::take;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -110,6 +110,15 @@ impl Simulation {
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
+    }
+
+    /// The equivalent line of the measured surface of the scene whose profile was made last.
+    pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
+        let RoughnessMaker { measured, equivalent, .. } = &self.maker;
+        match &**measured.as_ref().or(equivalent.as_ref().map(|(.., surface)| surface))? {
+            MeasuredRoughness::Equivalent(line) => Some(line),
+            MeasuredRoughness::Profile(_) => None,
+        }
     }
 
     /// Creates a simulation for the same files and the same measured surface, without any kept stage.
