@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 200;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 15] = [
+const PAGES: [(&str, &str); 16] = [
     ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
     ("scene-file.md", "fields of a scene, waves, loading, forms, built-in scenes"),
     ("results.md", "summary, JSON, tables, figures"),
@@ -35,6 +35,7 @@ const PAGES: [(&str, &str); 15] = [
     ("model.md", "equations, regimes, other theories, validity"),
     ("findings.md", "claims of the paper, boundary of adhesion, stiffness: citable results"),
     ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of profiles"),
+    ("line-and-three-dimensions.md", "how far to trust the line: the same contact in three dimensions"),
     ("performance.md", "times, latency of the explorer, memory"),
     ("terms.md", "symbols, units, signs, words"),
     ("errors.md", "exit codes, remedies"),
