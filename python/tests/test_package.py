@@ -70,9 +70,9 @@ class Loops(unittest.TestCase):
 
 
 class Refusals(unittest.TestCase):
-    def refused(self, error, sentence, work, *arguments, **named):
+    def refused(self, error, sentence, function, /, *arguments, **named):
         with self.assertRaises(error) as raised:
-            work(*arguments, **named)
+            function(*arguments, **named)
         self.assertRegex(str(raised.exception), sentence)
         self.assertIs(type(raised.exception), error)
         return raised.exception
@@ -190,6 +190,7 @@ class Computations(unittest.TestCase):
                     work()
                 except KeyboardInterrupt:
                     print("stopped", flush=True)
+            time.sleep(0.5)
             print(len(os.listdir("/proc/self/task")))
             """
         child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
@@ -245,6 +246,12 @@ class Documentation(unittest.TestCase):
                 os.chdir(here)
         self.assertGreater(len(test.examples), 10)
         self.assertEqual(failed, 0)
+
+    def test_the_code_of_the_root_readme_runs(self):
+        text = (HERE.parent / "README.md").read_text(encoding="utf-8")
+        code = re.search(r"```python\n(.*?)```", text, re.DOTALL)
+        done = subprocess.run([sys.executable, "-c", code[1]], capture_output=True, text=True)
+        self.assertRegex(done.stdout, r"^2\.356\d+e-05 N \{'pressure-sensitive': \d+")
 
     def test_examples_run(self):
         scripts = sorted((HERE / "examples").glob("*.py"))
