@@ -40,6 +40,23 @@ impl Figure {
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart.
+    ///
+    /// ```
+    /// use asperity_data::AxisScale;
+    /// use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Span, Stroke};
+    ///
+    /// let axis = |name, symbol, unit| {
+    ///     ChartAxis::new(AxisScale::Linear, Span { low: 0.0, high: 1e-6 }, name, symbol, unit)
+    /// };
+    /// let line = Shape::line(vec![(0.0, 0.0), (1e-6, 1e-6)], Stroke::Solid);
+    /// let chart = Chart::new(
+    ///     axis("indentation", "d", "m"),
+    ///     axis("force", "F", "N"),
+    ///     vec![Layer::new("loading".into(), Ink::Loading, line)],
+    /// );
+    /// let svg = Figure::of_chart("A straight line", chart).svg();
+    /// assert!(svg.starts_with("<svg") && svg.contains("A straight line"));
+    /// ```
     pub fn of_chart(title: &str, chart: Chart) -> Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }

@@ -172,7 +172,7 @@ mod tests {
         assert!(text.contains("Different from A to B: γ 50 mJ/m² → 100 mJ/m²\n"), "{text}");
         assert!(text.contains("Different from A to C: nothing\n"), "{text}");
         // The pull-off force of a sphere is proportional to the work of adhesion.
-        assert!(text.contains("adhesion force F_a     23.56 µN              47.12 µN (×2)\n"), "{text}");
+        assert!(text.contains("adhesion force F_a       23.56 µN              47.12 µN (×2)\n"), "{text}");
         let named: Vec<String> =
             report.drawn(true).legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(named[..3], ["A: ", "B: ", "C: "].map(|letter| format!("{letter}{}", first.title())));

@@ -292,13 +292,8 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
         sheet.row_of(label, (count > 0).then(|| grouped(count)));
     }
     let Timings { line, tree, passes, curve, zero_load } = *timings;
-    let stages = [
-        ("line", line),
-        ("tree", tree),
-        ("loop", passes),
-        ("curve", curve),
-        ("without preload", zero_load),
-    ];
+    let stages =
+        [("line", line), ("tree", tree), ("loop", passes), ("curve", curve), ("without preload", zero_load)];
     let stages = stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
     let total = format_quantity(timings.total(), "s");
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
@@ -351,7 +346,9 @@ mod tests {
         // Without times and the solver's own counts of work.
         outcome.timings = Timings { line: 1.5e-3, ..Timings::default() };
         let springs = outcome.history.work.springs;
-        outcome.history.work = Work { springs, tree_nodes: springs, attached: 1_234_567, ..Work::default() };
+        outcome.history.work = Work::default();
+        let work = &mut outcome.history.work;
+        (work.springs, work.tree_nodes, work.attached) = (springs, springs, 1_234_567);
         text(scene, &outcome, None)
     }
 

@@ -23,6 +23,16 @@ const THIS_PROGRAM: Criterion =
 ///
 /// Criteria of roughness are left out for a smooth body, and all criteria for a scene without adhesion. A form does not enter
 /// the criteria of roughness.
+///
+/// ```
+/// use asperity_study::criteria;
+///
+/// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
+/// let rows = criteria(scene.scene(), &asperity_scene::run(&scene)?, None);
+/// assert_eq!(rows[0].name, "Tabor number");
+/// assert!(rows[1..].iter().all(|row| row.sticks == Some(true)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn criteria(scene: &Scene, outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let governing = &outcome.governing;
     let Some((work, adhesion)) = governing.adhesive_work().zip(scene.adhesion) else { return Vec::new() };

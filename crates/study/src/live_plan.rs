@@ -41,6 +41,15 @@ fn kappas() -> Vec<f64> {
 ///
 /// # Errors
 /// The reason why the scene has no map.
+///
+/// ```
+/// use asperity_study::{MAP_LINES, live_plan};
+///
+/// let plan = live_plan(asperity_scene::open("pressure-sensitive")?.scene())?;
+/// assert_eq!((plan.axes[0].path.as_str(), plan.lines), ("adhesion.kappa", MAP_LINES));
+/// assert!(live_plan(asperity_scene::open("jkr-sphere")?.scene()).unwrap_err().contains("smooth"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn live_plan(scene: &Scene) -> Result<Plan, &'static str> {
     let adhesion = scene
         .adhesion

@@ -82,6 +82,24 @@ impl MeasuredAdhesion {
     ///
     /// # Errors
     /// The scene has no equivalent line of a measured surface, a file cannot be read, or a profile fails: the first one.
+    ///
+    /// ```
+    /// use asperity_study::MeasuredAdhesion;
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+    /// let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
+    /// std::fs::write(folder.path().join("line.txt"), format!("x [um] z [nm]\n{rows}"))?;
+    /// let text = r#"(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: (work: 0.05),
+    ///     roughness: Measured(file: "line.txt"), numerics: (points: 1024),
+    ///     loading: [ToForce(1.0e-4), ToSeparation])"#;
+    /// std::fs::write(folder.path().join("scene.ron"), text)?;
+    /// let scene = asperity_scene::open(&folder.path().join("scene.ron").display().to_string())?;
+    /// let found = MeasuredAdhesion::of(&scene, 4, 2)?;
+    /// let (low, high) = found.fit_interval().ok_or("no force")?;
+    /// assert!(found.adhesion_force().is_some_and(|all| low < all.quartiles[1] && all.quartiles[1] < high));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
         let scene = document.scene();
         StudyError::check_profiles(scene, u64::from(count))?;

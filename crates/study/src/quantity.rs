@@ -234,6 +234,14 @@ impl Quantity {
     ///
     /// # Errors
     /// No quantity or several quantities have this name; the possible ones are named.
+    ///
+    /// ```
+    /// use asperity_study::Quantity;
+    ///
+    /// assert_eq!(Quantity::named("dissipated energy"), Ok(Quantity::DissipatedEnergy));
+    /// assert_eq!(Quantity::DissipatedEnergy.unit(), "J");
+    /// assert!(Quantity::named("F_b").is_err());
+    /// ```
     pub fn named(text: &str) -> Result<Quantity, String> {
         let text = text.trim();
         if let Some(refused) = renamed(text) {
