@@ -379,9 +379,9 @@ def press(
     return Values(found, pressure=found.pressure.reshape(cells, cells), gap=found.gap.reshape(cells, cells))
 
 
-def presets() -> dict[str, str]:
-    """Names and titles of the built-in scenes."""
-    return dict(_native.presets())
+def presets() -> list[str]:
+    """Names of the built-in scenes."""
+    return _native.presets()
 
 
 def _scene(name: AnyScene, fields: Mapping[str, Any]) -> Scene:

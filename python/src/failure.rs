@@ -46,22 +46,26 @@ impl Failure {
             Failure::File(message) | Failure::Memory(message) | Failure::Value(message) => message,
         }
     }
+}
 
-    /// The exception of Python; those with values are classes of the package.
-    pub fn exception(self, py: Python<'_>) -> PyErr {
-        let classes = || py.import("asperity._errors");
-        let made = match self {
-            Failure::Field(message, [field, value, allowed]) => {
-                classes().and_then(|of| of.call_method1("FieldError", (message, field, value, allowed)))
-            }
-            Failure::Loading(message, (stage, smallest)) => {
-                classes().and_then(|of| of.call_method1("LoadingError", (message, stage, smallest)))
-            }
-            Failure::File(message) => return PyOSError::new_err(message),
-            Failure::Memory(message) => return PyMemoryError::new_err(message),
-            Failure::Value(message) => return PyValueError::new_err(message),
-        };
-        made.map_or_else(|error| error, PyErr::from_value)
+/// The exception of Python; those with values are classes of the package.
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> PyErr {
+        Python::attach(|py| {
+            let class = |name| py.import("asperity._errors").and_then(|errors| errors.getattr(name));
+            let made = match failure {
+                Failure::Field(message, [field, value, allowed]) => {
+                    class("FieldError").and_then(|class| class.call1((message, field, value, allowed)))
+                }
+                Failure::Loading(message, (stage, smallest)) => {
+                    class("LoadingError").and_then(|class| class.call1((message, stage, smallest)))
+                }
+                Failure::File(message) => return PyOSError::new_err(message),
+                Failure::Memory(message) => return PyMemoryError::new_err(message),
+                Failure::Value(message) => return PyValueError::new_err(message),
+            };
+            made.map_or_else(|error| error, PyErr::from_value)
+        })
     }
 }
 

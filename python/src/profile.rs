@@ -18,9 +18,9 @@ pub struct Profile {
 #[pymethods]
 impl Profile {
     #[new]
-    fn new(py: Python<'_>, heights: PyReadonlyArray1<'_, f64>, spacing: f64) -> PyResult<Self> {
+    fn new(heights: PyReadonlyArray1<'_, f64>, spacing: f64) -> PyResult<Self> {
         let profile = asperity::Profile::from_heights(heights.as_slice()?, spacing);
-        Ok(Profile { profile: profile.map_err(|error| Failure::from(error).exception(py))? })
+        Ok(Profile { profile: profile.map_err(Failure::from)? })
     }
 
     /// The profile of a scene.

@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 
 /// The number of a text such as `"2.7 MPa"`, for a field of the unit `"Pa"`.
 #[pyfunction]
-pub fn parsed(py: Python<'_>, text: &str, unit: &str, field: &str) -> PyResult<f64> {
-    parse_quantity(text, unit).map_err(|error| Failure::explained(field, text, &error).exception(py))
+pub fn parsed(text: &str, unit: &str, field: &str) -> Result<f64, Failure> {
+    parse_quantity(text, unit).map_err(|error| Failure::explained(field, text, &error))
 }
 
 /// A number with its unit as people read it: `2.5 MPa`.
