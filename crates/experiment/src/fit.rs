@@ -78,7 +78,8 @@ pub struct FitResult {
     /// Root mean square residual of the points in contact over the noise; points inside a jump of the model count as
     /// described, and other single points count as 5 times that root mean square.
     pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve as well.
+    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve
+    /// equally well.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values.

@@ -188,8 +188,9 @@ mod tests {
                 to
             };
             let (of_one, of_other) = (on(&one), on(&other));
-            let product =
-                |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>();
+            let product = |a: &[f32], b: &[f32]| {
+                a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>()
+            };
             let (left, right) = (product(&one, &of_other), product(&other, &of_one));
             assert!((left - right).abs() < 1e-6 * product(&one, &of_one).abs(), "{left} {right}");
             assert!(product(&one, &of_one) > 0.0);

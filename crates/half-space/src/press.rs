@@ -166,10 +166,11 @@ impl Grid {
     /// Level of the contact: the given indentation, or the mean over the contact.
     fn find_level(&mut self, given: Given) {
         let mean = || {
-            let [total, count] = sums([&self.displacement, &self.depths], [&self.outside], |[u, z], [out]| {
-                let on = 1.0 - f64::from(out);
-                [on * (u + z), on]
-            });
+            let [total, count] =
+                sums([&self.displacement, &self.depths], [&self.outside], |[u, z], [out]| {
+                    let on = 1.0 - f64::from(out);
+                    [on * (u + z), on]
+                });
             total / f64::max(count, 1.0)
         };
         self.level = match given {

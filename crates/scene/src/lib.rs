@@ -44,7 +44,8 @@ pub use scene::open::{is_file_name, is_path, open, open_argument};
 pub use scene::range::Range;
 pub use scene::read::explain;
 pub use scene::stages::{
-    STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_loading, read_stage, stage_in_ron,
+    STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_loading, read_stage,
+    stage_in_ron,
 };
 pub use scene::statements::{Statement, statements};
 pub use scene::text::index::{Text, TextSpan, line_column};

@@ -53,7 +53,7 @@ impl LoadingOutcome {
     }
 }
 
-/// Properties that depend on the profile and the elasticity alone.
+/// Properties that depend only on the profile and the elasticity.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ProfileRecord {
     /// Rms height about the mean, m, without the form.

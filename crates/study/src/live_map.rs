@@ -230,7 +230,7 @@ mod tests {
             places.iter().map(value).collect::<Vec<_>>().join(", ")
         };
         let text = format!(
-            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [first_touch_adhesion_share, \
+            "(version: 1, title: \"Map\", scene: {}, profiles: {}, record: [first_touch_adhesion_share, \
              adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force, adhesion_share], axes: [List(path: \"adhesion.kappa\", values: [{}]), \
              List(path: \"roughness.hurst\", values: [{}])])",
             to_ron(&live.plan().scene),

@@ -76,8 +76,8 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Solves the scene of a document on `count` profiles of its measured surface: those of the scene's seed and of the
-    /// seeds that follow. The files are read with the scene's own options, relative to the folder of the scene file. `jobs`
+    /// Solves the scene of a document on `count` profiles of its measured surface: the scene's seed and the seeds
+    /// that follow. The files are read with the scene's own options, relative to the folder of the scene file. `jobs`
     /// threads share the profiles; no bit of a result depends on their number.
     ///
     /// # Errors

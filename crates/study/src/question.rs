@@ -16,7 +16,7 @@ use std::mem::replace;
 pub const WITHIN: f64 = 1e-9;
 /// Ratio of the ends of the searched range to the number of the scene.
 const FACTOR: f64 = 100.0;
-/// Ratio of the largest searched preload to that of full contact, for a loading without a force.
+/// Ratio of the largest searched preload to the preload of full contact, for a loading without a force.
 const DEEPER: f64 = 10.0;
 /// Number of intervals into which the searched range is divided for a quantity that may fall as well as rise.
 const INTERVALS: usize = 32;

@@ -43,7 +43,7 @@ pub struct Influence {
 /// Results of a scene, and of scenes with one number changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Number of profiles computed so far: those of the seed of the scene and of the seeds that follow.
+    /// Number of profiles computed so far: the seed of the scene and the seeds that follow.
     pub profiles: u64,
     /// Medians of the results of the scene.
     pub present: Values,

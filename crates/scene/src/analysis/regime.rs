@@ -96,10 +96,7 @@ mod tests {
         let [insensitive, sensitive, non_adhesive] = Regime::ALL;
         assert_eq!(non_adhesive.by_protocols(Some(non_adhesive)), "non-adhesive");
         assert_eq!(sensitive.by_protocols(Some(sensitive)), "pressure-sensitive (d=0, F=0)");
-        assert_eq!(
-            sensitive.by_protocols(Some(insensitive)),
-            "pressure-sensitive (d=0), insensitive (F=0)"
-        );
+        assert_eq!(sensitive.by_protocols(Some(insensitive)), "pressure-sensitive (d=0), insensitive (F=0)");
         assert_eq!(sensitive.by_protocols(None), "pressure-sensitive (d=0)");
     }
 

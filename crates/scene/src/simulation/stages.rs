@@ -43,7 +43,7 @@ pub struct Simulation {
     histogram: Option<Histogram>,
     /// The line as the profile of a contact, with its tree.
     profile: Option<Profile>,
-    /// Profile of the form alone, once it was needed for F_smooth.
+    /// Profile of the form without roughness, once it was needed for F_smooth.
     pub(super) smooth: Option<SmoothProfile>,
     /// Contact tree of a former profile, for the reuse of its memory.
     former_tree: ContactTree,
