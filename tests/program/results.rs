@@ -71,7 +71,7 @@ fn assert_plan(plan: &Value, run: &Value, scene: &str) {
     let runs = |name: &str| stage(name)["runs"].as_bool().unwrap();
     let work = |key: &str| run["work"][key].as_u64();
     assert_eq!(plan["springs"].as_u64(), work("springs"), "{scene}");
-    for (name, passes) in [("zero-load-adhesion", "zero_load_passes"), ("synthesis", "transforms")] {
+    for (name, passes) in [("without-preload", "passes_without_preload"), ("synthesis", "transforms")] {
         assert_eq!(stage(name)["passes"].as_u64().unwrap_or(0), work(passes).unwrap(), "{scene}: {name}");
     }
     for (name, done) in [

@@ -120,7 +120,7 @@ fn cells_are_what_single_runs_give() {
                 let figures = pressed.figures;
                 let number = |regime: Option<Regime>| Some(f64::from(regime? as u8));
                 for (quantity, expected) in [
-                    (Quantity::ZeroLoadAdhesionForce, touched.figures.adhesion_force),
+                    (Quantity::FirstTouchAdhesionForce, touched.figures.adhesion_force),
                     (Quantity::ZeroForceAdhesionForce, balanced.figures.adhesion_force),
                     (Quantity::PreloadForce, figures.preload),
                     (Quantity::AdhesionForce, figures.adhesion_force),

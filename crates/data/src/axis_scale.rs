@@ -13,6 +13,13 @@ pub enum AxisScale {
 
 impl AxisScale {
     /// Coordinate of a number; not finite for a number without a logarithm.
+    ///
+    /// ```
+    /// use asperity_data::AxisScale;
+    ///
+    /// assert_eq!(AxisScale::Logarithmic.number(AxisScale::Logarithmic.coordinate(1.0)), 1.0);
+    /// assert_eq!(AxisScale::Linear.coordinate(5.0), 5.0);
+    /// ```
     pub fn coordinate(self, number: f64) -> f64 {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }

@@ -4,6 +4,12 @@ use std::cell::Cell;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 /// Compensated sum (Neumaier), with an error below 2u |Σ t| + O(n u²) Σ |t|.
+///
+/// ```
+/// let mut sum = asperity_data::CompensatedSum::default();
+/// [1.0, 1e100, 1.0, -1e100].into_iter().for_each(|term| sum.add(term));
+/// assert_eq!(sum.total(), 2.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CompensatedSum {
     value: f64,
@@ -45,6 +51,10 @@ pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
 }
 
 /// Median of values, which it reorders; the mean of the two middle values of an even number. `None` without values.
+///
+/// ```
+/// assert_eq!(asperity_data::median(&mut [3.0, 1.0, 2.0, 10.0]), Some(2.5));
+/// ```
 pub fn median(values: &mut [f64]) -> Option<f64> {
     let count = values.len();
     if count == 0 {
@@ -57,6 +67,10 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
 
 /// Quantile of ascending values, of which there is at least one: `share` is 0 at the first value and 1 at the last, with
 /// interpolation between neighbours.
+///
+/// ```
+/// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), 5.0);
+/// ```
 pub fn quantile(ascending: &[f64], share: f64) -> f64 {
     let last = ascending.len() - 1;
     let place = share * last as f64;
@@ -71,6 +85,10 @@ pub fn between(from: f64, to: f64, share: f64) -> f64 {
 }
 
 /// Slope of the least-squares line through points (x, y); `None` for fewer than two different x.
+///
+/// ```
+/// assert_eq!(asperity_data::slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
+/// ```
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
     let (x, y) = (mean(|point| point.0), mean(|point| point.1));

@@ -42,6 +42,14 @@ pub(crate) fn begin_threads<'scope>(
 ///
 /// # Errors
 /// The error of the smallest number that fails.
+///
+/// ```
+/// use asperity_data::on_threads;
+///
+/// let squares = on_threads(5, 2, || |number: u64| Ok::<u64, String>(number * number))?;
+/// assert_eq!(squares, [0, 1, 4, 9, 16]);
+/// # Ok::<(), String>(())
+/// ```
 pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     count: u64,
     jobs: usize,

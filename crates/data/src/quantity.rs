@@ -54,6 +54,14 @@ impl QuantityError {
 ///
 /// # Errors
 /// A text that is not a number, has another unit, or is not finite.
+///
+/// ```
+/// use asperity_data::parse_quantity;
+///
+/// assert_eq!(parse_quantity("2.5 MPa", "Pa"), Ok(2.5e6));
+/// assert_eq!(parse_quantity("80 %", "1"), Ok(0.8));
+/// assert!(parse_quantity("3 s", "N").is_err());
+/// ```
 pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
     let typed = text.trim();
     let (digits, exponent, suffix) =
@@ -149,6 +157,10 @@ fn has_prefixes(unit: &str) -> bool {
 /// A value with its unit for readers, to four digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
 ///
 /// Numbers without a unit have no prefix; where they are much smaller or larger than one they have an exponent.
+///
+/// ```
+/// assert_eq!(asperity_data::format_quantity(2.356e-5, "N"), "23.56 µN");
+/// ```
 pub fn format_quantity(value: f64, unit: &str) -> String {
     format_rounded(value, DIGITS, unit)
 }
@@ -166,6 +178,10 @@ pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
 }
 
 /// A value with its unit, to the second digit of its uncertainty: `50.05 mJ/m²` for ± 0.13 mJ/m².
+///
+/// ```
+/// assert_eq!(asperity_data::format_within(0.050_123, 0.001, "J/m²"), "50.1 mJ/m²");
+/// ```
 pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     if !(uncertainty > 0.0 && uncertainty.is_finite() && value.is_finite()) {
         return format_quantity(value, unit);
@@ -180,6 +196,10 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
 }
 
 /// A range with its unit, written once where both ends have the same prefix: `0.33 to 35 µN`, `26 nN to 35 µN`.
+///
+/// ```
+/// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
+/// ```
 pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> String {
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }

@@ -35,6 +35,10 @@ pub fn si_prefix(power: i32) -> Option<&'static str> {
 }
 
 /// A number rounded to `digits` significant digits.
+///
+/// ```
+/// assert_eq!(asperity_data::round_to(0.1 + 0.2, 12), 0.3);
+/// ```
 pub fn round_to(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
@@ -91,6 +95,10 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
 }
 
 /// An integer with its thousands separated by blanks.
+///
+/// ```
+/// assert_eq!(asperity_data::grouped(131_072), "131 072");
+/// ```
 pub fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut grouped = String::new();

@@ -74,6 +74,19 @@ impl MeasuredCurve {
     ///
     /// # Errors
     /// As [`MeasuredCurve::read`].
+    ///
+    /// ```
+    /// use asperity_experiment::{CurveOptions, MeasuredCurve};
+    /// use std::path::Path;
+    ///
+    /// let way = |i: i32| if i < 150 { i - 100 } else { 200 - i }; // nm
+    /// let rows: String = (0..300).map(way).map(|d| format!("{d},{}\n", 2 * d.max(0))).collect();
+    /// let text = format!("displacement [nm],force [nN]\n{rows}");
+    /// let curve = MeasuredCurve::parse(Path::new("curve.csv"), text.as_bytes(), &CurveOptions::default())?;
+    /// assert_eq!(curve.points().last(), Some((-99e-9, 0.0)));
+    /// assert!(curve.statements[0].contains("2 segments"));
+    /// # Ok::<(), asperity_experiment::ExperimentError>(())
+    /// ```
     pub fn parse(name: &Path, bytes: &[u8], options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
     }

@@ -168,6 +168,13 @@ impl<'a> Fit<'a> {
 
     /// Fits the free parameters to a curve, on one thread. The progress is the number of curves computed so far.
     ///
+    /// A population of parameter sets is drawn over the ranges, evenly in their logarithms. The assumed noise starts large,
+    /// where jumps count little, and is lowered to the noise of the curve. At each step likely sets are copied, unlikely
+    /// sets are dropped, and all are moved (sequential Monte Carlo). A point on the wrong side of a jump counts by the
+    /// logarithm of its residual. Zero, drift and tilt are estimated anew with each model. The population is drawn twice if
+    /// the residual remains above the noise, and the better one is kept. Residuals that are no noise are divided into four
+    /// parts of each segment; the errors are then the scatter of the values if parts are weighted anew (jackknife).
+    ///
     /// # Errors
     /// No free parameter or one given twice, a scene that lacks one, values of the curve that are not allowed, a computation
     /// that fails, or a stop.

@@ -56,6 +56,13 @@ impl Parameter {
     };
 
     /// Names, symbol and unit of the parameter.
+    ///
+    /// ```
+    /// use asperity_experiment::Parameter;
+    ///
+    /// let row = Parameter::Work.row();
+    /// assert_eq!((row.symbol, row.unit, row.term), ("γ", "J/m²", "work of adhesion"));
+    /// ```
     pub fn row(self) -> ParameterRow {
         let row = |name, term, symbol, unit| ParameterRow { name, term, symbol, unit };
         match self {
@@ -102,6 +109,13 @@ impl Parameter {
 
     /// Measurement that would separate two parameters that a curve cannot separate; for the same parameter twice, one that
     /// would determine it.
+    ///
+    /// ```
+    /// use asperity_experiment::Parameter;
+    ///
+    /// let remedy = Parameter::remedy(Parameter::Modulus, Parameter::Radius);
+    /// assert_eq!(remedy, "the radius from an image of the form");
+    /// ```
     pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
         let rows = [

@@ -76,6 +76,14 @@ impl ChartAxis {
     }
 
     /// Label of the axis: name and symbol, with the prefixed unit in brackets.
+    ///
+    /// ```
+    /// use asperity_data::AxisScale;
+    /// use asperity_plot::{ChartAxis, Span};
+    ///
+    /// let axis = ChartAxis::new(AxisScale::Linear, Span { low: 0.0, high: 2e-6 }, "force", "F", "N");
+    /// assert_eq!(axis.label_with_unit().to_string(), "force F (µN)");
+    /// ```
     pub fn label_with_unit(&self) -> Label {
         self.with_unit(Label::quantity(&self.name, &self.symbol))
     }

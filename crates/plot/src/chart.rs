@@ -24,8 +24,7 @@ pub struct Figure {
     pub parameters: Vec<Label>,
     /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
     pub width: Option<f64>,
-    /// Height of a picture, px of 1/96 inch, into which its frames are fitted; `None`: the height that its frames need, but in
-    /// a figure with a given width at most the height of a page.
+    /// Height of a picture, px of 1/96 inch; `None`: the height that its frames need, with a given width at most a page.
     pub height: Option<f64>,
     /// True for a picture without the title, which a caption has instead.
     pub untitled: bool,
@@ -40,6 +39,23 @@ impl Figure {
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart.
+    ///
+    /// ```
+    /// use asperity_data::AxisScale;
+    /// use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Span, Stroke};
+    ///
+    /// let axis = |name, symbol, unit| {
+    ///     ChartAxis::new(AxisScale::Linear, Span { low: 0.0, high: 1e-6 }, name, symbol, unit)
+    /// };
+    /// let line = Shape::line(vec![(0.0, 0.0), (1e-6, 1e-6)], Stroke::Solid);
+    /// let chart = Chart::new(
+    ///     axis("indentation", "d", "m"),
+    ///     axis("force", "F", "N"),
+    ///     vec![Layer::new("loading".into(), Ink::Loading, line)],
+    /// );
+    /// let svg = Figure::of_chart("A straight line", chart).svg();
+    /// assert!(svg.starts_with("<svg") && svg.contains("A straight line"));
+    /// ```
     pub fn of_chart(title: &str, chart: Chart) -> Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }

@@ -53,6 +53,10 @@ impl Label {
     }
 
     /// Creates a label of the name and the symbol of a quantity; either may be empty.
+    ///
+    /// ```
+    /// assert_eq!(asperity_plot::Label::quantity("preload", "F_n").to_string(), "preload F_n");
+    /// ```
     pub fn quantity(name: &str, symbol: &str) -> Label {
         let space = if name.is_empty() || symbol.is_empty() { "" } else { " " };
         Label::plain(name).then(space).join(&Label::symbol(symbol))

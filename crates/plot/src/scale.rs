@@ -17,6 +17,11 @@ const NO_SPREAD: f64 = 1e-9;
 impl Span {
     /// Range of the finite coordinates among these, widened at each end by the share `room` of its width. Around a single
     /// coordinate the range has some width; without coordinates it is 0 to 1.
+    ///
+    /// ```
+    /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
+    /// assert!(span.low < 1.0 && span.high > 3.0);
+    /// ```
     pub fn around(coordinates: impl Iterator<Item = f64>, room: f64) -> Span {
         let finite = coordinates.filter(|coordinate| coordinate.is_finite());
         let (low, high) =

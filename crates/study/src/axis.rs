@@ -64,6 +64,17 @@ impl Axis {
     ///
     /// # Errors
     /// The path leads to no number.
+    ///
+    /// ```
+    /// use asperity_study::{Axis, Spacing};
+    ///
+    /// let scene = asperity_scene::open("pressure-sensitive")?;
+    /// let axis = Axis::new("roughness.hurst", Spacing::List, vec![0.2, 0.8], scene.scene())?;
+    /// assert_eq!((axis.symbol, axis.count(), axis.next_beyond(0.2, 1)), ("H", 2, Some(0.8)));
+    /// let error = Axis::new("roughness.hurts", Spacing::List, Vec::new(), scene.scene()).unwrap_err();
+    /// assert!(error.to_string().contains("did you mean roughness.hurst?"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(path: &str, spacing: Spacing, values: Vec<f64>, scene: &Scene) -> Result<Axis, StudyError> {
         let target = Target::of(path)?;
         let (name, symbol, unit) = target.label(path, scene);

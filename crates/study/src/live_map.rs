@@ -206,7 +206,7 @@ mod tests {
         assert_eq!(rows, 5 + 9 + 19 + 19);
         let grid = map.grid();
         assert_eq!(grid.size(), (HURSTS, KAPPAS), "H across");
-        let shares = grid.statistics(Quantity::ZeroLoadAdhesionShare, false);
+        let shares = grid.statistics(Quantity::FirstTouchAdhesionShare, false);
         for column in 0..HURSTS {
             let cell = |row| grid.shown(column, row).unwrap().0.clone().unwrap();
             let regime = |row| cell(row).regimes[0].most().unwrap().0;
@@ -281,7 +281,7 @@ mod tests {
             let (_, column, row) = grid.shown(asked.0, asked.1).unwrap();
             assert_eq!((column, row), expected, "{asked:?}");
         }
-        let computed = grid.statistics(Quantity::ZeroLoadAdhesionShare, false);
+        let computed = grid.statistics(Quantity::FirstTouchAdhesionShare, false);
         assert_eq!(computed.iter().flatten().count(), 25);
         assert!(grid.shown(HURSTS, 0).is_none() && grid.shown(0, KAPPAS).is_none());
     }

@@ -13,7 +13,7 @@ use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Sol
 pub const MAP_LINES: u64 = 4;
 /// Quantities recorded in each cell.
 pub const MAP_RECORD: [Quantity; 6] = [
-    Quantity::ZeroLoadAdhesionShare,
+    Quantity::FirstTouchAdhesionShare,
     Quantity::AdhesionCoefficient,
     Quantity::Regime,
     Quantity::ZeroForceAdhesionShare,
@@ -41,6 +41,15 @@ fn kappas() -> Vec<f64> {
 ///
 /// # Errors
 /// The reason why the scene has no map.
+///
+/// ```
+/// use asperity_study::{MAP_LINES, live_plan};
+///
+/// let plan = live_plan(asperity_scene::open("pressure-sensitive")?.scene())?;
+/// assert_eq!((plan.axes[0].path.as_str(), plan.lines), ("adhesion.kappa", MAP_LINES));
+/// assert!(live_plan(asperity_scene::open("jkr-sphere")?.scene()).unwrap_err().contains("smooth"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn live_plan(scene: &Scene) -> Result<Plan, &'static str> {
     let adhesion = scene
         .adhesion

@@ -33,7 +33,7 @@ pub struct ProfileAdhesion {
     pub fit_change: Option<f64>,
     /// Regime of adhesion with the fitted spectrum, from first touch.
     pub regime: Option<Regime>,
-    /// Regime of adhesion with the fitted spectrum, after zero net force.
+    /// Regime of adhesion with the fitted spectrum, turned at zero force.
     pub regime_after_zero_force: Option<Regime>,
 }
 
@@ -82,6 +82,24 @@ impl MeasuredAdhesion {
     ///
     /// # Errors
     /// The scene has no equivalent line of a measured surface, a file cannot be read, or a profile fails: the first one.
+    ///
+    /// ```
+    /// use asperity_study::MeasuredAdhesion;
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+    /// let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
+    /// std::fs::write(folder.path().join("line.txt"), format!("x [um] z [nm]\n{rows}"))?;
+    /// let text = r#"(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: (work: 0.05),
+    ///     roughness: Measured(file: "line.txt"), numerics: (points: 1024),
+    ///     loading: [ToForce(1.0e-4), ToSeparation])"#;
+    /// std::fs::write(folder.path().join("scene.ron"), text)?;
+    /// let scene = asperity_scene::open(&folder.path().join("scene.ron").display().to_string())?;
+    /// let found = MeasuredAdhesion::of(&scene, 4, 2)?;
+    /// let (low, high) = found.fit_interval().ok_or("no force")?;
+    /// assert!(found.adhesion_force().is_some_and(|all| low < all.quartiles[1] && all.quartiles[1] < high));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
         let scene = document.scene();
         StudyError::check_profiles(scene, u64::from(count))?;
@@ -134,7 +152,7 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Number of profiles in each regime: from first touch, and after zero net force.
+    /// Number of profiles in each regime: turned at first touch and at zero force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))

@@ -125,6 +125,16 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
 ///
 /// # Errors
 /// A value is not allowed.
+///
+/// ```
+/// use asperity_study::{Axis, Spacing, moved};
+///
+/// let scene = asperity_scene::open("pressure-sensitive")?;
+/// let axis = Axis::new("adhesion.kappa", Spacing::List, Vec::new(), scene.scene())?;
+/// let other = moved(&scene, &[(&axis, 3.5)])?;
+/// assert_eq!(axis.value_in(other.scene(), None), Some(3.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn moved(document: &Document, values: &[(&Axis, f64)]) -> Result<Document, SceneErrors> {
     let mut scene = scene_with(document.scene(), values.iter().copied())?;
     let moves_parameter = values.iter().any(|(axis, _)| axis.target.parameter().is_some());

@@ -71,6 +71,16 @@ impl Plan {
     ///
     /// # Errors
     /// All errors, including errors of the scenes of cells.
+    ///
+    /// ```
+    /// use asperity_study::{Changes, Plan};
+    ///
+    /// let few = Changes { lines: Some(2), ..Changes::default() };
+    /// let plan = Plan::open("figure-6", &few)?;
+    /// assert_eq!(plan.lines, 2);
+    /// assert!(Plan::open("figure-7", &few).unwrap_err().to_string().contains("did you mean"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn open(name_or_path: &str, changes: &Changes) -> Result<Plan, StudyError> {
         if is_file_name(name_or_path) {
             let text = read_regular_text(Path::new(name_or_path), LONGEST_TEXT);
@@ -85,6 +95,17 @@ impl Plan {
     ///
     /// # Errors
     /// All errors, including errors of the scenes of cells.
+    ///
+    /// ```
+    /// use asperity_study::{Plan, Quantity};
+    ///
+    /// let scene = asperity_scene::open("pressure-sensitive")?;
+    /// let axes: [(&str, &[f64]); 2] = [("roughness.hurst", &[0.3, 0.7]), ("adhesion.kappa", &[2.0, 6.0, 20.0])];
+    /// let plan = Plan::new(&scene, &axes, 16, &[Quantity::AdhesionForce, Quantity::Regime])?;
+    /// assert_eq!((plan.cells(), plan.records_in_all()), (6, 96));
+    /// assert_eq!(plan.coordinates(4), "roughness.hurst = 0.7, adhesion.kappa = 6.0");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(
         document: &Document,
         axes: &[(&str, &[f64])],
@@ -188,6 +209,14 @@ impl Plan {
     }
 
     /// Writes the plan as canonical text, including its scene; parsing the text returns the same plan.
+    ///
+    /// ```
+    /// use asperity_study::{Changes, Plan};
+    ///
+    /// let plan = Plan::open("self-averaging", &Changes::default())?;
+    /// assert_eq!(Plan::parse(&plan.to_ron(), "again", &Changes::default())?, plan);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn to_ron(&self) -> String {
         let mut lines = vec![format!("    version: {PLAN_VERSION},\n")];
         let mut line = |name: &str, value: String| lines.push(format!("    {name}: {value},\n"));

@@ -24,6 +24,14 @@ const ALLOWED: &str = "allowed: two forces, and after colons the number of prelo
 ///
 /// # Errors
 /// What is wrong with the text, and what is allowed.
+///
+/// ```
+/// use asperity_study::parse_preloads;
+///
+/// let axis = parse_preloads("1nN..1uN:4:log").expect("two forces");
+/// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
+/// assert!(parse_preloads("2uN..1uN").unwrap_err().contains("`from` must be less than `to`"));
+/// ```
 pub fn parse_preloads(text: &str) -> Result<Axis, String> {
     let mut parts = text.split(':').map(str::trim);
     let ends = parse_range(parts.next().unwrap_or_default(), "N");
@@ -43,6 +51,12 @@ pub fn parse_preloads(text: &str) -> Result<Axis, String> {
 ///
 /// # Errors
 /// What is wrong with the text, and what is allowed.
+///
+/// ```
+/// use asperity_study::parse_range;
+///
+/// assert_eq!(parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
+/// ```
 pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
     let (from, to) = text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;
     let number = |text: &str| parse_quantity(text, unit).map_err(|error| error.to_string());
@@ -114,6 +128,20 @@ impl Staircase {
     ///
     /// # Errors
     /// As for [`Simulation::reverse`], and a preload below the force at first touch.
+    ///
+    /// ```
+    /// use asperity_data::AxisScale;
+    /// use asperity_scene::{Simulation, open};
+    /// use asperity_study::{Axis, Staircase};
+    ///
+    /// let scene = open("pressure-sensitive")?.set("numerics.points", "2048")?;
+    /// let preloads = Axis::of_preloads((0.0, 4e-5), 9, AxisScale::Linear)?;
+    /// let stairs = Staircase::find(scene.scene(), &preloads, &mut Simulation::default(), &|| false, &mut |_| ())?;
+    /// assert!(stairs.is_whole());
+    /// // The adhesion force never falls with the preload.
+    /// assert!(stairs.forces.windows(2).all(|pair| pair[0].1 <= pair[1].1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn find(
         scene: &CheckedScene,
         preloads: &Axis,

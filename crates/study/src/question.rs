@@ -67,6 +67,13 @@ pub struct Answer {
 ///
 /// # Errors
 /// What is wrong with the condition, and what is allowed.
+///
+/// ```
+/// use asperity_study::{Quantity, parse_condition};
+///
+/// assert_eq!(parse_condition("F_a/F_a,max = 80 %"), Ok((Quantity::AdhesionShare, 0.8)));
+/// assert!(parse_condition("F_a/F_a,max = 120 %").unwrap_err().contains("allowed: from 0 to 1"));
+/// ```
 pub fn parse_condition(text: &str) -> Result<(Quantity, f64), String> {
     // The symbol F_a(F=0) has the sign itself.
     let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
@@ -294,8 +301,8 @@ impl Question {
 /// The same quantity after a turn at first touch, for an adhesion force over the preload, which never falls.
 fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
-        (Target::Preload { .. }, Quantity::AdhesionForce) => Some(Quantity::ZeroLoadAdhesionForce),
-        (Target::Preload { .. }, Quantity::AdhesionShare) => Some(Quantity::ZeroLoadAdhesionShare),
+        (Target::Preload { .. }, Quantity::AdhesionForce) => Some(Quantity::FirstTouchAdhesionForce),
+        (Target::Preload { .. }, Quantity::AdhesionShare) => Some(Quantity::FirstTouchAdhesionShare),
         _ => None,
     }
 }

@@ -334,6 +334,19 @@ impl Results {
     }
 
     /// Statistics of a recorded quantity over the profiles of a cell; `None` without values.
+    ///
+    /// ```
+    /// use asperity_data::Control;
+    /// use asperity_study::{Plan, Quantity, compute};
+    ///
+    /// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "1024")?;
+    /// let plan = Plan::new(&scene, &[], 5, &[Quantity::AdhesionForce, Quantity::Regime])?;
+    /// let results = compute(&plan, Control::default())?;
+    /// let force = results.statistics(0, Quantity::AdhesionForce).ok_or("no profile pulls")?;
+    /// assert_eq!((force.count, results.regimes(0)[0].profiles()), (5, 5));
+    /// assert_eq!(results.values(0, Quantity::AdhesionForce).len(), 5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn statistics(&self, cell: u64, quantity: Quantity) -> Option<Statistics> {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }

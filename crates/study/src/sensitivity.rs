@@ -59,7 +59,7 @@ type Solved = Vec<[f64; 3]>;
 impl Sensitivity {
     /// The results that are compared.
     pub const RESULTS: [Quantity; 3] =
-        [Quantity::AdhesionForce, Quantity::ZeroLoadAdhesionForce, Quantity::DissipatedEnergy];
+        [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
     /// Computes a checked scene, and scenes with one number changed, on the profiles of an ensemble. All other numbers stay: if
     /// κ is given, the work of adhesion follows from κ. `jobs` threads share the profiles, the first with this simulation; no
@@ -67,6 +67,19 @@ impl Sensitivity {
     ///
     /// # Errors
     /// A profile or its contact fails, or `stop` returned true.
+    ///
+    /// ```
+    /// use asperity_scene::{Simulation, open};
+    /// use asperity_study::Sensitivity;
+    ///
+    /// // F_a = (3/2)πγR of a sphere is in proportion to γ.
+    /// let scene = open("jkr-sphere")?.set("numerics.points", "1024")?;
+    /// let found = Sensitivity::of(scene.scene(), (Simulation::default(), 1), &|| false, &mut |_| ())?;
+    /// let work = found.influences.iter().find(|one| one.axis.path == "adhesion.work").ok_or("no work")?;
+    /// let larger = work.sides[1].1.ok_or("refused")?.medians[0].ok_or("no force")?;
+    /// assert!((larger / found.present[0].ok_or("no force")? - 1.1).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn of(
         scene: &Scene,
         (simulation, jobs): (Simulation, usize),

@@ -7,6 +7,14 @@ use std::str::FromStr;
 const MOST: u32 = 1_000_000;
 
 /// Part number `number`, from 1, of `count` parts of a plan.
+///
+/// ```
+/// use asperity_study::Shard;
+///
+/// let shard: Shard = "3/8".parse().expect("a part of eight");
+/// assert_eq!(shard.to_string(), "3/8");
+/// assert!("9/8".parse::<Shard>().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Shard {
     /// Number of the part, from 1.

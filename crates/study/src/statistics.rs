@@ -48,6 +48,15 @@ pub type Column = fn(&Statistics) -> Option<f64>;
 impl Statistics {
     /// Computes the statistics of values of a quantity with these bounds, (−∞, ∞) without any. Values that are not finite
     /// are left out as missing; `None` without values.
+    ///
+    /// ```
+    /// use asperity_study::{Quantity, Statistics};
+    ///
+    /// let forces = vec![1e-6, 4e-6, 2e-6, 3e-6, f64::NAN]; // N; a missing value is left out
+    /// let all = Statistics::of(forces, Quantity::AdhesionForce.bounds()).expect("four values");
+    /// assert_eq!((all.count, all.range, all.quartiles[0]), (4, (1e-6, 4e-6), 1.75e-6));
+    /// assert_eq!(Statistics::of(Vec::new(), (0.0, 1.0)), None);
+    /// ```
     pub fn of(mut values: Vec<f64>, bounds: (f64, f64)) -> Option<Self> {
         values.retain(|value| value.is_finite());
         let mut sorted = values.clone();
@@ -85,6 +94,13 @@ impl Statistics {
     ];
 
     /// Median, quartiles and range of several values in words, or the only value.
+    ///
+    /// ```
+    /// use asperity_study::Statistics;
+    ///
+    /// let all = Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
+    /// assert_eq!(all.words("N"), "median 2 µN (quartiles 1.5 to 2.5 µN, range 1 to 3 µN)");
+    /// ```
     pub fn words(&self, unit: &str) -> String {
         let ([lower, median, upper], (least, most)) = (self.quartiles, self.range);
         let median = format_rounded(median, 2, unit);
@@ -172,6 +188,15 @@ impl RegimeCounts {
     }
 
     /// Regime of most profiles, with their number; of two with equal numbers the one with more adhesion.
+    ///
+    /// ```
+    /// use asperity_scene::Regime;
+    /// use asperity_study::RegimeCounts;
+    ///
+    /// let regimes = [Some(Regime::NonAdhesive), Some(Regime::PressureSensitive), Some(Regime::NonAdhesive), None];
+    /// let counts = RegimeCounts::of(regimes.into_iter());
+    /// assert_eq!((counts.profiles(), counts.most()), (4, Some((Regime::NonAdhesive, 2))));
+    /// ```
     pub fn most(self) -> Option<(Regime, usize)> {
         self.ordered()[0]
     }

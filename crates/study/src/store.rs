@@ -83,6 +83,19 @@ impl Folder {
     ///
     /// # Errors
     /// The folder holds another plan or cannot be written, or a measured file has changed or cannot be read.
+    ///
+    /// ```
+    /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, Status, merge, run_study};
+    ///
+    /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "256")?;
+    /// let plan = Plan::new(&scene, &[("adhesion.work", &[0.01, 0.02])], 1, &[Quantity::AdhesionForce])?;
+    /// let place = tempfile::tempdir()?;
+    /// let folder = Folder::create(place.path(), &plan)?;
+    /// run_study(&folder, Shard::WHOLE, 2, &|| false, &mut |_| ())?;
+    /// assert_eq!((Status::of(&folder)?.missing, merge(&folder)?.records), (0, 2));
+    /// assert_eq!(Results::open(place.path())?.plan().cells(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn create(path: &Path, plan: &Plan) -> Result<Folder, StudyError> {
         let plan = with_hash(plan)?;
         let shards = path.join(SHARDS);

@@ -11,11 +11,11 @@ use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::{
     Body, Contact, ContactError, ContactTree, Edges, Figures, History, Leg, LegRecord, Move, MovingBody,
-    Patch, Profile, Stepwise, Work, ideal_adhesion_force, load_body,
+    Patch, Profile, Stepwise, ideal_adhesion_force, load_body,
 };
 use asperity_data::{check_room, emptied};
 use asperity_surface::Form;
-use asperity_surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
+use asperity_surface::{EquivalentLine, Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
 use std::mem::take;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -33,6 +33,18 @@ const SMALL: u64 = 32 << 20;
 /// Between runs at most four times the memory of the last scene is kept ([`Workload::peak_bytes`], and 20 bytes for each
 /// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; the allocator of glibc keeps blocks
 /// of less than 32 MiB, up to 64 MiB for each thread.
+///
+/// ```
+/// use asperity_scene::{Simulation, open};
+///
+/// let (mut simulation, sphere) = (Simulation::default(), open("jkr-sphere")?);
+/// let mut force = |points: u64| {
+///     let scene = sphere.scene().with(|scene| scene.numerics.points = points)?;
+///     Ok::<_, asperity_scene::Error>(simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()))?.figures.adhesion_force)
+/// };
+/// assert!((force(512)?.unwrap() / force(4096)?.unwrap() - 1.0).abs() < 1e-3);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Default)]
 pub struct Simulation {
     /// True for a single scene: memory for a further profile is released at once.
@@ -98,6 +110,15 @@ impl Simulation {
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
+    }
+
+    /// The equivalent line of the measured surface of the scene whose profile was made last.
+    pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
+        let RoughnessMaker { measured, equivalent, .. } = &self.maker;
+        match &**measured.as_ref().or(equivalent.as_ref().map(|(.., surface)| surface))? {
+            MeasuredRoughness::Equivalent(line) => Some(line),
+            MeasuredRoughness::Profile(_) => None,
+        }
     }
 
     /// Creates a simulation for the same files and the same measured surface, without any kept stage.
@@ -278,9 +299,11 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Contact of a scene before its loading, and its governing parameters. The values of the scene are checked, except the
-    /// radius of its form, which a fit may vary.
-    pub fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
+    /// Contact of a checked scene before its loading, and its governing parameters.
+    ///
+    /// # Errors
+    /// As for [`Self::make_line`].
+    pub fn contact(&mut self, scene: &CheckedScene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
@@ -316,28 +339,31 @@ impl Simulation {
             stage += 1;
             after(stage - 1, record, leg)
         };
-        let zero_load = plan.runs(Stage::ZeroLoadAdhesion);
-        let (mut history, zero_load) = load(scene, &contact, zero_load, &mut timings, stop, &mut see)?;
-        timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
+        let without_preload = plan.runs(Stage::WithoutPreload);
+        let (mut history, without_preload) =
+            load(scene, &contact, without_preload, &mut timings, stop, &mut see)?;
+        timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.without_preload).max(0.0);
         history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
         let transforms = u64::from(random_phases > 0);
-        history.work = Work { random_phases, transforms, heights_binned, ..history.work };
+        let work = &mut history.work;
+        (work.random_phases, work.transforms, work.heights_binned) =
+            (random_phases, transforms, heights_binned);
 
         let figures = Figures::of(&history);
-        let [zero_load_adhesion_force, zero_force_adhesion_force] = zero_load;
+        let [first_touch_adhesion_force, zero_force_adhesion_force] = without_preload;
         let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
         let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
-        let regime = |zero_load| Regime::of_loading(&figures, zero_load, smooth);
+        let regime = |without_preload| Regime::of_loading(&figures, without_preload, smooth);
         Ok(Outcome {
             line: facts,
             governing,
             ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, length)),
             smooth_adhesion_force: smooth,
-            zero_load_adhesion_force,
+            first_touch_adhesion_force,
             zero_force_adhesion_force,
             tabor_number: scene_tabor_number(scene, &governing),
             steep_waves: SteepWaves::of(scene, &governing),
-            regime: regime(zero_load_adhesion_force),
+            regime: regime(first_touch_adhesion_force),
             regime_after_zero_force: regime(zero_force_adhesion_force),
             instrument: scene.loading_stiffness.map(|k| InstrumentFigures::of(&history, &figures, k)),
             figures,
@@ -355,12 +381,12 @@ pub(crate) fn profile_of(line: &Line) -> Result<Profile, ContactError> {
     Ok(profile.on_foundation(line.length, line.first)?.with_summit(line.summit))
 }
 
-/// Loads a contact with the solver of the scene; with `zero_load` also with turns at first touch and at zero force. Returns
-/// the history, and F_a(0) by both protocols, N, where the contact pulls.
+/// Loads a contact with the solver of the scene; with `without_preload` also with turns at first touch and at zero force. Returns
+/// the history, and F_a(d=0) and F_a(F=0), N, where the contact pulls.
 fn load(
     scene: &Scene,
     contact: &Contact,
-    zero_load: bool,
+    without_preload: bool,
     timings: &mut Timings,
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
@@ -373,12 +399,12 @@ fn load(
             let mut solver = body(samples)?;
             let mut history = load_body(&mut solver, &scene.loading, see)?;
             timings.curve = solver.curve_seconds();
-            if zero_load {
+            if without_preload {
                 let clock = Instant::now();
                 for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
                     let turned = match load_body(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
                         Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
-                        // A turn out of reach of the steps has no F_a(0).
+                        // A turn out of reach of the steps has no F_a(d=0).
                         Err(_) => continue,
                         Ok(turned) => turned,
                     };
@@ -388,7 +414,7 @@ fn load(
                     work.relaxation_sweeps += turned.work.relaxation_sweeps;
                     work.spring_updates += turned.work.spring_updates;
                 }
-                timings.zero_load = clock.elapsed().as_secs_f64();
+                timings.without_preload = clock.elapsed().as_secs_f64();
             }
             Ok((history, forces))
         }
@@ -396,11 +422,11 @@ fn load(
             let mut body = Body::new(contact, samples);
             let mut history = load_body(&mut body, &scene.loading, see)?;
             timings.curve = body.curve_seconds();
-            if zero_load && contact.has_adhesion() {
+            if without_preload && contact.has_adhesion() {
                 let clock = Instant::now();
-                forces = body.zero_load_adhesion()?;
+                forces = body.adhesion_without_preload()?;
                 history.work = body.work();
-                timings.zero_load = clock.elapsed().as_secs_f64();
+                timings.without_preload = clock.elapsed().as_secs_f64();
             }
             Ok((history, forces))
         }

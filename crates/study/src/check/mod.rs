@@ -52,6 +52,13 @@ pub fn catalogue() -> Vec<Case> {
 }
 
 /// Returns the checks of the chosen cases.
+///
+/// ```
+/// use asperity_study::{checks, judge_case};
+///
+/// let verdicts: Vec<_> = checks(|case| case.name == "jkr").into_iter().map(judge_case).collect();
+/// assert!(verdicts.iter().all(|verdict| verdict.passes()));
+/// ```
 pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     let of = |case: Case| case.bounds.iter().map(move |&(edges, bound)| Check { case, edges, bound });
     catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()

@@ -117,6 +117,17 @@ impl MeasuredProfile {
     ///
     /// # Errors
     /// A profile shorter than `length` (m).
+    ///
+    /// ```
+    /// use asperity_surface::{MeasuredOptions, MeasuredProfile};
+    ///
+    /// let options = MeasuredOptions::default();
+    /// let profile = MeasuredProfile::new(b"x [um] z [nm]\n0 10\n1 20\n2 40\n", &options)?;
+    /// let heights = profile.sample(2e-6, 2, 0.0)?; // at 0.5 and 1.5 µm
+    /// assert!((heights[1] - heights[0] - 15e-9).abs() < 1e-20);
+    /// assert!(profile.sample(1e-3, 2, 0.0).is_err(), "the profile is shorter");
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, SurfaceError> {
         let begins = self.begins(length).map_err(|covers| {
             let fault = format!("the profile covers {covers:e} m");

@@ -31,6 +31,15 @@ impl Line {
     ///
     /// # Errors
     /// Too little memory, a height that is not finite, or no spring under a punch.
+    ///
+    /// ```
+    /// use asperity_surface::{Form, Line};
+    ///
+    /// let line = Line::new(1e-4, 101, Some(&Form::Paraboloid { radius: 1e-3 }), None, 0.0)?;
+    /// assert_eq!((line.gaps.len(), line.gaps[50]), (101, 0.0));
+    /// assert!(Line::new(1e-4, 101, Some(&Form::Punch { radius: 1e-9 }), None, 0.0).is_err());
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn new(
         length: f64,
         points: usize,
@@ -138,6 +147,13 @@ pub struct Histogram {
 impl Histogram {
     /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included; heights outside are
     /// omitted. For a range of zero width all heights are in the first bin.
+    ///
+    /// ```
+    /// use asperity_surface::Histogram;
+    ///
+    /// let histogram = Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
+    /// assert_eq!(histogram.counts, [2, 1]);
+    /// ```
     pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {
         let mut counts = vec![0; bins.max(1)];
         let last = counts.len() - 1;

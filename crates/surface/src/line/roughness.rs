@@ -127,6 +127,17 @@ impl SelfAffine {
     ///
     /// The rms height is the rms of the sum of cosines over the whole length. Two grids sample the same profile to within
     /// the rounding of the transform.
+    ///
+    /// ```
+    /// use asperity_surface::SelfAffine;
+    ///
+    /// let spectrum = SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };
+    /// let heights = spectrum.heights(7, 1024)?;
+    /// let mean_square = heights.iter().map(|z| z * z).sum::<f64>() / 1024.0;
+    /// assert!((mean_square - 1.0).abs() < 1e-9);
+    /// assert_eq!(heights, spectrum.heights(7, 1024)?, "the same seed gives the same profile");
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {
         Synthesizer::default().synthesize(self, seed, points, 0.0, Vec::new())
     }

@@ -61,11 +61,29 @@ impl SelfAffine {
     /// modes of the profile.
     ///
     /// As these are finite sums of positive terms, H → 1 is no special case, unlike in the integrals of eqs. (12) and (13).
+    ///
+    /// ```
+    /// use asperity_surface::SelfAffine;
+    /// use std::f64::consts::TAU;
+    ///
+    /// // A single wave of 1 m: ⟨∇z⟩ = q h.
+    /// let wave = SelfAffine { hurst: 0.8, first: 1, last: 1, roll_off_mode: 0.0 };
+    /// assert!((wave.gradient_per_height(1.0) / TAU - 1.0).abs() < 1e-12);
+    /// ```
     pub fn gradient_per_height(&self, length: f64) -> f64 {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
     /// Roughness amplitude of a profile of rms height 1 m and length L (m), by the sums of [`Self::gradient_per_height`].
+    ///
+    /// ```
+    /// use asperity_surface::SelfAffine;
+    ///
+    /// let spectrum = SelfAffine { hurst: 0.8, first: 1, last: 512, roll_off_mode: 0.0 };
+    /// let amplitude = spectrum.unit_amplitude(1e-4).scaled(1e-7); // rms height 100 nm
+    /// assert_eq!(amplitude.rms_height, 1e-7);
+    /// assert!(amplitude.rms_gradient > 0.0 && amplitude.elastic_energy(1e6) > 0.0);
+    /// ```
     pub fn unit_amplitude(&self, length: f64) -> Amplitude {
         let (unit, height) = (std::f64::consts::TAU / length, self.moment(0));
         Amplitude {
@@ -221,6 +239,16 @@ impl Amplitude {
     /// Elastic energy of conformity per area, J/m²: e_el = (E*/8) Σ q_k A_k², the energy of a half-space of
     /// effective modulus E* (Pa) in full contact with an isotropic surface with the rms height, rms gradient and
     /// mean wave number of the profile (Persson and Tosatti, 2001).
+    ///
+    /// ```
+    /// use asperity_surface::SelfAffine;
+    /// use std::f64::consts::TAU;
+    ///
+    /// // A single wave: e_el = E* q h²/4.
+    /// let wave = SelfAffine { hurst: 0.5, first: 1, last: 1, roll_off_mode: 0.0 }.unit_amplitude(1e-6).scaled(1e-9);
+    /// let expected = 1e6 * TAU / 1e-6 * 1e-18 / 4.0;
+    /// assert!((wave.elastic_energy(1e6) / expected - 1.0).abs() < 1e-12);
+    /// ```
     pub fn elastic_energy(&self, effective_modulus: f64) -> f64 {
         effective_modulus * self.rms_height.powi(2) * self.mean_wave_number / 4.0
     }

@@ -109,6 +109,20 @@ struct Powers {
 ///
 /// # Errors
 /// [`SurfaceError`] for a surface with uneven or few points, without roughness, or an end that is already resolved.
+///
+/// ```
+/// use asperity_surface::{AnalysisOptions, Topography, analyse};
+///
+/// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+/// let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
+/// let found = analyse(&[Topography::from_profile(&heights, 1e-6)?], &AnalysisOptions::default())?;
+/// let moment = found.line.rms_height;
+/// assert!(moment.value > 0.0 && moment.error > 0.0 && moment.error < moment.value);
+/// // The line has √2 times the gradient of the measured cut.
+/// let ratio = found.line.rms_gradient.value / found.statistics.rms_slope;
+/// assert!((1.3..2.3).contains(&ratio), "{ratio}");
+/// # Ok::<(), asperity_surface::SurfaceError>(())
+/// ```
 pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Analysis, SurfaceError> {
     if surfaces.is_empty() {
         return Err(refused(Place::File, "no surface", "at least one"));

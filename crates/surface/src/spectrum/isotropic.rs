@@ -98,6 +98,19 @@ impl Moment {
     }
 
     /// Returns the square root of the moment, with its errors.
+    ///
+    /// ```
+    /// # use asperity_surface::{AnalysisOptions, Topography, analyse};
+    /// # let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+    /// # let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
+    /// # let surface = Topography::from_profile(&heights, 1e-6)?;
+    /// // κ² = E* h⟨∇z⟩/γ with its error, for E* = 1 MPa and γ = 50 mJ/m².
+    /// let line = analyse(&[surface], &AnalysisOptions::default())?.line;
+    /// let kappa = line.height_gradient.scaled(1e6 / 0.05).root();
+    /// assert!((kappa.value.powi(2) / (2e7 * line.height_gradient.value) - 1.0).abs() < 1e-12);
+    /// assert!(kappa.error > 0.0);
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn root(self) -> Self {
         let relative = |error: f64| 0.5 * error / self.value;
         let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
@@ -225,6 +238,19 @@ pub struct IsotropicSpectrum {
 
 impl IsotropicSpectrum {
     /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
+    ///
+    /// ```
+    /// # use asperity_surface::{AnalysisOptions, Topography, analyse};
+    /// # let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+    /// # let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
+    /// # let surface = Topography::from_profile(&heights, 1e-6)?;
+    /// let spectrum = analyse(&[surface], &AnalysisOptions::default())?.isotropic;
+    /// let [low, high] = spectrum.range();
+    /// // The power of the equivalent line is q C2D/2.
+    /// assert_eq!(spectrum.line(high), 0.5 * high * spectrum.c2d(high));
+    /// assert!(spectrum.c2d(low) > 0.0 && spectrum.c2d(1.01 * high) == 0.0);
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }
@@ -247,6 +273,12 @@ impl IsotropicSpectrum {
     /// First and last wave number of the spectrum, rad/m.
     pub fn range(&self) -> [f64; 2] {
         [self.nodes.wave_number(0), self.nodes.end]
+    }
+
+    /// The same spectrum without the waves beyond a wave number, rad/m.
+    pub(crate) fn up_to(&self, wave_number: f64) -> IsotropicSpectrum {
+        let nodes = Nodes { end: self.nodes.end.min(wave_number), ..self.nodes };
+        IsotropicSpectrum { nodes, ..self.clone() }
     }
 
     /// The nodes, with the spectrum and its error at each.

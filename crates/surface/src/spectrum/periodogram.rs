@@ -66,6 +66,18 @@ impl ProfilePower {
 }
 
 /// Spectrum C1D, m³, of the heights (m) of a line, averaged in bins. `windowed` for a line that is not periodic.
+///
+/// ```
+/// use asperity_surface::line_spectrum;
+/// use std::f64::consts::TAU;
+///
+/// // A wave of 16 points has its power at q = 2π/16 per point.
+/// let heights: Vec<f64> = (0..256).map(|i| (TAU * f64::from(i) / 16.0).sin()).collect();
+/// let bins = line_spectrum(&heights, 1.0, false)?;
+/// let largest = bins.iter().max_by(|one, other| one.power.total_cmp(&other.power)).expect("bins");
+/// assert!((largest.wave_number / (TAU / 16.0) - 1.0).abs() < 0.15);
+/// # Ok::<(), asperity_surface::SurfaceError>(())
+/// ```
 pub fn line_spectrum(heights: &[f64], spacing: f64, windowed: bool) -> Result<Vec<Bin>, SurfaceError> {
     let mut power = ProfilePower::new(heights.len(), spacing, windowed);
     // The mean of windowed heights would leak into the first waves.

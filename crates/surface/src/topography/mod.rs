@@ -81,6 +81,15 @@ impl Unit {
     }
 
     /// Converts a value in this unit to m.
+    ///
+    /// ```
+    /// use asperity_surface::Unit;
+    ///
+    /// let micrometres: Unit = "um".parse()?;
+    /// assert_eq!((micrometres.name(), micrometres.to_metres(5.0)), ("µm", 5e-6));
+    /// assert!("px".parse::<Unit>().is_err());
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn to_metres(self, value: f64) -> f64 {
         value / self.per_metre
     }

@@ -161,6 +161,15 @@ impl Topography {
     ///
     /// # Errors
     /// For a map.
+    ///
+    /// ```
+    /// use asperity_surface::Topography;
+    ///
+    /// let (positions, heights) = Topography::from_profile(&[3e-9, 1e-9, 2e-9], 1e-6)?.into_profile()?;
+    /// assert_eq!((positions, heights), (vec![0.0, 1e-6, 2e-6], vec![3e-9, 1e-9, 2e-9]));
+    /// assert!(Topography::from_map(&[0.0, 1.0, 2.0, 3.0], 2, [1.0; 2])?.into_profile().is_err());
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         if rows > 1 {
@@ -220,6 +229,17 @@ impl Topography {
     /// # Errors
     /// For a profile with uneven spacing, the first point that lies off the even grid from the first to the last point by
     /// more than 0.1 % of the mean distance.
+    ///
+    /// ```
+    /// use asperity_surface::{ReadOptions, parse};
+    ///
+    /// let uneven = b"x [um] z [nm]\n0 1\n1 2\n5 3\n";
+    /// let error = parse(uneven, &ReadOptions::default())?.spacing().unwrap_err();
+    /// assert!(error.to_string().contains("--resample"));
+    /// let even = parse(uneven, &ReadOptions { resample: true, ..ReadOptions::default() })?;
+    /// assert_eq!(even.spacing()?, [2.5e-6; 2]);
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
     pub fn spacing(&self) -> Result<[f64; 2], SurfaceError> {
         match &self.layout {
             Layout::Even(spacing) => Ok(*spacing),
