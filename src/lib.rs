@@ -8,6 +8,9 @@
 //! equivalent profile on independent springs of stiffness E\* Δx. A contact patch of length l holds springs that are
 //! stretched by up to √(π l γ/E\*), with the work of adhesion γ and the effective modulus E\*.
 //!
+//! Begin with [docs/learn.md](../../../docs/learn.md), which derives the model by hand: why the springs may be independent,
+//! where the rule of Hess comes from, a loop of a sphere, and a staircase of five springs. The examples below follow it.
+//!
 //! # A contact in five lines
 //!
 //! ```
@@ -22,10 +25,31 @@
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
+//! A [`Profile`] holds heights or gaps, a [`Modulus`] the elastic constants, and the [`contact::ContactBuilder`] the work of
+//! adhesion and the stiffness of the instrument. A [`Cycle`] has the force curve as points and as columns, the figures of
+//! the loop, and the contact patches.
+//!
+//! # A rough sphere, and its adhesion over the preload
+//!
+//! ```
+//! use asperity::{Contact, Modulus, Move, ProfileBuilder};
+//!
+//! let rough = ProfileBuilder::new(1.0e-4, 4096).sphere(1.0e-3);
+//! let rough = rough.self_affine(0.7).rms_height(1.0e-7).wavelengths(1.0e-4, 2.0e-7).seed(1);
+//! let contact = Contact::builder(&rough.build()?, Modulus::effective(2.0e6)?).work_of_adhesion(0.02).build()?;
+//! let preloads = [0.0, 1.0e-5, 1.0e-4].map(Move::ToForce); // N
+//! let forces = contact.reversals(&preloads, &[])?.into_iter().map(|found| found.adhesion_force());
+//! assert!(forces.is_sorted());
+//! # Ok::<(), asperity::Error>(())
+//! ```
+//!
+//! [`ProfileBuilder::run`] computes κ, the Tabor number, the ideal adhesion force and the regime as well.
+//!
 //! # A scene
 //!
 //! A [`scene::Scene`] holds all that a computation needs; the program reads it from RON files and [`scene::open`] finds
-//! the built-in ones. Only a checked one is computed ([`Scene::checked`]). [`run`] computes the scene of a file:
+//! the built-in scenes. Only a checked scene is computed ([`Scene::checked`]). [`run`] computes the scene of a file, and looks
+//! for its measured surfaces in the folder of that file:
 //!
 //! ```
 //! let document = asperity::scene::open("jkr-sphere")?;
@@ -51,7 +75,7 @@
 //! | crate | from | to |
 //! | --- | --- | --- |
 //! | [`data`] | text | values with units, tables, files |
-//! | [`contact`] | gaps c at a distance Δx, E\*, γ, a loading | [`contact::History`], legs and curves |
+//! | [`contact`] | heights or gaps at a distance Δx, E\*, γ, a loading | [`Cycle`]: curve, figures, patches |
 //! | [`surface`] | measured files, forms, spectra | moments, equivalent lines |
 //! | [`scene`] | a scene file | [`scene::Outcome`] with figures and regime |
 //! | [`experiment`] | measured force curves and a scene | fitted values with their errors |

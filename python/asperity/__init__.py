@@ -12,12 +12,15 @@ touch. Long calls run without the lock of Python and stop at Ctrl-C.
 
 from ._functions import (
     cone,
+    criteria,
     ensemble,
     find,
+    fit,
     load,
     power,
     preloads,
     presets,
+    press,
     profile,
     punch,
     reference,
@@ -26,16 +29,38 @@ from ._functions import (
     scene,
     self_affine,
     sphere,
+    study,
+    surface,
     table,
     wavy_sphere,
 )
-from ._native import FieldError, LoadingError, Loop, Profile, Scene, __version__, quantity
+from ._loop import Loop
+from ._native import FieldError, LoadingError, Profile, Scene, __version__, quantity
 from ._notation import Form
-from ._results import Ensemble, Found, Outcome, Preloads, Reference, Result, Reversals
+from ._results import (
+    Drawn,
+    Ensemble,
+    EnsembleFit,
+    Fit,
+    Fits,
+    Found,
+    Outcome,
+    Preloads,
+    Reference,
+    Result,
+    Reversals,
+    Study,
+    Surface,
+    Values,
+)
 
 __all__ = [
+    "Drawn",
     "Ensemble",
+    "EnsembleFit",
     "FieldError",
+    "Fit",
+    "Fits",
     "Form",
     "Found",
     "LoadingError",
@@ -47,13 +72,19 @@ __all__ = [
     "Result",
     "Reversals",
     "Scene",
+    "Study",
+    "Surface",
+    "Values",
     "cone",
+    "criteria",
     "ensemble",
     "find",
+    "fit",
     "load",
     "power",
     "preloads",
     "presets",
+    "press",
     "profile",
     "punch",
     "quantity",
@@ -63,6 +94,8 @@ __all__ = [
     "scene",
     "self_affine",
     "sphere",
+    "study",
+    "surface",
     "table",
     "wavy_sphere",
 ]

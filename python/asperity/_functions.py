@@ -5,15 +5,22 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, SupportsFloat, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _native
-from ._native import Loop, Profile, Scene, quantity, whole
-from ._notation import Form, in_fields, in_scene, refusal
-from ._results import Ensemble, Found, Outcome, Preloads, Reference, Reversals
+from ._loop import Loop
+from ._native import Profile, Scene, quantity, whole
+from ._notation import Form, Quantity, in_fields, in_scene, in_words, refusal
+from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
 
-#: A number in SI units, or a text with its unit.
-Quantity: TypeAlias = SupportsFloat | str
+#: Path of a file.
+AnyPath: TypeAlias = str | os.PathLike[str]
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    _Curve: TypeAlias = AnyPath | tuple[npt.ArrayLike, npt.ArrayLike]
+
 #: Called with the number of parts that are done and of all parts; an exception stops the computation.
 Progress: TypeAlias = Callable[[int, int], object] | None
 #: Name of a built-in scene, path of a file, text of a scene, or an open scene.
@@ -140,9 +147,10 @@ def load(
         raise refusal("edges", edges, ", ".join(_EDGES))
     stages = stages if isinstance(stages, str) else ", ".join(map(in_scene, stages))
     if profile.scene is None:
-        return Loop.of_heights(
-            profile, modulus, work, closing_work, stages, loading_stiffness, _EDGES[edges], samples, progress
-        )
+        works = [work if closing_work is None else closing_work, work]
+        stiffness = float("inf") if loading_stiffness is None else loading_stiffness
+        foundation = (modulus, works, stiffness)
+        return Loop(_native.Loop.of_heights(profile, foundation, (stages, edges == "grid", samples), progress))
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
     fields = {
         "material": {"effective_modulus": modulus},
@@ -152,7 +160,7 @@ def load(
         "numerics.edges": _EDGES[edges],
         "numerics.samples": samples,
     }
-    return Loop.of_body(profile.scene.set(in_fields(fields)), progress)
+    return Loop(_native.Loop.of_body(profile.scene.set(in_fields(fields)), progress))
 
 
 def run(
@@ -163,14 +171,14 @@ def run(
     `jobs` threads share the profiles, by default one for each core; no result depends on their number. `progress` is called
     with the number of profiles that are done and of all.
     """
-    return Outcome(*_native.run(_scene(scene, fields), _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Outcome(*_native.run(_scene(scene, fields), _call(profiles, jobs, progress)))
 
 
 def ensemble(
     scene: AnyScene, /, *, profiles: int | None = None, jobs: int | None = None, progress: Progress = None, **fields: Any
 ) -> Ensemble:
     """Computes a scene on random profiles, by default 16, and returns their statistics."""
-    return Ensemble(_native.ensemble(_scene(scene, fields), _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Ensemble(_native.ensemble(_scene(scene, fields), _call(profiles, jobs, progress)))
 
 
 def find(
@@ -190,7 +198,7 @@ def find(
     Each random profile is searched for itself. The searched range is by default two decades down and up.
     """
     searched = None if range is None else _range(range)
-    return Found(_native.find(_scene(scene, fields), field, where, searched, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Found(_native.find(_scene(scene, fields), field, where, searched, _call(profiles, jobs, progress)))
 
 
 def preloads(
@@ -207,7 +215,7 @@ def preloads(
 ) -> Preloads:
     """Computes the adhesion force for `count` preloads between two forces, N; with `log` at equal ratios."""
     axis = f"{_range(between)}:{count}" + (":log" if log else "")
-    return Preloads(_native.preloads(_scene(scene, fields), axis, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    return Preloads(_native.preloads(_scene(scene, fields), axis, _call(profiles, jobs, progress)))
 
 
 def reversals(
@@ -221,7 +229,8 @@ def reversals(
 ) -> Reversals:
     """Computes the unloading of a scene from `count` turning points between two forces, N; by default up to its preload."""
     ends = None if between is None else _range(between)
-    return Reversals(_native.reversals(_scene(scene, fields), ends, count, progress))
+    count = whole(count, "count", 2, 512)
+    return Reversals(_native.reversals(_scene(scene, fields), ends, count, _call(None, None, progress)))
 
 
 def reference(
@@ -236,7 +245,122 @@ def reference(
     **fields: Any,
 ) -> Reference:
     """Computes a scene in three dimensions on random squares of `grid` cells along a side, beside random lines."""
-    return Reference(_native.reference(_scene(scene, fields), grid, maps, _count("profiles", profiles), _count("jobs", jobs, 1024), progress))
+    cells, count = whole(grid, "grid", 1, 2**16), whole(maps, "maps", 1, 10_000)
+    return Reference(_native.reference(_scene(scene, fields), cells, count, _call(profiles, jobs, progress)))
+
+
+def criteria(scene: AnyScene, /, **fields: Any) -> list[Values]:
+    """What other theories say on a scene, each with its value, its threshold and its reference."""
+    found: list[Values] = run(scene, profiles=1, **fields).criteria
+    return found
+
+
+def study(
+    scene: AnyScene,
+    axes: Mapping[str, Sequence[Quantity]],
+    /,
+    *,
+    record: Sequence[str] = ("adhesion_force", "regime"),
+    profiles: int = 16,
+    jobs: int | None = None,
+    progress: Progress = None,
+    **fields: Any,
+) -> Study:
+    """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles of each.
+
+    `record` names quantities of `docs/studies.md`.
+    """
+    values = [(path, [float(value) for value in axis]) for path, axis in axes.items()]
+    return Study(_native.study(_scene(scene, fields), values, list(record), _call(profiles, jobs, progress)))
+
+
+def surface(
+    files: AnyPath | Sequence[AnyPath] | npt.ArrayLike,
+    /,
+    *,
+    spacing: Quantity | tuple[Quantity, Quantity] | None = None,
+    opposite: AnyPath | None = None,
+    **options: Any,
+) -> Surface:
+    """Reads and analyses measured surfaces: a file, several files that are samples of one roughness, or an array.
+
+    An array holds the heights of a profile or a map in m, and `spacing` is the distance between its points, or the distances
+    along its rows and between them. `opposite` is a file of the opposite face. Further options are those of
+    `asperity surface --help`: `unit="um"`, `detrend="tilt"`, `periodic=True`, `interpolate=True`, `channel=1`,
+    `continue_to="10 nm"`, `tip_radius="10 nm"`, `modulus="2.7 MPa"` and others.
+    """
+    if isinstance(files, (str, os.PathLike)):
+        files = [files]
+    words = in_words({"opposite": opposite, **options})
+    if isinstance(files, (list, tuple)) and files and all(isinstance(one, (str, os.PathLike)) for one in files):
+        words += [*in_words({"spacing": spacing}), "--", *map(os.fspath, files)]
+        return Surface(_native.Surface.of_files(words))
+    if spacing is None:
+        raise refusal("spacing", None, "the distance between the points of the array, m")
+    distances = spacing if isinstance(spacing, tuple) else (spacing, spacing)
+    along, across = (quantity(distance, "m", "spacing") for distance in distances)
+    heights: Any = files
+    return Surface(_native.Surface.of_heights(heights, [along, across], [*words, "array"]))
+
+
+def fit(
+    curves: _Curve | Sequence[_Curve],
+    scene: AnyScene,
+    /,
+    free: Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+    *,
+    profiles: int | None = None,
+    jobs: int | None = None,
+    progress: Progress = None,
+    options: Mapping[str, Any] | None = None,
+    **fields: Any,
+) -> Fit | Fits | EnsembleFit:
+    """Fits parameters of a scene to a measured force curve, to each of several curves, or to all curves together.
+
+    A curve is a file, or a pair of arrays with displacements in m and forces in N. `free` names the parameters (work,
+    closing_work, modulus, offset, zero, stiffness, radius), or gives the range of each. With `profiles` one work of adhesion is
+    found for all curves of a rough body, by comparison with random profiles. `options` are those of `asperity fit --help` for
+    reading curves: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}` and others.
+    """
+    is_single = isinstance(curves, (str, os.PathLike, tuple))
+    all_curves = [curves] if is_single else list(curves)  # type: ignore[arg-type]
+    if not all_curves:
+        raise refusal("curves", all_curves, "a curve, or a list of at least one curve")
+    named = [name if ends is None else f"{name}={_range(ends)}" for name, ends in _ranges(free)]
+    words = [f"--free={one}" for one in named] + in_words({"lines": profiles, **(options or {})})
+    report = _native.fit(
+        all_curves, _scene(scene, fields), [*words, "curves", "scene"], is_single, *_call(None, jobs, progress)[1:]
+    )
+    if profiles is not None:
+        return EnsembleFit(report)
+    return Fit(report) if is_single else Fits(report)
+
+
+def _ranges(
+    free: Sequence[str] | Mapping[str, tuple[Quantity, Quantity]],
+) -> Sequence[tuple[str, tuple[Quantity, Quantity] | None]]:
+    return list(free.items()) if isinstance(free, Mapping) else [(name, None) for name in free]
+
+
+def press(
+    heights: npt.ArrayLike,
+    /,
+    *,
+    side: Quantity,
+    modulus: Quantity,
+    force: Quantity,
+    periodic: bool = False,
+    residual: float = 1e-8,
+) -> Values:
+    """Presses a rigid square map of heights, m, on an elastic half-space in three dimensions, without adhesion.
+
+    The side of the map is in m, the effective modulus in Pa, the force in N; the map has 32, 64, 128 … cells along a side.
+    `pressure` (Pa) and `gap` (m) of the result are maps; the solution has violations of at most `residual` rms heights.
+    """
+    load = (quantity(side, "m", "side"), quantity(modulus, "Pa", "modulus"), quantity(force, "N", "force"))
+    found = Values(_native.press(heights, load, periodic, quantity(residual, "1", "residual")))
+    cells = round(len(found.gap) ** 0.5)
+    return Values(found, pressure=found.pressure.reshape(cells, cells), gap=found.gap.reshape(cells, cells))
 
 
 def presets() -> dict[str, str]:
@@ -248,8 +372,10 @@ def _scene(name: AnyScene, fields: Mapping[str, Any]) -> Scene:
     return scene(name, **fields)
 
 
-def _count(name: str, value: int | None, most: int = 1_000_000) -> int | None:
-    return None if value is None else whole(value, name, 1, most)
+def _call(profiles: int | None, jobs: int | None, progress: Progress) -> tuple[int | None, int | None, Progress]:
+    profiles = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
+    jobs = None if jobs is None else whole(jobs, "jobs", 1, 1024)
+    return profiles, jobs, progress
 
 
 def _range(ends: tuple[Quantity, Quantity] | str) -> str:

@@ -1,5 +1,5 @@
 from collections.abc import Callable
-from typing import Any, SupportsFloat, final
+from typing import Any, SupportsFloat, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -12,21 +12,28 @@ __all__ = [
     "Profile",
     "Report",
     "Scene",
+    "Surface",
     "ensemble",
     "find",
+    "fit",
     "in_words",
     "preloads",
+    "press",
     "presets",
     "program",
     "quantity",
     "reference",
     "reversals",
     "run",
+    "study",
     "whole",
     "__version__",
 ]
 
 __version__: str
+
+# Number of profiles, number of threads, and the callback of the progress.
+_Call: TypeAlias = tuple[int | None, int | None, Callable[[int, int], object] | None]
 
 class FieldError(ValueError):
     """A value is out of its range: `field`, `value` and `allowed` state which value, and what is allowed."""
@@ -67,61 +74,21 @@ class Profile:
 
 @final
 class Loop:
-    """Force loop of a loading that begins separated."""
+    """The loop of a profile of heights or of a computed scene; `asperity.Loop` gives its parts their names."""
 
     @staticmethod
     def of_heights(
         profile: Profile,
-        modulus: float,
-        work: float,
-        closing_work: float | None,
-        loading: str,
-        loading_stiffness: float | None,
-        edges: str,
-        samples: int,
+        foundation: tuple[float, list[float], float],
+        loading: tuple[str, bool, int],
         progress: Callable[[int, int], object] | None,
     ) -> Loop: ...
     @staticmethod
     def of_body(scene: Scene, progress: Callable[[int, int], object] | None) -> Loop: ...
-    @property
-    def d(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def F(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def D(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def stage(self) -> npt.NDArray[np.int64]: ...
-    @property
-    def length(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def patches(self) -> npt.NDArray[np.int64]: ...
-    @property
-    def energy(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def released(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def pull_off(self) -> float | None: ...
-    @property
-    def pull_off_d(self) -> float | None: ...
-    @property
-    def preload(self) -> float | None: ...
-    @property
-    def dissipated(self) -> float | None: ...
-    @property
-    def jumps(self) -> dict[str, tuple[float, float]]: ...
-    @property
-    def kappa(self) -> float | None: ...
-    @property
-    def tabor(self) -> float | None: ...
-    @property
-    def regime(self) -> str | None: ...
-    @property
-    def share(self) -> float | None: ...
-    @property
-    def pull_off_error(self) -> float | None: ...
-    def to_pandas(self) -> pd.DataFrame: ...
-    def _repr_svg_(self) -> str: ...
-    def __len__(self) -> int: ...
+    def columns(self) -> dict[str, npt.NDArray[Any]]: ...
+    def figures(self) -> dict[str, Any]: ...
+    def error(self) -> float | None: ...
+    def svg(self) -> str: ...
 
 @final
 class Scene:
@@ -136,6 +103,19 @@ class Scene:
     def text(self) -> str: ...
 
 @final
+class Surface:
+    """An analysed measured surface, from which profiles and scenes are made."""
+
+    @staticmethod
+    def of_files(words: list[str]) -> Surface: ...
+    @staticmethod
+    def of_heights(heights: npt.ArrayLike, spacing: list[float], words: list[str]) -> Surface: ...
+    @property
+    def report(self) -> Report: ...
+    def profile(self, length: float, points: int, seed: int) -> Profile: ...
+    def scene(self, modulus: float, work: float | None) -> Scene: ...
+
+@final
 class Report:
     """A result in the formats of the program."""
 
@@ -146,45 +126,21 @@ def quantity(value: SupportsFloat | str, unit: str, field: str) -> float: ...
 def whole(value: Any, field: str, least: int, most: int) -> int: ...
 def in_words(value: float, unit: str) -> str: ...
 def presets() -> list[tuple[str, str]]: ...
-def run(
+def run(scene: Scene, call: _Call) -> tuple[Report, Profile, Loop]: ...
+def ensemble(scene: Scene, call: _Call) -> Report: ...
+def find(scene: Scene, field: str, condition: str, range: str | None, call: _Call) -> Report: ...
+def preloads(scene: Scene, preloads: str, call: _Call) -> Report: ...
+def reversals(scene: Scene, range: str | None, count: int, call: _Call) -> Report: ...
+def reference(scene: Scene, cells: int, maps: int, call: _Call) -> Report: ...
+def study(scene: Scene, axes: list[tuple[str, list[float]]], record: list[str], call: _Call) -> Report: ...
+def fit(
+    curves: list[Any],
     scene: Scene,
-    profiles: int | None = None,
-    jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> tuple[Report, Profile, Loop]: ...
-def ensemble(
-    scene: Scene,
-    profiles: int | None = None,
-    jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    words: list[str],
+    is_single: bool,
+    jobs: int | None,
+    progress: Callable[[int, int], object] | None,
 ) -> Report: ...
-def find(
-    scene: Scene,
-    field: str,
-    condition: str,
-    range: str | None = None,
-    profiles: int | None = None,
-    jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> Report: ...
-def preloads(
-    scene: Scene,
-    preloads: str,
-    profiles: int = 1,
-    jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> Report: ...
-def reversals(
-    scene: Scene,
-    range: str | None = None,
-    count: int = 64,
-    progress: Callable[[int, int], object] | None = None,
-) -> Report: ...
-def reference(
-    scene: Scene,
-    grid: int = 64,
-    maps: int = 24,
-    profiles: int | None = None,
-    jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> Report: ...
+def press(
+    heights: npt.ArrayLike, load: tuple[float, float, float], is_periodic: bool, residual: float
+) -> dict[str, Any]: ...

@@ -6,9 +6,12 @@ import json
 import operator
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, SupportsFloat, TypeAlias
 
 from ._native import FieldError
+
+#: A number in SI units, or a text with its unit.
+Quantity: TypeAlias = SupportsFloat | str
 
 
 class Form:
@@ -58,3 +61,17 @@ def refusal(field: str, value: object, allowed: str) -> FieldError:
 def in_fields(fields: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Arguments such as `adhesion__work=0.05` as paths of a scene with their values."""
     return [(name.replace("__", "."), in_scene(value)) for name, value in fields.items()]
+
+
+def in_words(options: Mapping[str, Any]) -> list[str]:
+    """Arguments such as `tip_radius="10 nm"` as options of the command line; one without a value is left out."""
+    words = []
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if value is True:
+            words.append(option)
+        elif isinstance(value, (list, tuple)):
+            words.append(f"{option}={','.join(map(in_scene, value))}")
+        elif value is not None and value is not False:
+            words.append(f"{option}={value if isinstance(value, os.PathLike) else in_scene(value)}")
+    return words

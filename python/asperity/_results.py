@@ -7,10 +7,22 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._loop import Loop
+from ._notation import Quantity, in_fields
 
 if TYPE_CHECKING:
     import numpy as np
     import pandas as pd
+
+
+class Values(dict[str, Any]):
+    """Keys and values of a JSON object, which are attributes as well."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"no {name!r}; allowed: {', '.join(self)}") from None
 
 
 class Result:
@@ -24,19 +36,19 @@ class Result:
 
     def __init__(self, report: _native.Report) -> None:
         self._report = report
-        self._values: dict[str, Any] | None = None
+        self._values: Values | None = None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> Values:
         """The result as a dictionary."""
         if self._values is None:
-            self._values = json.loads(self._report.write("json"))
+            self._values = json.loads(self._report.write("json"), object_hook=Values)
         return self._values
 
     def __getattr__(self, name: str) -> Any:
-        values = {} if name.startswith("_") else self.to_dict()
-        if name in values:
-            return values[name]
-        raise AttributeError(f"{type(self).__name__} has no {name!r}; it has: {', '.join(values)}")
+        # Asked for by tools that look for methods of their own.
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self.to_dict(), name)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self.to_dict()})
@@ -61,25 +73,30 @@ class Result:
         return pd.DataFrame(self.to_numpy())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the result to a file; its ending is the format: json, csv, npy, svg, png, pdf or txt."""
+        """Writes the result to a file, whose ending is the format: json, csv, npy, txt, and svg, png, pdf of a figure."""
         written = self._report.write(os.path.splitext(os.fspath(path))[1].lstrip(".").lower())
         with open(path, "wb") as file:
             file.write(written)
 
-    def __str__(self) -> str:
-        return self._report.write("text").decode()
-
     def __repr__(self) -> str:
-        values = ((name, getattr(self, name), unit) for name, unit in self._shown)
-        parts = (f"{name} {_native.in_words(value, unit) if isinstance(value, float) else value}" for name, value, unit in values)
-        return f"<{type(self).__name__}: {', '.join(parts)}>"
+        parts = []
+        for name, unit in self._shown:
+            value = getattr(self, name)
+            numbers = value if isinstance(value, list) else [value]
+            words = [_native.in_words(one, unit) if isinstance(one, float) else str(one) for one in numbers]
+            parts.append(f"{name} {' to '.join(words)}")
+        return f"<{type(self).__name__}: {', '.join(parts)}>" if parts else f"<{type(self).__name__}>"
+
+
+class Drawn(Result):
+    """A result with a figure."""
 
     def _repr_svg_(self) -> str:
-        """The figure of the result, for notebooks."""
+        """The figure, for notebooks."""
         return self._report.write("svg").decode()
 
 
-class Outcome(Result):
+class Outcome(Drawn):
     """A computed scene: figures, regime, curve, and the results on its random profiles."""
 
     _shown = (("adhesion_force", "N"), ("regime", ""))
@@ -87,12 +104,12 @@ class Outcome(Result):
     #: Profile of the scene.
     profile: _native.Profile
     #: Force loop on that profile.
-    loop: _native.Loop
+    loop: Loop
 
     def __init__(self, report: _native.Report, profile: _native.Profile, loop: _native.Loop) -> None:
         super().__init__(report)
         self.profile = profile
-        self.loop = loop
+        self.loop = Loop(loop)
 
 
 class Ensemble(Result):
@@ -103,14 +120,12 @@ class Ensemble(Result):
     @property
     def median(self) -> float | None:
         """Median of the adhesion force over the profiles, N."""
-        median: float | None = self._of_force("median")
-        return median
+        return None if self.adhesion_force is None else float(self.adhesion_force.median)
 
     @property
     def quartiles(self) -> list[float] | None:
         """Lower and upper quartile of the adhesion force over the profiles, N."""
-        quartiles: list[float] | None = self._of_force("quartiles")
-        return quartiles
+        return None if self.adhesion_force is None else list(self.adhesion_force.quartiles)
 
     def values(self, quantity: str = "adhesion_force") -> np.ndarray[Any, Any]:
         """Values of a quantity on all profiles, in the order of their seeds; NaN for a profile that has none."""
@@ -118,23 +133,71 @@ class Ensemble(Result):
 
         return np.array([line[quantity] for line in self.lines], dtype=float)
 
-    def _of_force(self, name: str) -> Any:
-        return None if self.adhesion_force is None else self.adhesion_force[name]
-
 
 class Found(Result):
     """The number of a scene at which a quantity has a value: median and quartiles over the profiles."""
 
-    _shown = (("field", ""), ("median", ""), ("quartiles", ""))
+    def __repr__(self) -> str:
+        return f"<Found: {self.answer}>"
 
 
-class Preloads(Result):
+class Preloads(Drawn):
     """Adhesion force over the preload."""
 
 
-class Reversals(Result):
+class Reversals(Drawn):
     """Unloading of a scene from each of many turning points."""
 
 
-class Reference(Result):
+class Reference(Drawn):
     """A scene as a line and in three dimensions."""
+
+
+class Study(Result):
+    """A scene for all combinations of values, with a record for each of them and each random profile."""
+
+    _shown = (("profiles", ""),)
+
+
+class Fit(Drawn):
+    """A scene fitted to a curve. Each free parameter is an attribute with `value`, `interval` and further numbers."""
+
+    def __getattr__(self, name: str) -> Any:
+        parameters = {} if name.startswith("_") else self.to_dict()["parameters"]
+        return parameters[name] if name in parameters else super().__getattr__(name)
+
+    def __repr__(self) -> str:
+        return f"<Fit: {', '.join(f'{name} {one.value:.4g}' for name, one in self.parameters.items())}>"
+
+
+class Fits(Drawn):
+    """A scene fitted to each of several curves: `curves` has a row for each of them."""
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A row for each curve: values and intervals of the parameters, and the reason of a curve that is not described."""
+        import pandas as pd
+
+        return pd.DataFrame(self.curves)
+
+
+class EnsembleFit(Drawn):
+    """One work of adhesion for all curves of a rough body of unknown profile, by comparison with random profiles."""
+
+
+class Surface(Drawn):
+    """A measured surface: moments with their errors, spectra, and the scenes and profiles that are made of them."""
+
+    def __init__(self, surface: _native.Surface) -> None:
+        super().__init__(surface.report)
+        self._surface = surface
+
+    def profile(self, length: Quantity, points: int = 16384, *, seed: int = 1) -> _native.Profile:
+        """A random profile of the equivalent line, on `points` springs along a length, m."""
+        length = _native.quantity(length, "m", "length")
+        return self._surface.profile(length, _native.whole(points, "points", 1, 2**28), _native.whole(seed, "seed", 0, 2**64 - 1))
+
+    def scene(self, *, modulus: Quantity, work: Quantity | None = None, **fields: Any) -> _native.Scene:
+        """A scene of the equivalent line over the length of the scan, with the effective modulus in Pa and the work of adhesion
+        in J/m². It names the files of the surface."""
+        work = None if work is None else _native.quantity(work, "J/m²", "work")
+        return self._surface.scene(_native.quantity(modulus, "Pa", "modulus"), work).set(in_fields(fields))

@@ -5,42 +5,40 @@
 
 mod computing;
 mod failure;
+mod fit;
 mod force_loop;
+mod press;
 mod profile;
 mod quantity;
 mod report;
 mod results;
 mod scene;
-
-use pyo3::prelude::*;
-
-/// Runs the program with these arguments, the first of which is its name, and returns the exit code.
-#[pyfunction]
-fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
-    py.detach(|| asperity::cli::main(arguments))
-}
+mod surface;
 
 /// The native part of the package.
-#[pymodule]
+#[pyo3::pymodule]
 mod _native {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use super::failure::{FieldError, LoadingError};
-    #[pymodule_export]
-    use super::force_loop::Loop;
-    #[pymodule_export]
-    use super::profile::Profile;
-    #[pymodule_export]
-    use super::program;
-    #[pymodule_export]
-    use super::quantity::{in_words, quantity, whole};
-    #[pymodule_export]
-    use super::report::Report;
-    #[pymodule_export]
-    use super::results::{ensemble, find, preloads, reference, reversals, run};
-    #[pymodule_export]
-    use super::scene::{Scene, presets};
+    use super::{
+        failure::{FieldError, LoadingError},
+        fit::fit,
+        force_loop::Loop,
+        press::press,
+        profile::Profile,
+        quantity::{in_words, quantity, whole},
+        report::Report,
+        results::{ensemble, find, preloads, reference, reversals, run, study},
+        scene::{Scene, presets},
+        surface::Surface,
+    };
+
+    /// Runs the program with these arguments, the first of which is its name, and returns the exit code.
+    #[pyfunction]
+    fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+        py.detach(|| asperity::cli::main(arguments))
+    }
 
     /// States the version of the package.
     #[pymodule_init]

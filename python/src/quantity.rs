@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use asperity::data::{format_quantity, parse_quantity};
-use numpy::{Element, PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
+use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyString};
@@ -36,25 +36,27 @@ pub fn whole(value: &Bound<'_, PyAny>, field: &str, least: u64, most: u64) -> Py
     }
 }
 
-/// Calls a function with the numbers of a one-dimensional array, which is copied only if they do not lie in a row as float64.
+/// Calls a function with the numbers of an array of up to this many dimensions and with its shape. The array is copied only if
+/// its numbers do not lie in a row as float64.
 ///
 /// # Errors
 /// Another shape or type, no number, or one that is not finite: with the name of the argument and what is allowed.
 pub fn with_numbers<R>(
     values: &Bound<'_, PyAny>,
-    field: &str,
-    work: impl FnOnce(&[f64]) -> Result<R, Failure>,
+    (field, dimensions): (&str, usize),
+    work: impl FnOnce(&[f64], &[usize]) -> Result<R, Failure>,
 ) -> PyResult<R> {
     let py = values.py();
     let refused = |found: String| {
-        let allowed = "a one-dimensional array of finite real numbers, at least one";
+        let words = if dimensions == 1 { "a one-dimensional" } else { "a one- or two-dimensional" };
+        let allowed = format!("{words} array of finite real numbers, at least one");
         Failure::field(field, found, allowed).exception(py)
     };
     let numpy = py.import("numpy")?;
     let array = numpy.call_method1("asarray", (values,));
     let array = array.map_err(|error| refused(error.value(py).to_string()))?;
     let array = array.cast_into::<PyUntypedArray>().map_err(|_| refused("no array".to_owned()))?;
-    if array.ndim() != 1 || array.shape()[0] == 0 {
+    if !(1..=dimensions).contains(&array.ndim()) || array.shape().contains(&0) {
         return Err(refused(format!("an array of the shape {}", array.getattr("shape")?)));
     }
     let kind: String = array.dtype().getattr("kind")?.extract()?;
@@ -62,12 +64,13 @@ pub fn with_numbers<R>(
         return Err(refused(format!("an array of the type {}", array.dtype())));
     }
     let array = numpy.call_method1("ascontiguousarray", (array, "f8"))?;
-    let array = array.cast_into::<PyArray1<f64>>().map_err(|_| refused("no array of float64".to_owned()))?;
+    let array =
+        array.cast_into::<PyArrayDyn<f64>>().map_err(|_| refused("no array of float64".to_owned()))?;
     let array = array.try_readonly()?;
     let numbers = array.as_slice()?;
     match numbers.iter().position(|number| !number.is_finite()) {
         Some(index) => Err(refused(format!("{} with the index {index}", numbers[index]))),
-        None => work(numbers).map_err(|failure| failure.exception(py)),
+        None => work(numbers, array.shape()).map_err(|failure| failure.exception(py)),
     }
 }
 

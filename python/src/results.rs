@@ -3,49 +3,39 @@
 use crate::computing::{Watch, computed};
 use crate::failure::Failure;
 use crate::force_loop::Loop;
-use crate::profile::{Profile, Shape};
-use crate::report::{Report, bytes};
+use crate::profile::Profile;
+use crate::report::{Report, of_scene};
 use crate::scene::Scene;
-use asperity::data::parallel;
+use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Simulation, estimate};
 use asperity::study::{
-    Ensemble, Found, MeasuredAdhesion, Question, Reference, ReferenceOptions, Results, Staircase,
-    parse_condition, parse_preloads, parse_range,
+    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceOptions, Results,
+    Staircase, compute, parse_condition, parse_preloads, parse_range,
 };
-use asperity_report::{
-    FindReport, Format, PreloadReport, ReferenceReport, ReversalReport, RunReport, scene_provenance,
-};
+use asperity_report::{FindReport, PreloadReport, ReferenceReport, ReversalReport, RunReport};
 use pyo3::prelude::*;
-use std::io;
-use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Largest number of springs for which the error by the spectrum of a measured surface is computed unasked.
 const MOST_SPRINGS: u64 = 1 << 17;
 
-/// Number of threads: the given number, or one for each core.
-fn threads(jobs: Option<usize>) -> usize {
-    jobs.map_or_else(parallel::threads, |jobs| jobs.clamp(1, 1024))
-}
+/// Number of profiles, number of threads, and the callback of the progress; each may be left to the program.
+#[derive(FromPyObject)]
+pub struct Call(Option<u64>, Option<usize>, Option<Py<PyAny>>);
 
-/// A report of a scene as bytes; tables and figures state the scene.
-fn of_scene(
-    document: &Document,
-    report: &impl asperity_report::Report,
-    format: Format,
-) -> io::Result<Vec<u8>> {
-    let has_scene = matches!(format, Format::Csv | Format::Svg);
-    let provenance = has_scene
-        .then(|| scene_provenance("import asperity", document.scene(), &document.resolve(""), Path::new("")));
-    let provenance = provenance.transpose().map_err(io::Error::other)?.unwrap_or_default();
-    bytes(report, format, &provenance)
+impl Call {
+    /// The number of profiles of a scene, the number of threads, and the callback.
+    fn of(self, scene: &Scene) -> (u64, usize, Option<Py<PyAny>>) {
+        let profiles = self.0.unwrap_or_else(|| Ensemble::profiles_of(scene.document.scene()));
+        (profiles, self.1.unwrap_or_else(parallel::threads), self.2)
+    }
 }
 
 /// The results of a scene on its random profiles.
 fn on_profiles(
     document: &Document,
-    profiles: u64,
-    is_asked: bool,
+    (profiles, is_asked): (u64, bool),
     jobs: usize,
     watch: &Watch,
 ) -> Result<Ensemble, Failure> {
@@ -57,119 +47,86 @@ fn on_profiles(
 
 /// Computes a scene: its report, its profile and its loop.
 #[pyfunction]
-#[pyo3(signature = (scene, profiles=None, jobs=None, progress=None))]
-pub fn run(
-    py: Python<'_>,
-    scene: &Scene,
-    profiles: Option<u64>,
-    jobs: Option<usize>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<(Report, Profile, Loop)> {
-    let (document, jobs) = (scene.document.clone(), threads(jobs));
+pub fn run(py: Python<'_>, scene: &Scene, call: Call) -> PyResult<(Report, Profile, Loop)> {
+    let (document, is_asked) = (scene.document.clone(), call.0.is_some());
+    let (profiles, jobs, progress) = call.of(scene);
     computed(py, progress, move |watch| {
+        let (stop, scene) = (|| watch.stop(), document.scene());
         let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
-        let stop = || watch.stop();
-        let outcome = Arc::new(simulation.run(document.scene(), &stop, &mut |_, _, _| Ok(()))?);
-        let line = simulation.make_line(document.scene())?.0.clone();
-        drop(simulation);
-        let count = profiles.unwrap_or_else(|| Ensemble::profiles_of(document.scene()));
-        let ensemble = (count > 1)
-            .then(|| on_profiles(&document, count, profiles.is_some(), jobs, watch))
-            .transpose()?;
-        let estimate = estimate(document.scene(), &document.resolve(""), &outcome, &stop);
-        let is_measured =
-            document.scene().measured().is_some() && document.scene().numerics.points <= MOST_SPRINGS;
+        let outcome = Arc::new(simulation.run(scene, &stop, &mut |_, _, _| Ok(()))?);
+        let profile = simulation.profile(scene)?;
+        let on_profiles = || on_profiles(&document, (profiles, is_asked), jobs, watch);
+        let ensemble = (profiles > 1).then(on_profiles).transpose()?;
+        let estimate = estimate(scene, &document.resolve(""), &outcome, &stop);
+        let is_measured = scene.measured().is_some() && scene.numerics.points <= MOST_SPRINGS;
         let deviation = ensemble
             .as_ref()
             .filter(|_| is_measured)
-            .and_then(|_| MeasuredAdhesion::of(&document, count as u32, jobs).ok()?.fit_deviation());
+            .and_then(|_| MeasuredAdhesion::of(&document, profiles as u32, jobs).ok()?.fit_deviation());
         let (kept, computed) = (document.clone(), Arc::clone(&outcome));
         let report = Report::new(move |format| {
-            let report = RunReport {
-                title: kept.title(),
-                scene: kept.scene(),
-                outcome: &computed,
-                choice: None,
-                estimate: estimate.as_ref(),
-                ensemble: ensemble.as_ref(),
-                deviation,
-            };
+            let (title, scene, outcome) = (kept.title(), kept.scene(), &*computed);
+            let (estimate, ensemble) = (estimate.as_ref(), ensemble.as_ref());
+            let report = RunReport { title, scene, outcome, choice: None, estimate, ensemble, deviation };
             of_scene(&kept, &report, format)
         });
-        let profile = Profile { shape: Shape::Scene(line, document.clone()) };
+        let profile = Profile { profile, document: Some(document.clone()) };
         Ok((report, profile, Loop::of_scene(document, outcome)))
     })
 }
 
 /// Computes a scene on random profiles.
 #[pyfunction]
-#[pyo3(signature = (scene, profiles=None, jobs=None, progress=None))]
-pub fn ensemble(
-    py: Python<'_>,
-    scene: &Scene,
-    profiles: Option<u64>,
-    jobs: Option<usize>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Report> {
-    let (document, jobs) = (scene.document.clone(), threads(jobs));
+pub fn ensemble(py: Python<'_>, scene: &Scene, call: Call) -> PyResult<Report> {
+    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
     computed(py, progress, move |watch| {
-        let count = profiles.unwrap_or_else(|| Ensemble::profiles_of(document.scene()));
-        let ensemble = on_profiles(&document, count, true, jobs, watch)?;
+        let ensemble = on_profiles(&document, (profiles, true), jobs, watch)?;
         Ok(Report::new(move |format| of_scene(&document, &ensemble, format)))
     })
 }
 
 /// Finds the number of a scene at which a quantity has a value.
 #[pyfunction]
-#[pyo3(signature = (scene, field, condition, range=None, profiles=None, jobs=None, progress=None))]
-#[expect(clippy::too_many_arguments, reason = "arguments of a function of Python, which has names for them")]
+#[pyo3(signature = (scene, field, condition, range, call))]
 pub fn find(
     py: Python<'_>,
     scene: &Scene,
     field: &str,
     condition: &str,
     range: Option<&str>,
-    profiles: Option<u64>,
-    jobs: Option<usize>,
-    progress: Option<Py<PyAny>>,
+    call: Call,
 ) -> PyResult<Report> {
-    let (document, jobs) = (scene.document.clone(), threads(jobs));
+    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
     computed(py, progress, move |watch| {
-        let condition = parse_condition(condition).map_err(Failure::Value)?;
-        let count = profiles.unwrap_or_else(|| Ensemble::profiles_of(document.scene()));
+        let (scene, condition) = (document.scene(), parse_condition(condition)?);
         let mut simulation = Simulation::new(document.resolve(""));
-        let mut question = Question::new(document.scene(), field, condition, count, &mut simulation)?;
+        let mut question = Question::new(scene, field, condition, profiles, &mut simulation)?;
         if let Some(range) = range {
-            question.searched = parse_range(range, question.axis.unit).map_err(Failure::Value)?;
+            question.searched = parse_range(range, question.axis.unit)?;
         }
-        let stop = || watch.stop();
-        let found = Found::of(question, (simulation, jobs), &stop, &mut |done| watch.report(done, count))?;
+        let mut report = |done| watch.report(done, profiles);
+        let found = Found::of(question, (simulation, jobs), &|| watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
-            let report = FindReport { title: document.title(), scene: document.scene(), found: &found };
-            of_scene(&document, &report, format)
+            let (title, scene, found) = (document.title(), document.scene(), &found);
+            of_scene(&document, &FindReport { title, scene, found }, format)
         }))
     })
 }
 
-/// Computes the adhesion force of a scene over the preload: `0..20uN:64`, with `:log` at equal ratios.
+/// Computes the adhesion force of a scene over preloads, as `asperity run --preloads` takes them.
 #[pyfunction]
-#[pyo3(signature = (scene, preloads, profiles=1, jobs=None, progress=None))]
-pub fn preloads(
-    py: Python<'_>,
-    scene: &Scene,
-    preloads: &str,
-    profiles: u64,
-    jobs: Option<usize>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Report> {
-    let (document, jobs) = (scene.document.clone(), threads(jobs));
+pub fn preloads(py: Python<'_>, scene: &Scene, preloads: &str, call: Call) -> PyResult<Report> {
+    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
     computed(py, progress, move |watch| {
-        let axis = parse_preloads(preloads).map_err(Failure::Value)?;
-        let stop = || watch.stop();
+        let (stop, axis) = (|| watch.stop(), parse_preloads(preloads)?);
         let mut simulation = Simulation::new(document.resolve(""));
         let staircase = Staircase::find(document.scene(), &axis, &mut simulation, &stop, &mut |_| ())?;
         let mut results = Results::begin(document.scene(), &Results::OF_PRELOADS, profiles, Some(&axis))?;
-        results.extend((simulation, jobs), &stop, &mut |_| ())?;
+        let mut done = 0;
+        results.extend((simulation, jobs), &stop, &mut |_| {
+            done += 1;
+            watch.report(done, profiles);
+        })?;
         Ok(Report::new(move |format| {
             let (title, results, staircase) = (document.title(), &results, Some(&staircase));
             let report = PreloadReport { title, choice: None, results, staircase, curves: false };
@@ -180,17 +137,17 @@ pub fn preloads(
 
 /// Computes the unloading of a scene from each of many turning points.
 #[pyfunction]
-#[pyo3(signature = (scene, range=None, count=64, progress=None))]
+#[pyo3(signature = (scene, range, count, call))]
 pub fn reversals(
     py: Python<'_>,
     scene: &Scene,
     range: Option<&str>,
     count: usize,
-    progress: Option<Py<PyAny>>,
+    call: Call,
 ) -> PyResult<Report> {
     let document = scene.document.clone();
-    computed(py, progress, move |watch| {
-        let ends = range.map(|range| parse_range(range, "N")).transpose().map_err(Failure::Value)?;
+    computed(py, call.2, move |watch| {
+        let ends = range.map(|range| parse_range(range, "N")).transpose()?;
         let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
         let map = simulation.reversal_map(document.scene(), ends, count, &|| watch.stop())?;
         Ok(Report::new(move |format| {
@@ -201,29 +158,41 @@ pub fn reversals(
     })
 }
 
-/// Computes a scene as a line and in three dimensions.
+/// Computes a scene as a line and in three dimensions, on squares of `cells` along a side.
 #[pyfunction]
-#[pyo3(signature = (scene, grid=64, maps=24, profiles=None, jobs=None, progress=None))]
-pub fn reference(
-    py: Python<'_>,
-    scene: &Scene,
-    grid: usize,
-    maps: u64,
-    profiles: Option<u64>,
-    jobs: Option<usize>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Report> {
-    let (document, jobs) = (scene.document.clone(), threads(jobs));
+pub fn reference(py: Python<'_>, scene: &Scene, cells: usize, maps: u64, call: Call) -> PyResult<Report> {
+    let (document, lines) = (scene.document.clone(), call.0.unwrap_or(16 * maps));
+    let (_, jobs, progress) = call.of(scene);
     computed(py, progress, move |watch| {
-        let lines = profiles.unwrap_or(16 * maps);
-        let done = std::sync::atomic::AtomicU64::new(0);
-        let report = || watch.report(1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed), maps);
-        let options = ReferenceOptions { cells: grid, maps, lines };
+        let done = AtomicU64::new(0);
+        let report = || watch.report(1 + done.fetch_add(1, Ordering::Relaxed), maps);
+        let options = ReferenceOptions { cells, maps, lines };
         let found = Reference::of(document.scene(), options, jobs, &|| watch.stop(), &report)?;
         Ok(Report::new(move |format| {
-            let report =
-                ReferenceReport { title: document.title(), scene: document.scene(), reference: &found };
-            of_scene(&document, &report, format)
+            let (title, scene, reference) = (document.title(), document.scene(), &found);
+            of_scene(&document, &ReferenceReport { title, scene, reference }, format)
         }))
+    })
+}
+
+/// Computes a scene for all combinations of values on axes, on random profiles of each.
+#[pyfunction]
+pub fn study(
+    py: Python<'_>,
+    scene: &Scene,
+    axes: Vec<(String, Vec<f64>)>,
+    record: Vec<String>,
+    call: Call,
+) -> PyResult<Report> {
+    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
+    computed(py, progress, move |watch| {
+        let record = record.iter().map(|name| Quantity::named(name)).collect::<Result<Vec<_>, _>>()?;
+        let axes: Vec<_> = axes.iter().map(|(path, values)| (path.as_str(), values.as_slice())).collect();
+        let plan = Plan::new(&document, &axes, profiles, &record)?;
+        let (stop, all) = (|| watch.stop(), plan.records_in_all());
+        let mut report = |done| watch.report(done, all);
+        let control = Control::default().on_threads(jobs).stopped_by(&stop).reporting_to(&mut report);
+        let results = compute(&plan, control)?;
+        Ok(Report::new(move |format| of_scene(&document, &results, format)))
     })
 }

@@ -159,7 +159,7 @@ class Computations(unittest.TestCase):
 
         before = threads()
         with self.assertRaisesRegex(KeyError, "enough"):
-            asp.ensemble(SCENE, profiles=100_000, progress=fail)
+            asp.ensemble(SCENE, profiles=20_000, progress=fail)
         self.assertEqual(threads(), before)
 
     def test_other_threads_run_meanwhile(self):
@@ -181,7 +181,7 @@ class Computations(unittest.TestCase):
         code = f"""if True:
             import os, time, asperity as asp
             for work in [
-                lambda: asp.ensemble("{SCENE}", profiles=1_000_000),
+                lambda: asp.ensemble("{SCENE}", profiles=20_000),
                 lambda: asp.reference("rough-sphere", grid=128, maps=10_000),
                 lambda: asp.find("preload", "{SCENE}", "F_a/F_a,max = 20 %", profiles=100_000),
             ]:
@@ -193,14 +193,17 @@ class Computations(unittest.TestCase):
             print(len(os.listdir("/proc/self/task")))
             """
         child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+        limit = threading.Timer(60, child.kill)
+        limit.start()
+        self.addCleanup(limit.cancel)
         for _ in range(3):
             self.assertEqual(child.stdout.readline(), "begin\n")
             time.sleep(0.3)
             clock = time.monotonic()
             child.send_signal(signal.SIGINT)
             self.assertEqual(child.stdout.readline(), "stopped\n")
-            self.assertLess(time.monotonic() - clock, 3)
-        rest = child.communicate(timeout=60)[0]
+            self.assertLess(time.monotonic() - clock, 10)
+        rest = child.communicate()[0]
         self.assertEqual((child.returncode, rest), (0, "1\n"))
 
 
@@ -221,11 +224,11 @@ class Program(unittest.TestCase):
         self.assertIn("# command: asperity run jkr-sphere\n", table)
 
     def test_an_interrupt_ends_a_command(self):
-        command = [sys.executable, "-m", "asperity", "run", SCENE, "--lines", "1000000"]
+        command = [sys.executable, "-m", "asperity", "run", SCENE, "--lines", "20000"]
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(1)
         child.send_signal(signal.SIGINT)
-        self.assertEqual(child.wait(timeout=3), -signal.SIGINT)
+        self.assertEqual(child.wait(timeout=10), -signal.SIGINT)
 
 
 class Documentation(unittest.TestCase):

@@ -3,11 +3,13 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::ProgressLine;
-use super::scene::SceneArguments;
+use super::reference::compared;
+use super::scene::{SceneArguments, threads};
 use asperity_data::parse_quantity;
 use asperity_report::CostReport;
 use asperity_report::Format;
 use asperity_scene::{Progress, measure};
+use asperity_study::ReferenceOptions;
 use clap::Args;
 use std::io::Write;
 use std::time::Duration;
@@ -32,6 +34,9 @@ pub struct CostArguments {
     /// Time limit of all measurements together: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
+    /// Compute the error of the model too, by random squares in three dimensions, in addition to the time limit
+    #[arg(long)]
+    pub model: bool,
     #[command(flatten)]
     pub output: OutputArguments,
 }
@@ -61,7 +66,9 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
         });
     line.clear();
     let table = measured.map_err(|error| CliError::named(document.name(), error))?;
-    let report = CostReport::new(document.title(), scene, &table);
+    let model = || compared(&document, ReferenceOptions::of(scene, None), threads(None));
+    let model = arguments.model.then(model).transpose()?;
+    let report = CostReport::new(document.title(), scene, &table, model.as_ref());
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, scene))
 }
 

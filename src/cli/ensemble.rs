@@ -46,19 +46,26 @@ fn share(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "allowed: from 0 to 0.5, such as 0.05 or 5%".to_owned())
 }
 
-/// Whether the modulus is free; an error for parameters that random profiles do not determine.
-fn is_modulus_free(free: &[Free]) -> Result<bool, CliError> {
-    use Parameter::{Modulus, Offset, Work};
-    let allowed = "allowed with --lines: work, modulus, offset, each without a range";
-    for one in free {
-        if ![Work, Modulus, Offset].contains(&one.parameter) || one.range().is_some() {
-            return Err(CliError::named("--free", format!("{}; {allowed}", one.parameter.name())));
+impl EnsembleArguments {
+    /// Options of a comparison with `lines` random profiles.
+    ///
+    /// # Errors
+    /// Parameters that random profiles do not determine.
+    pub fn options(&self, free: &[Free], lines: u32) -> Result<EnsembleOptions, CliError> {
+        use Parameter::{Modulus, Offset, Work};
+        let allowed = "allowed with --lines: work, modulus, offset, each without a range";
+        for one in free {
+            if ![Work, Modulus, Offset].contains(&one.parameter) || one.range().is_some() {
+                return Err(CliError::named("--free", format!("{}; {allowed}", one.parameter.name())));
+            }
         }
+        if !free.iter().any(|one| one.parameter == Work) {
+            return Err(CliError::named("--free", format!("work is missing; {allowed}")));
+        }
+        let EnsembleArguments { height_error, hurst_error, .. } = *self;
+        let is_modulus_free = free.iter().any(|one| one.parameter == Modulus);
+        Ok(EnsembleOptions { lines: u64::from(lines), is_modulus_free, height_error, hurst_error })
     }
-    if !free.iter().any(|one| one.parameter == Work) {
-        return Err(CliError::named("--free", format!("work is missing; {allowed}")));
-    }
-    Ok(free.iter().any(|one| one.parameter == Modulus))
 }
 
 /// Compares the curves of `fit` with `lines` random profiles.
@@ -69,7 +76,7 @@ pub(super) fn ensemble(
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
-    let is_modulus_free = is_modulus_free(arguments.free)?;
+    let options = compared.options(arguments.free, lines)?;
     if arguments.reading.noise.is_some() {
         let refused =
             "not with --lines, whose computed curves have the noise before contact; allowed: without it";
@@ -88,8 +95,6 @@ pub(super) fn ensemble(
         .iter()
         .map(read)
         .collect::<Result<Vec<_>, _>>()?;
-    let EnsembleArguments { height_error, hurst_error, .. } = *compared;
-    let options = EnsembleOptions { lines: u64::from(lines), is_modulus_free, height_error, hurst_error };
     let mut progress = ProgressLine::default();
     let mut report = |computed: u64| progress.show(&format!("{} curves computed", grouped(computed)), None);
     let control = Control::default().on_threads(threads(arguments.jobs)).reporting_to(&mut report);
@@ -99,7 +104,7 @@ pub(super) fn ensemble(
     let report = EnsembleFitReport {
         title: document.title(),
         fit: &found,
-        has_roughness_errors: height_error.is_some() || hurst_error.is_some(),
+        has_roughness_errors: options.height_error.is_some() || options.hurst_error.is_some(),
     };
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, document.scene()))
 }

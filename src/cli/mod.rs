@@ -25,7 +25,7 @@ mod reversals;
 mod run;
 mod scene;
 mod sensitivity;
-mod surface;
+pub mod surface;
 mod sweep;
 mod typed;
 

@@ -4,24 +4,20 @@ use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
-use asperity_report::{Format, ReferenceReport};
+use asperity_report::{Format, ReferenceProgress, ReferenceReport};
+use asperity_scene::{Document, Simulation};
 use asperity_study::{Reference, ReferenceOptions};
 use clap::Args;
 use std::io::Write;
-use std::sync::Mutex;
-use std::sync::PoisonError;
 
 const EXAMPLES: &str = "\
 Examples:
   asperity reference jkr-sphere --grid 128
   asperity reference rough-sphere --maps 12
-  asperity reference my-scene.ron --format json | jq .reference.budget
+  asperity reference my-scene.ron --format json | jq .budget
 
 Random squares with the spectrum of the scene are pressed on an elastic half-space and pulled off,
 beside random lines. Their means are compared; the area of contact of a line means nothing.";
-
-/// Lines for each square: a line takes a thousandth of the time.
-const LINES_PER_MAP: u64 = 16;
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
@@ -31,9 +27,9 @@ pub struct ReferenceArguments {
     /// Cells along the side of a square, a power of two from 32
     #[arg(long, value_name = "COUNT", default_value_t = 64)]
     pub grid: usize,
-    /// Number of random squares
-    #[arg(long, value_name = "COUNT", default_value_t = 24, value_parser = clap::value_parser!(u64).range(1..=10_000))]
-    pub maps: u64,
+    /// Number of random squares; default: 24 without adhesion, 12 with
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    pub maps: Option<u64>,
     #[command(flatten)]
     pub profiles: ProfileArguments,
     #[command(flatten)]
@@ -43,18 +39,29 @@ pub struct ReferenceArguments {
 pub(super) fn reference(arguments: &ReferenceArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
-    let maps = arguments.maps;
-    let lines = arguments.profiles.lines.map_or(LINES_PER_MAP * maps, u64::from);
-    let options = ReferenceOptions { cells: arguments.grid, maps, lines };
-    let progress = Mutex::new((ProgressLine::default(), 0_u64));
-    let report = || {
-        let (line, done) = &mut *progress.lock().unwrap_or_else(PoisonError::into_inner);
-        *done += 1;
-        line.show(&format!("{done} of {maps} squares"), None);
-    };
-    let found = Reference::of(document.scene(), options, arguments.profiles.threads(), &|| false, &report);
-    progress.into_inner().unwrap_or_else(PoisonError::into_inner).0.clear();
-    let found = found.map_err(|error| CliError::named(document.name(), error))?;
+    let usual = ReferenceOptions::of(document.scene(), arguments.maps);
+    let lines = arguments.profiles.lines.map_or(usual.lines, u64::from);
+    let options = ReferenceOptions { cells: arguments.grid, lines, ..usual };
+    let found = compared(&document, options, arguments.profiles.threads())?;
     let report = ReferenceReport { title: document.title(), scene: document.scene(), reference: &found };
     arguments.output.write(stdout, &report, format, Origin::Scene(&document, document.scene()))
+}
+
+/// Compares a scene with three dimensions, and shows the progress.
+pub(super) fn compared(
+    document: &Document,
+    options: ReferenceOptions,
+    jobs: usize,
+) -> Result<Reference, CliError> {
+    let (mut line, mut progress) = (ProgressLine::default(), ReferenceProgress::default());
+    let simulation = (Simulation::new(document.resolve("")), jobs);
+    let found = Reference::of(document.scene(), options, simulation, &|| false, &mut |event| {
+        let (text, is_long) = progress.words(&event);
+        line.show(&text, is_long.then_some(&text));
+        if is_long {
+            line.keep();
+        }
+    });
+    line.clear();
+    found.map_err(|error| CliError::named(document.name(), error))
 }

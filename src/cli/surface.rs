@@ -44,6 +44,7 @@ JSON is one object with statistics, fit, spectra and warnings; tables and pictur
 const LINES: u32 = 16;
 pub(super) const MOST_SPRINGS: u64 = 1 << 17;
 
+/// Arguments of `asperity surface`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub struct SurfaceArguments {
@@ -53,6 +54,7 @@ pub struct SurfaceArguments {
     /// Measured surface of the opposite face: the spectra of both faces add
     #[arg(long, value_name = "FILE")]
     pub opposite: Option<PathBuf>,
+    /// How files are read.
     #[command(flatten)]
     pub measured: Measured,
     /// Channel by its number, or surface of a container by its name
@@ -158,26 +160,50 @@ impl SurfaceArguments {
         }
     }
 
-    /// Creates a scene of the equivalent line over the length of the scan; of two faces the shorter scan counts.
-    fn scene_of(
+    /// Options of reading and analysing the files.
+    ///
+    /// # Errors
+    /// A length without a unit, and a wavelength out of its range.
+    pub fn options(&self) -> Result<MeasuredOptions, CliError> {
+        let mut options = self.surfaces()?.options();
+        options.spectrum.tip_radius = self.in_metres("--tip-radius", self.tip_radius)?;
+        Ok(options)
+    }
+
+    /// The faces with their files read and analysed: that of the files, and an opposite one.
+    ///
+    /// # Errors
+    /// As for [`SurfaceArguments::options`], and a file that cannot be read or analysed.
+    pub fn faces(&self) -> Result<Vec<MeasuredFace>, CliError> {
+        let options = self.options()?;
+        let opposite = self.opposite.as_ref().map(std::slice::from_ref);
+        std::iter::once(&self.files[..]).chain(opposite).map(|files| face(files, &options)).collect()
+    }
+
+    /// Creates a scene of the equivalent line over the length of the scan, on a body of this effective modulus, Pa; of two faces
+    /// the shorter scan counts.
+    ///
+    /// # Errors
+    /// As for [`SurfaceArguments::options`].
+    pub fn scene_of(
         &self,
-        measured: Measured,
         modulus: f64,
         faces: &[MeasuredFace],
         line: &EquivalentLine,
-    ) -> Scene {
+    ) -> Result<Scene, CliError> {
+        let measured = self.surfaces()?;
         let name = self.files.first().and_then(|file| file.file_name()).unwrap_or_default();
         let length = faces.iter().map(|face| face.analysis.length).fold(f64::INFINITY, f64::min);
         // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
         let length = round_to(length, 12);
-        Scene {
+        Ok(Scene {
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
             roughness: Some(Roughness::Measured(measured)),
             adhesion: self.work.map(Adhesion::by_work),
             loading: vec![self.preload.map_or(Move::ToZeroForce, Move::ToForce), Move::ToSeparation],
             numerics: Numerics { points: equivalent_springs(line, length), ..Numerics::default() },
             ..Scene::new(Material::effective(modulus), length)
-        }
+        })
     }
 }
 
@@ -187,16 +213,10 @@ pub(super) fn surface(arguments: &SurfaceArguments, stdout: &mut dyn Write) -> R
     if let Some(file) = &arguments.scene {
         check_file(file, "ron", arguments.output.force)?;
     }
-    let measured = arguments.surfaces()?;
-    let mut options = measured.options();
-    options.spectrum.tip_radius = arguments.in_metres("--tip-radius", arguments.tip_radius)?;
-    let mut faces = vec![face(&arguments.files, &options)?];
-    if let Some(opposite) = &arguments.opposite {
-        faces.push(face(std::slice::from_ref(opposite), &options)?);
-    }
+    let faces = arguments.faces()?;
     let line = EquivalentLine { faces: faces.iter().map(|face| face.analysis.isotropic.clone()).collect() };
     let modulus = arguments.modulus;
-    let scene = modulus.map(|modulus| arguments.scene_of(measured, modulus, &faces, &line));
+    let scene = modulus.map(|modulus| arguments.scene_of(modulus, &faces, &line)).transpose()?;
     if let (Some(file), Some(scene)) = (&arguments.scene, &scene) {
         write_scene(file, scene.clone(), arguments.output.force)?;
     }

@@ -60,6 +60,8 @@ pub struct View {
     pub curve: CurveLook,
     /// Scale of the preloads in the pane of adhesion against preload.
     pub preloads: AxisScale,
+    /// True if loops of random squares in three dimensions are computed and shown.
+    pub squares: bool,
     /// Position of the crosshair as a share of the profile, or of the horizontal axis in another chart.
     pub crosshair: Option<f64>,
     /// True if computing times are shown; they differ from run to run.
@@ -114,6 +116,7 @@ impl App {
                 profile: LineView::WHOLE,
                 curve: CurveLook::default(),
                 preloads: AxisScale::default(),
+                squares: false,
                 crosshair: None,
                 shows_times: true,
                 demo: None,

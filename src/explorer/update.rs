@@ -24,6 +24,7 @@ pub fn update(app: &mut App, action: Action) -> Vec<Task> {
 }
 
 fn apply(app: &mut App, action: Action) {
+    let rows = app.edit.parameters.len();
     match action {
         Action::Command(command) => run(app, command),
         Action::Key(key) => pressed(app, &key),
@@ -46,6 +47,10 @@ fn apply(app: &mut App, action: Action) {
         }
         Action::Read(reading, read) => measured::read(app, &reading, read),
         Action::Mouse(mouse) => mouse::act(app, mouse),
+    }
+    // A search goes through the rows of the present scene.
+    if let Some(prompt) = app.prompt.as_mut().filter(|_| app.edit.parameters.len() != rows) {
+        prompt.search(&app.edit.parameters);
     }
 }
 

@@ -11,7 +11,7 @@ use asperity::explorer::snapshot::Preview;
 use asperity::explorer::solver::Solve;
 use asperity::explorer::studies::Study;
 use asperity::explorer::theme::{Appearance, Marker, Theme};
-use asperity::scene::{Outcome, Simulation, Timings};
+use asperity::scene::{Simulation, Timings};
 use asperity_report::SceneSpectra;
 use std::any::Any;
 use std::fs;
@@ -37,8 +37,9 @@ impl Driver {
     pub fn open(opening: impl Into<Opening>) -> Self {
         // Times differ from run to run.
         let timeless: Solve = |simulation, scene, stop, after| {
-            let outcome = simulation.run(scene, stop, after)?;
-            Ok(Outcome { timings: Timings::default(), ..outcome })
+            let mut outcome = simulation.run(scene, stop, after)?;
+            outcome.timings = Timings::default();
+            Ok(outcome)
         };
         let is_quick = |study: &Study| study.is::<SceneSpectra>() || study.is::<Preview>();
         Driver::open_with(opening, timeless, is_quick)

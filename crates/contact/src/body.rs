@@ -14,6 +14,20 @@ use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
 /// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
+///
+/// ```
+/// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let mut body = Body::new(&contact, 64);
+/// let pressed = body.advance(Move::ToForce(1.0e-4))?;
+/// // A target out of reach is refused, and the body stays in place.
+/// assert!(body.advance(Move::ToForce(-1.0)).is_err());
+/// assert_eq!(body.point().indentation, pressed.end());
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 pub trait MovingBody {
     /// Moves the body to a target and records the motion.
     ///
@@ -32,6 +46,18 @@ pub trait MovingBody {
 }
 
 /// A body on its foundation: the present leg and the position on it, the whole state of the model.
+///
+/// ```
+/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let mut body = Body::new(&contact, 2);
+/// body.move_to(Move::ToForce(1.0e-5))?;
+/// assert!((body.point().force / 1.0e-5 - 1.0).abs() < 1e-12);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 pub struct Body {
     leg: Leg,
     state: ContactState,
@@ -43,7 +69,21 @@ pub struct Body {
 }
 
 /// A motion of a body without a curve, as [`Body::move_to`] returns it.
+///
+/// ```
+/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let motion = Body::new(&contact, 2).move_to(Move::ToIndentation(1.0e-7))?.expect("a way to go");
+/// assert_eq!((motion.low, motion.high), (0.0, 1.0e-7));
+/// // The contact anywhere on the way.
+/// assert!(motion.leg.point(0.5e-7)?.force < motion.leg.point(1.0e-7)?.force);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Motion {
     /// Contact at all indentations of the motion.
     pub leg: Leg,
@@ -339,6 +379,22 @@ impl MovingBody for Body {
 ///
 /// # Errors
 /// The first stage that fails ends the run.
+///
+/// ```
+/// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let mut forces = Vec::new();
+/// let stages = [Move::ToForce(1.0e-5), Move::ToForce(2.0e-5)];
+/// load_body(&mut Body::new(&contact, 16), &stages, |record, _| {
+///     forces.push(record.largest.force);
+///     Ok(())
+/// })?;
+/// assert!((forces[1] / forces[0] - 2.0).abs() < 1e-9);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 pub fn load_body(
     solver: &mut dyn MovingBody,
     targets: &[Move],
@@ -357,6 +413,19 @@ pub fn load_body(
 }
 
 /// The unloading from one turning point to separation, without an error of discrete steps.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let found = contact.reversals(&[Move::ToForce(1.0e-5), Move::ToForce(1.0e-4)], &[])?;
+/// // A sphere adheres with the same force after any preload.
+/// let [one, other] = [0, 1].map(|index| found[index].adhesion_force().unwrap());
+/// assert!((one / other - 1.0).abs() < 1e-9 && found[0].turn.force < found[1].turn.force);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reversal {
     /// Point of the force curve at which the unloading begins.

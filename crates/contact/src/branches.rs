@@ -10,6 +10,19 @@ pub(super) const ROUNDING: f64 = 1e-9;
 const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 
 /// Consecutive loading stages of a history that move the body in one direction, as one motion.
+///
+/// ```
+/// use asperity_contact::{Branch, Contact, Direction, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// // Two stages that load are one branch.
+/// let cycle = contact.load(&[Move::ToTouch, Move::ToForce(1.0e-5), Move::ToSeparation])?;
+/// let branches = Branch::all(cycle.stages());
+/// assert_eq!((branches[0].direction, branches[0].stages.clone()), (Direction::Loading, 0..2));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Branch {
     /// Direction of the motion.
@@ -77,6 +90,19 @@ fn touching(
 
 /// Finds the preload: the point of the largest force while loading, since the last separation and before the last
 /// unloading, and the index of its stage.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile, preload_point, pull_off_point};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-5), Move::ToForce(-1.0e-5), Move::ToForce(2.0e-5), Move::ToSeparation])?;
+/// // The preload is reached by the third stage, the pull-off by the last.
+/// assert_eq!(preload_point(cycle.stages()).map(|(stage, _)| stage), Some(2));
+/// assert_eq!(pull_off_point(cycle.stages()).map(|(stage, _)| stage), Some(3));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 pub fn preload_point(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
     let end = Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
     let separates = |leg: &LegRecord| leg.direction == Direction::Unloading && leg.end_in_contact().is_none();

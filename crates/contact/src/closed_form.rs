@@ -37,6 +37,18 @@ impl ClosedForm {
     }
 
     /// A cone whose flank rises at this angle (rad) from the surface: g(x) = (π/2) |x| tan θ.
+    ///
+    /// ```
+    /// use asperity_contact::{ClosedForm, Modulus};
+    ///
+    /// let cone = ClosedForm::cone(0.1, Modulus::effective(1.0e6)?, 0.05);
+    /// // Without adhesion F = π a² E* tan θ / 2 at a contact radius a.
+    /// let bare = ClosedForm { work_of_adhesion: 0.0, ..cone };
+    /// let expected = 0.5 * std::f64::consts::PI * 1.0e-10 * 1.0e6 * 0.1_f64.tan();
+    /// assert!((bare.force(1.0e-5) / expected - 1.0).abs() < 1e-14);
+    /// assert!(cone.force(1.0e-5) < bare.force(1.0e-5));
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
     pub fn cone(angle: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm {

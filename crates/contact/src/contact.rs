@@ -120,12 +120,36 @@ impl Contact {
 
     /// Begins a contact of the same profile with another modulus, by default without adhesion and with a rigid instrument;
     /// the edge model remains.
+    ///
+    /// ```
+    /// use asperity_contact::{Contact, Modulus, Move, Profile};
+    ///
+    /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+    /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+    /// let stiffer = contact.with(Modulus::effective(1.0e7)?).work_of_adhesion(0.05).build()?;
+    /// let pull_off = |contact: &Contact| contact.reversals(&[Move::ToForce(1.0e-4)], &[]);
+    /// // The pull-off force of a sphere does not depend on its modulus.
+    /// let [soft, hard] = [pull_off(&contact)?, pull_off(&stiffer)?].map(|found| found[0].smallest.force);
+    /// assert!((soft / hard - 1.0).abs() < 1e-3);
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
     #[must_use]
     pub fn with(&self, modulus: Modulus) -> ContactBuilder {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
     /// Force at which the last spring touches the rigid body, N.
+    ///
+    /// ```
+    /// use asperity_contact::{Contact, Modulus, Profile};
+    ///
+    /// let profile = Profile::from_gaps(vec![0.0, 2.0e-8], 1.0e-6)?;
+    /// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).build()?;
+    /// // One spring of 1 N/m is compressed by 20 nm when the other touches.
+    /// assert!((contact.full_contact_force() - 2.0e-8).abs() < 1e-20);
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
     pub fn full_contact_force(&self) -> f64 {
         let deepest = self.profile.deepest();
         self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()

@@ -85,6 +85,19 @@ pub struct Cycle {
 }
 
 /// The force curve of a loading history in columns of one length: one row for each point, in the order of the motion.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let curve = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?.curve();
+/// let least = curve.force.iter().copied().fold(f64::INFINITY, f64::min);
+/// assert!((least / (-1.5 * std::f64::consts::PI * 0.05 * 1.0e-4) - 1.0).abs() < 1e-4);
+/// assert_eq!((curve.stage.first(), curve.stage.last()), (Some(&0), Some(&1)));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Curve {
@@ -118,6 +131,20 @@ impl Contact {
     ///
     /// # Errors
     /// As for [`Contact::load`], [`ContactError::Value`] for an option out of its range, and [`ContactError::Interrupted`].
+    ///
+    /// ```
+    /// use asperity_contact::{Contact, LoadOptions, Modulus, Move, Profile};
+    ///
+    /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+    /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+    /// let stages = [Move::ToForce(1.0e-4), Move::ToSeparation];
+    /// let coarse = contact.load_with(&stages, LoadOptions::default().samples(2))?;
+    /// // The pull-off force is exact for any number of samples.
+    /// let fine = contact.load(&stages)?;
+    /// assert!((coarse.pull_off_force().unwrap() / fine.pull_off_force().unwrap() - 1.0).abs() < 1e-12);
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
     pub fn load_with(&self, stages: &[Move], options: LoadOptions<'_>) -> Result<Cycle, ContactError> {
         let LoadOptions { samples, indentations, mut before_stage } = options;
         check_targets(stages)?;

@@ -6,6 +6,19 @@ use super::history::{CurvePoint, Direction, History, LegRecord};
 use super::target::Move;
 
 /// Figures of a loading history; `None` for a figure that the history does not have.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let pressed = contact.load(&[Move::ToForce(1.0e-4)])?.figures();
+/// assert_eq!((pressed.adhesion_force, pressed.dissipated_energy), (None, None));
+/// let loop_ = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?.figures();
+/// assert!((loop_.adhesion_coefficient.unwrap() - 0.2356).abs() < 1e-4);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
     /// Preload F_n: largest force while loading, since the last separation and before the last unloading, N.
@@ -69,6 +82,18 @@ impl Figures {
 }
 
 /// A marked point of a force curve.
+///
+/// ```
+/// use asperity_contact::{Contact, Mark, Modulus, Move, Profile, marks};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
+/// let found = marks(cycle.stages()).into_iter().map(|(mark, _)| mark);
+/// assert!(found.eq([Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut]));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// First contact at a tensile force, where the contact forms in a jump.

@@ -8,6 +8,20 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 /// Record of the motion to one target.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
+/// let [loading, unloading] = cycle.stages() else { panic!("two stages") };
+/// assert_eq!(loading.attached, unloading.detached);
+/// // The work of adhesion is gained on the way in, and more than that is paid on the way out.
+/// assert!(loading.released_energy < 0.0 && unloading.released_energy > -loading.released_energy);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegRecord {
     /// Target of the motion.
@@ -112,6 +126,17 @@ impl LegRecord {
 }
 
 /// A whole loading history.
+///
+/// ```
+/// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let history = load_body(&mut Body::new(&contact, 64), &[Move::ToForce(1.0e-4)], |_, _| Ok(()))?;
+/// assert_eq!((history.legs.len(), history.contacts.len(), history.work.loading_passes), (1, 1, 1));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// Records of the legs, in order.
@@ -123,8 +148,22 @@ pub struct History {
 }
 
 /// Work counts: the same on every machine, unlike times.
+///
+/// ```
+/// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// // A round body has one local minimum of the gap, and no node at which patches merge.
+/// let mut body = Body::new(&contact, 64);
+/// body.advance(Move::ToForce(1.0e-4))?;
+/// assert_eq!((body.work().springs, body.work().tree_nodes), (1025, 0));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize))]
+#[non_exhaustive]
 pub struct Work {
     /// Number of springs of the line.
     pub springs: u64,
@@ -168,6 +207,18 @@ impl Work {
 }
 
 /// Direction of a leg.
+///
+/// ```
+/// use asperity_contact::{Contact, Direction, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let cycle = contact.load(&[Move::ToForce(1.0e-5), Move::ToForce(-1.0e-5)])?;
+/// let directions = [Direction::Loading, Direction::Unloading];
+/// assert!(cycle.stages().iter().map(|stage| stage.direction).eq(directions));
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize), serde(rename_all = "lowercase"))]
 pub enum Direction {
@@ -178,6 +229,14 @@ pub enum Direction {
 }
 
 /// One point of a force curve.
+///
+/// ```
+/// use asperity_contact::CurvePoint;
+///
+/// let pressed = CurvePoint { indentation: 1.0e-7, force: 2.0e-6, ..CurvePoint::default() };
+/// // A cantilever of 20 N/m is bent by 100 nm.
+/// assert!((pressed.displacement(20.0) - 2.0e-7).abs() < 1e-20);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CurvePoint {
     /// Indentation d, m; 0 at first touch.
@@ -207,6 +266,14 @@ impl CurvePoint {
 }
 
 /// A contact patch: springs in contact without a gap between them. In JSON the array `[first, last]`.
+///
+/// ```
+/// use asperity_contact::Patch;
+///
+/// let patches = Patch::of_springs([true, true, false, true].into_iter());
+/// assert_eq!(patches, [Patch { first: 0, last: 1 }, Patch { first: 3, last: 3 }]);
+/// assert_eq!((patches[0].springs().len(), patches[1].middle()), (2, 3));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(Serialize), serde(into = "(usize, usize)"))]
 pub struct Patch {

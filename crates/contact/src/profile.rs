@@ -94,6 +94,15 @@ impl Profile {
     ///
     /// # Errors
     /// [`ContactError::Value`] for a length out of its range.
+    ///
+    /// ```
+    /// use asperity_contact::Profile;
+    ///
+    /// // A punch of four springs in the middle of ten.
+    /// let punch = Profile::from_gaps(vec![0.0; 4], 1.0e-6)?.on_foundation(1.0e-5, 3)?;
+    /// assert_eq!((punch.points(), punch.length(), punch.position(0)), (4, 1.0e-5, 3.5e-6));
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
     pub fn on_foundation(self, length: f64, first: usize) -> Result<Self, ContactError> {
         check("length", length, is_positive(length), "from 1e-50 to 1e50 m")?;
         Ok(Profile { length, first, ..self })
@@ -154,6 +163,16 @@ impl Profile {
     ///
     /// # Errors
     /// [`ContactError::OutOfMemory`].
+    ///
+    /// ```
+    /// use asperity_contact::{ContactTree, Edges, Profile};
+    ///
+    /// let profile = Profile::from_gaps(vec![0.0, 3.0e-8, 1.0e-8], 1.0e-6)?;
+    /// profile.build_tree(Edges::SubCell, ContactTree::default())?;
+    /// // The next profile reuses the memory.
+    /// Profile::from_gaps(vec![2.0e-8, 0.0], 1.0e-6)?.build_tree(Edges::SubCell, profile.into_tree())?;
+    /// # Ok::<(), asperity_contact::ContactError>(())
+    /// ```
     pub fn build_tree(&self, edges: Edges, memory: ContactTree) -> Result<(), ContactError> {
         self.springs.tree_in(memory, edges).map(|_| ())
     }

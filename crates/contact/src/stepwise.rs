@@ -16,6 +16,21 @@ use super::totals::ContactTotals;
 use asperity_data::resized;
 
 /// A body that moves by small steps and relaxes after each.
+///
+/// ```
+/// use asperity_contact::{Body, Contact, Edges, Modulus, Move, MovingBody, Profile, Stepwise};
+///
+/// let profile = Profile::from_heights(&[0.0, -4.0e-8, -1.0e-8, -4.0e-8, -9.0e-8], 1.0e-6)?;
+/// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).work_of_adhesion(2.0e-4);
+/// let contact = contact.edges(Edges::Grid).build()?;
+/// let mut stepwise = Stepwise::new(&contact, 1.0e-10, 16, &|| false)?;
+/// let mut exact = Body::new(&contact, 16);
+/// for target in [Move::ToIndentation(5.0e-8), Move::ToSeparation] {
+///     let [one, other] = [stepwise.advance(target)?, exact.advance(target)?];
+///     assert_eq!((one.attached, one.detached), (other.attached, other.detached));
+/// }
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone)]
 pub struct Stepwise<'a> {
     contact: &'a Contact,

@@ -4,6 +4,18 @@
 use serde::{Deserialize, Serialize};
 
 /// Target of a body: one loading stage.
+///
+/// ```
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// // Adhesion draws the sphere in until the force is zero; then it is pressed and pulled off.
+/// let cycle = contact.load(&[Move::ToTouch, Move::ToZeroForce, Move::ToForce(1.0e-5), Move::ToSeparation])?;
+/// assert!(cycle.stages()[1].end() > 0.0 && cycle.stages()[3].end() < 0.0);
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Move {

@@ -204,7 +204,8 @@ pub fn format_range((low, high): (f64, f64), digits: usize, unit: &str) -> Strin
     one_unit([low, high].map(|end| format_rounded(end, digits, unit)))
 }
 
-/// Joins the ends of a range, each a value with its unit; a unit that both share is written once, as are equal ends.
+/// Joins the ends of a range, each a value with its unit. A unit that both share is written once, and so are equal
+/// ends.
 pub fn one_unit([low, high]: [String; 2]) -> String {
     if low == high {
         return low;

@@ -5,8 +5,8 @@ use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
 use crate::parameter::{Parameter, Values};
 use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Leg, Modulus};
-use asperity_scene::Scene;
 use asperity_scene::Simulation;
+use asperity_scene::{CheckedScene, RunError};
 use asperity_scene::{DisplacementCurve, DisplacementPoint};
 use asperity_surface::Form;
 use std::ops::Range;
@@ -27,7 +27,7 @@ const FAN: i32 = 8;
 /// Computes a scene at the displacements of a measured curve.
 pub(crate) struct Model<'a> {
     curve: &'a MeasuredCurve,
-    scene: Scene,
+    scene: CheckedScene,
     simulation: &'a mut Simulation,
     /// Contact of a scene and the radius of its form, m; springs and tree are reused for all other values.
     contact: Option<(Contact, f64)>,
@@ -46,7 +46,7 @@ pub(crate) struct Sampling {
 }
 
 impl<'a> Model<'a> {
-    pub fn new(curve: &'a MeasuredCurve, scene: &Scene, simulation: &'a mut Simulation) -> Self {
+    pub fn new(curve: &'a MeasuredCurve, scene: &CheckedScene, simulation: &'a mut Simulation) -> Self {
         Model { curve, scene: scene.clone(), simulation, contact: None, noise: 1.0, evaluations: 0 }
     }
 
@@ -55,9 +55,12 @@ impl<'a> Model<'a> {
         let radius = values[Parameter::Radius as usize];
         if self.contact.as_ref().is_none_or(|(_, made)| *made != radius) {
             self.contact = None;
-            if let Some(of) = self.scene.form.as_mut().and_then(Form::radius_mut) {
-                *of = radius;
-            }
+            let scene = self.scene.with(|scene| {
+                if let Some(of) = scene.form.as_mut().and_then(Form::radius_mut) {
+                    *of = radius;
+                }
+            });
+            self.scene = scene.map_err(RunError::from)?;
             self.contact = Some((self.simulation.contact(&self.scene)?.0, radius));
         }
         let Some((contact, _)) = &self.contact else {
@@ -255,7 +258,7 @@ mod tests {
         let radius = radius_of(&made.scene).unwrap();
         let values = [work, work, modulus, 0.0, 0.0, stiffness(&made.scene), radius];
         let mut simulation = Simulation::default();
-        let mut model = Model::new(&curve, &made.scene, &mut simulation);
+        let mut model = Model::new(&curve, &made.scene.clone().checked().unwrap(), &mut simulation);
         let rests = [1.0, 10.0].map(|noise| {
             model.noise = noise;
             let forces = model.forces(&values).unwrap();

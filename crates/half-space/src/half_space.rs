@@ -161,6 +161,9 @@ impl HalfSpace {
 }
 
 /// Checks a number of cells along a side.
+///
+/// # Errors
+/// It is not a power of two from 32 to 8192.
 pub fn check_cells(cells: usize) -> Result<(), HalfSpaceError> {
     let is_allowed = cells.is_power_of_two() && (COARSEST..=FINEST).contains(&cells);
     if is_allowed { Ok(()) } else { Err(HalfSpaceError::Cells(cells)) }

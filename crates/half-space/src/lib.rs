@@ -12,6 +12,6 @@ mod press;
 
 pub use adhesive::{AdhesiveSquare, AdhesiveState};
 pub use error::HalfSpaceError;
-pub use half_space::{HalfSpace, Load, Pressed, Square};
+pub use half_space::{HalfSpace, Load, Pressed, Square, check_cells};
 pub use map::random_map;
 pub use operators::Boundary;

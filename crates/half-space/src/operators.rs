@@ -6,7 +6,7 @@ use asperity_data::{OutOfMemory, resized};
 use std::f64::consts::{PI, TAU};
 
 /// Number of sweeps by which a residual is extended beyond the contact.
-const SWEEPS: usize = 4;
+const SWEEPS: usize = 6;
 
 /// Surroundings of the square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +29,7 @@ pub struct Operators {
     pub convolutions: u64,
     extended: Vec<f32>,
     other: Vec<f32>,
+    off: Vec<f32>,
 }
 
 impl Operators {
@@ -37,7 +38,7 @@ impl Operators {
         let (displacement, stiffness) = paddings(cells, boundary);
         Convolution::<f64>::bytes(cells, displacement)
             + Convolution::<f32>::bytes(cells, stiffness)
-            + 8 * (cells * cells) as u64
+            + 12 * (cells * cells) as u64
     }
 
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
@@ -61,6 +62,7 @@ impl Operators {
             convolutions: 0,
             extended: resized(Vec::new(), cells * cells, 0.0)?,
             other: resized(Vec::new(), cells * cells, 0.0)?,
+            off: resized(Vec::new(), cells * cells, 0.0)?,
         })
     }
 
@@ -74,20 +76,17 @@ impl Operators {
     /// extends displacements smoothly beyond the contact, since zeros there would act as a wall at each edge. The operator
     /// is symmetric; it is approximate, so that single precision is enough. `outside` is 1 off the contact and 0 on it.
     pub fn precondition(&mut self, residual: &[f32], outside: &[f32], pressure: &mut [f32]) {
-        let Operators { cells, stiffness, extended, other, .. } = self;
-        let sweep = |from: &[f32], to: &mut [f32]| extend(*cells, residual, from, outside, to);
-        sweep(residual, extended);
-        for _ in 1..SWEEPS {
-            sweep(extended, other);
-            std::mem::swap(extended, other);
-        }
+        let Operators { cells, stiffness, extended, other, off, .. } = self;
+        // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways back.
+        extend((*cells, SWEEPS), (residual, outside), extended, other);
         self.convolutions += 1;
         stiffness.apply(extended, pressure);
-        for _ in 0..SWEEPS {
-            other.iter_mut().zip(&*pressure).zip(outside).for_each(|((to, of), out)| *to = of * out);
-            contract(*cells, other, outside, pressure);
-        }
-        pressure.iter_mut().zip(outside).for_each(|(value, out)| *value *= 1.0 - out);
+        off.iter_mut().zip(&*pressure).zip(outside).for_each(|((to, of), out)| *to = of * out);
+        extend((*cells, SWEEPS - 1), (off, outside), extended, other);
+        each_row(*cells, extended, pressure, |row, sums, to| {
+            let of = outside[row * *cells..].iter().zip(sums);
+            to.iter_mut().zip(of).for_each(|(to, (out, sum))| *to = (1.0 - out) * (*to + 0.25 * sum));
+        });
     }
 }
 
@@ -111,21 +110,25 @@ fn of_a_cell(x: f64, y: f64) -> f64 {
     (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5) + part(x - 0.5, y - 0.5)) / PI
 }
 
-/// Fills each cell off the contact with the mean of its neighbours; cells of the contact keep `fixed`.
-fn extend(cells: usize, fixed: &[f32], from: &[f32], outside: &[f32], to: &mut [f32]) {
-    each_row(cells, from, to, |row, sums, to| {
-        let of = fixed[row * cells..].iter().zip(&outside[row * cells..]).zip(sums);
-        to.iter_mut().zip(of).for_each(|(to, ((fixed, out), sum))| *to = fixed + 0.25 * out * sum);
-    });
-}
-
-/// The transposed sweep: each cell gains a quarter of its neighbours off the contact, and loses its own number if it is off the
-/// contact. `off` has the numbers off the contact alone.
-fn contract(cells: usize, off: &[f32], outside: &[f32], to: &mut [f32]) {
-    each_row(cells, off, to, |row, sums, to| {
-        let of = outside[row * cells..].iter().zip(sums);
-        to.iter_mut().zip(of).for_each(|(to, (out, sum))| *to = *to * (1.0 - out) + 0.25 * sum);
-    });
+/// Extends the numbers `fixed` into `extended` by sweeps, in each of which every cell off the contact becomes its own number and
+/// the mean of its neighbours, and cells of the contact keep their own.
+fn extend(
+    (cells, sweeps): (usize, usize),
+    (fixed, outside): (&[f32], &[f32]),
+    extended: &mut Vec<f32>,
+    other: &mut Vec<f32>,
+) {
+    let sweep = |from: &[f32], to: &mut [f32]| {
+        each_row(cells, from, to, |row, sums, to| {
+            let of = fixed[row * cells..].iter().zip(&outside[row * cells..]).zip(sums);
+            to.iter_mut().zip(of).for_each(|(to, ((fixed, out), sum))| *to = fixed + 0.25 * out * sum);
+        });
+    };
+    sweep(fixed, extended);
+    for _ in 1..sweeps {
+        sweep(extended, other);
+        std::mem::swap(extended, other);
+    }
 }
 
 /// Calls a function with the number of each row, the sums of the four neighbours of its cells, and the row of `to`; a neighbour

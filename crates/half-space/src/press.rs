@@ -157,7 +157,8 @@ impl Grid {
     /// Brings the pressures to the given mean, and computes the displacements.
     fn load(&mut self, given: Given) {
         if let Given::MeanPressure(mean) = given {
-            let factor = mean * self.pressure.len() as f64 / sum(&self.pressure);
+            let [sum] = sums([&self.pressure], [], |[pressure], []| [pressure]);
+            let factor = mean * self.pressure.len() as f64 / sum;
             self.pressure.iter_mut().for_each(|pressure| *pressure *= factor);
         }
         self.operators.displace(&self.pressure, &mut self.displacement);
@@ -179,15 +180,20 @@ impl Grid {
         };
     }
 
-    /// Residuals on the contact; returns the largest of them, the deepest penetration elsewhere and the lowest pressure.
-    fn judge(&mut self) -> [f64; 3] {
+    /// Moves by a length along the direction, and finds the residuals on the contact; returns the largest of them, the
+    /// deepest penetration elsewhere and the lowest pressure.
+    fn advance(&mut self, length: f64) -> [f64; 3] {
         std::mem::swap(&mut self.residual, &mut self.former);
         let level = self.level;
         let mut found = [[0.0; LANES]; 3];
-        let [displacement, depths, pressure] = [&self.displacement, &self.depths, &self.pressure].map(lanes);
-        let cells = displacement.iter().zip(depths).zip(pressure).zip(lanes(&self.outside));
-        for (residual, (((u, z), p), out)) in self.residual.as_chunks_mut::<LANES>().0.iter_mut().zip(cells) {
+        let moved = groups_of(&mut self.pressure).zip(groups_of(&mut self.displacement));
+        let by = groups(&self.direction).iter().zip(groups(&self.image));
+        let cells = groups(&self.depths).iter().zip(groups(&self.outside));
+        let cells = moved.zip(by).zip(cells.zip(groups_of(&mut self.residual)));
+        for (((p, u), (direction, image)), ((z, out), residual)) in cells {
             for lane in 0..LANES {
+                p[lane] += length * direction[lane];
+                u[lane] += length * image[lane];
                 let missing = level - u[lane] - z[lane];
                 let out = f64::from(out[lane]);
                 let on = (1.0 - out) * missing;
@@ -229,12 +235,13 @@ impl Grid {
         let before = self.operators.convolutions;
         let own = OWN_DISPLACEMENT / self.cells as f64;
         self.load(given);
+        self.find_level(given);
+        let mut found = self.advance(0.0);
         // Scalar product of the last gradient and residual; without one the next step is that of the steepest descent.
         let mut last = None;
         let mut steps = 0;
         loop {
-            self.find_level(given);
-            let [on_contact, beyond, lowest] = self.judge();
+            let [on_contact, beyond, lowest] = found;
             let residual = on_contact.max(beyond) / height;
             let is_reached = residual <= tolerance && lowest >= 0.0;
             if is_reached || steps == MOST_STEPS {
@@ -248,11 +255,13 @@ impl Grid {
                 if self.change_set() {
                     self.load(given);
                 }
-                last = None;
-                continue;
+                self.find_level(given);
+                (last, found) = (None, self.advance(0.0));
+            } else {
+                let (product, next) = self.step(given, last);
+                (last, found) = (Some(product), next);
+                steps += 1;
             }
-            last = Some(self.step(given, last));
-            steps += 1;
         }
     }
 
@@ -264,49 +273,49 @@ impl Grid {
         tolerance: f64,
         stop: &dyn Fn() -> bool,
     ) -> Result<(), HalfSpaceError> {
-        let given = Given::Indentation(depth);
+        self.level = depth;
+        let mut found = self.advance(0.0);
         let mut last = None;
         for _ in 0..MOST_STEPS {
-            self.find_level(given);
-            let [on_contact, ..] = self.judge();
-            if on_contact <= tolerance {
+            if found[0] <= tolerance {
                 break;
             }
             if stop() {
                 return Err(HalfSpaceError::Stopped);
             }
-            last = Some(self.step(given, last));
+            let (product, next) = self.step(Given::Indentation(depth), last);
+            (last, found) = (Some(product), next);
         }
         Ok(())
     }
 
-    /// One step of the gradients on the present contact; returns the product that the next step needs.
-    fn step(&mut self, given: Given, last: Option<f64>) -> f64 {
+    /// One step of the gradients on the present contact; returns the product that the next step needs, and what `advance`
+    /// finds.
+    fn step(&mut self, given: Given, last: Option<f64>) -> (f64, [f64; 3]) {
         self.operators.precondition(&self.residual, &self.outside, &mut self.gradient);
         let singles = [&self.gradient, &self.residual, &self.former, &self.outside];
         let [product, former, total, count] = sums([], singles, |[], [gradient, residual, former, out]| {
             let of = |value: f32| f64::from(gradient) * f64::from(value);
             [of(residual), of(former), f64::from(gradient), 1.0 - f64::from(out)]
         });
+        let is_force = matches!(given, Given::MeanPressure(_));
         // Under a force the mean of the residual over the contact is zero, and so is the mean of the step.
-        let mean = if matches!(given, Given::MeanPressure(_)) { total / f64::max(count, 1.0) } else { 0.0 };
-        let turned = product - former;
+        let mean_of = |total: f64| if is_force { total / f64::max(count, 1.0) } else { 0.0 };
+        let (mean, turned) = (mean_of(total), product - former);
         let carried = last.map_or(0.0, |last| if last > 0.0 { (turned / last).max(0.0) } else { 0.0 });
         let singles = self.gradient.iter().zip(&self.outside);
         for (direction, (gradient, out)) in self.direction.iter_mut().zip(singles) {
             *direction = f64::from(*gradient) - (1.0 - f64::from(*out)) * mean + carried * *direction;
         }
         self.operators.displace(&self.direction, &mut self.image);
-        let [along, curvature] =
-            sums([&self.direction, &self.image], [&self.residual], |[direction, image], [residual]| {
-                [direction * f64::from(residual), direction * image]
+        let double = [&self.direction, &self.image];
+        let [along, curvature, total] =
+            sums(double, [&self.residual, &self.outside], |[direction, image], [residual, out]| {
+                [direction * f64::from(residual), direction * image, (1.0 - f64::from(out)) * image]
             });
-        if curvature > 0.0 {
-            let length = along / curvature;
-            self.pressure.iter_mut().zip(&self.direction).for_each(|(to, of)| *to += length * of);
-            self.displacement.iter_mut().zip(&self.image).for_each(|(to, of)| *to += length * of);
-        }
-        product
+        let length = if curvature > 0.0 { along / curvature } else { 0.0 };
+        self.level += length * mean_of(total);
+        (product, self.advance(length))
     }
 }
 
@@ -314,26 +323,25 @@ impl Grid {
 const LANES: usize = 4;
 
 /// The numbers in groups; those of a grid, whose side is even, without a rest.
-fn lanes<T>(of: &Vec<T>) -> &[[T; LANES]] {
+fn groups<T>(of: &Vec<T>) -> &[[T; LANES]] {
     of.as_chunks().0
 }
 
-fn sum(of: &Vec<f64>) -> f64 {
-    let [total] = sums([of], [], |[value], []| [value]);
-    total
+fn groups_of<T>(of: &mut Vec<T>) -> impl Iterator<Item = &mut [T; LANES]> {
+    of.as_chunks_mut().0.iter_mut()
 }
 
-/// Sums over all cells of what a function makes of their numbers, `double` and `single` ones.
+/// Sums over all cells of what a function makes of their numbers, in double and in single precision.
 fn sums<const D: usize, const S: usize, const N: usize>(
     double: [&Vec<f64>; D],
     single: [&Vec<f32>; S],
     each: impl Fn([f64; D], [f32; S]) -> [f64; N],
 ) -> [f64; N] {
-    let (double, single) = (double.map(lanes), single.map(lanes));
-    let groups = double.iter().map(|of| of.len()).chain(single.iter().map(|of| of.len())).min().unwrap_or(0);
-    let (double, single) = (double.map(|of| &of[..groups]), single.map(|of| &of[..groups]));
+    let (double, single) = (double.map(groups), single.map(groups));
+    let count = double.iter().map(|of| of.len()).chain(single.iter().map(|of| of.len())).min().unwrap_or(0);
+    let (double, single) = (double.map(|of| &of[..count]), single.map(|of| &of[..count]));
     let mut totals = [[0.0; LANES]; N];
-    for group in 0..groups {
+    for group in 0..count {
         let (double, single) = (double.map(|of| &of[group]), single.map(|of| &of[group]));
         for lane in 0..LANES {
             let of = each(double.map(|of| of[lane]), single.map(|of| of[lane]));

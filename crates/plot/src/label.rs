@@ -244,7 +244,9 @@ mod tests {
             [
                 (Face::Italic, "F"),
                 (Face::Index, "a"),
-                (Face::Upright, "(0)/"),
+                (Face::Upright, "("),
+                (Face::Italic, "d"),
+                (Face::Upright, "=0)/"),
                 (Face::Italic, "F"),
                 (Face::Index, "a,max")
             ]

@@ -1,5 +1,6 @@
 //! Cost of accuracy as text, JSON, table and work–precision diagram.
 
+use crate::reference::model_sentence;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::work_precision::work_precision;
@@ -9,6 +10,7 @@ use asperity_data::{format_quantity, format_rounded};
 use asperity_plot::Figure;
 use asperity_scene::Scene;
 use asperity_scene::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
+use asperity_study::Reference;
 use serde::Serialize;
 
 /// Headings of the columns of errors, in the order of [`QUANTITIES`].
@@ -25,12 +27,20 @@ pub struct CostReport<'a> {
     answer: Vec<String>,
     #[serde(flatten)]
     table: &'a CostTable,
+    /// The same scene beside three dimensions, whose ratio is the error of the model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reference: Option<&'a Reference>,
 }
 
 impl<'a> CostReport<'a> {
     /// A report of the measured cost of a scene with this title.
-    pub fn new(title: &'a str, scene: &'a Scene, table: &'a CostTable) -> CostReport<'a> {
-        CostReport { title, scene, answer: table.answer(), table }
+    pub fn new(
+        title: &'a str,
+        scene: &'a Scene,
+        table: &'a CostTable,
+        reference: Option<&'a Reference>,
+    ) -> CostReport<'a> {
+        CostReport { title, scene, answer: table.answer(), table, reference }
     }
 }
 
@@ -40,6 +50,9 @@ impl Report for CostReport<'_> {
         let table = self.table;
         let mut sheet = Sheet::default();
         table.answer().iter().for_each(|sentence| sheet.paragraph(sentence));
+        if let Some(model) = self.reference.and_then(model_sentence) {
+            sheet.paragraph(&model);
+        }
         sheet.heading("Relative errors, with the observed order of convergence since the row before");
         sheet.paragraph(&counted_from(table));
         for knob in Knob::ALL {
@@ -100,7 +113,7 @@ impl Report for CostReport<'_> {
     }
 
     fn figure(&self) -> Option<Figure> {
-        Some(work_precision(self.title, self.table))
+        Some(work_precision(self.title, self.table, self.reference))
     }
 }
 

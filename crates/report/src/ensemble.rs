@@ -1,12 +1,12 @@
 //! Results on random profiles: the headline of a scene as text and JSON, its caption in figures, and a table of the profiles.
 
-use crate::report::Report;
+use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use asperity_data::{Kind, Table, object};
 use asperity_data::{format_range, format_rounded, grouped, one_unit};
 use asperity_plot::Label;
 use asperity_scene::Regime;
-use asperity_study::{Ensemble, Quantity, RegimeCounts, Statistics};
+use asperity_study::{Ensemble, Plan, Quantity, RegimeCounts, Results, Statistics};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -114,6 +114,10 @@ pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
 
 /// The table has a row for each profile, with its seed and all recorded quantities.
 impl Report for Ensemble {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        Some(Box::new(ensemble_value(self)))
+    }
+
     fn table(&self) -> Option<Table<'_>> {
         let (results, plan) = (self.results(), self.results().plan());
         let mut table = Table::of(|| 0..plan.lines).whole("seed", |line| plan.seed_of(*line));
@@ -126,5 +130,18 @@ impl Report for Ensemble {
             };
         }
         Some(table.done())
+    }
+}
+
+/// A study in memory.
+impl Report for Results {
+    fn json(&self) -> Option<Box<dyn Json + '_>> {
+        let Plan { scene, axes, lines, .. } = self.plan();
+        let axes: BTreeMap<_, _> = axes.iter().map(|axis| (&axis.path, &axis.values)).collect();
+        Some(Box::new(object! { "scene": scene, "axes": axes, "profiles": lines, "records": self.table() }))
+    }
+
+    fn table(&self) -> Option<Table<'_>> {
+        Some(Results::table(self))
     }
 }

@@ -47,7 +47,7 @@ pub use preloads::{PreloadReport, distribution, preload_chart, preload_figure, w
 pub use provenance::{
     check_measured_files, entries, files_provenance, named_from, scene_provenance, scenes_provenance,
 };
-pub use reference::ReferenceReport;
+pub use reference::{ReferenceProgress, ReferenceReport, square_loops_words};
 pub use report::{Format, Json, Report, check_extension, write};
 pub use reversals::ReversalReport;
 pub use run::{PathReport, RunReport};

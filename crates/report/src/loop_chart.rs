@@ -99,8 +99,8 @@ impl LoopUnits {
         self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
-    /// Returns true if a mark lies on the drawn curve: over the displacement, a compliant instrument jumps over the states
-    /// of a jump into or out of contact.
+    /// Returns true if a mark lies on the drawn curve. Over the displacement a compliant instrument skips the states
+    /// inside a jump.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
@@ -168,7 +168,7 @@ pub struct ForceLoop<'a> {
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name of the loop in the legend, if it has one.
     pub name: Option<Label>,
-    /// True to leave the forces of marks out of the legend, if several charts share it.
+    /// True if the legend, which several charts share, leaves out the forces of marks.
     pub without_forces: bool,
     /// Ink of the loop; `None` for the inks of loading and unloading.
     pub ink: Option<Ink>,

@@ -198,9 +198,9 @@ pub(crate) fn unloadings(
 const LOGARITHMIC_RATIO: f64 = 30.0;
 const MOST_DECADES: f64 = 6.0;
 
-/// Chart of the adhesion force (N) over the preload (N): the staircase of one profile, the spread over several, and
-/// adhesion by both zero-load protocols, with their forces in the legend if `has_values`. If the preloads are logarithmic,
-/// forces over several decades are too.
+/// Chart of the adhesion force (N) over the preload (N): the staircase of one profile, the spread over several
+/// profiles, and F_a(d=0) and F_a(F=0). `has_values` writes these two forces into the legend. If the preloads are
+/// logarithmic, forces over several decades are too.
 pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;
@@ -270,9 +270,9 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     )
 }
 
-/// Empirical distribution of the adhesion force over the profiles at the nearest computed preload (N), on the vertical axis
-/// of a chart beside it or on one of its own: each profile adds a step to the share of profiles. `None` for fewer than two
-/// profiles.
+/// Empirical distribution of the adhesion force over the profiles at the nearest computed preload (N). Each profile
+/// adds a step to the share of profiles. `forces` is the vertical axis of a chart beside it. `None` for fewer than
+/// two profiles.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

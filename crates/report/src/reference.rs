@@ -2,11 +2,14 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::status::duration;
 use asperity_data::{AxisScale, Table, object};
-use asperity_data::{format_quantity, format_rounded, grouped};
+use asperity_data::{format_quantity, format_rounded, grouped, memory_size};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
-use asperity_study::{Compared, Loaded, Reference, Statistics};
+use asperity_study::{Compared, Loaded, Reference, ReferenceEvent, SquareLoops, Statistics};
+use serde::Serialize;
+use std::time::{Duration, Instant};
 
 /// A comparison, with the title of its scene.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +30,75 @@ fn ratio(of: &Compared) -> String {
         Some(error) => format!("{} ± {}", decimals(of.ratio), decimals(error)),
         None => decimals(of.ratio),
     }
+}
+
+/// Time, s, from which on a comparison is long.
+const LONG: f64 = 10.0;
+
+/// Progress of a comparison in words.
+#[derive(Clone, Copy, Debug)]
+pub struct ReferenceProgress {
+    begun: Instant,
+    maps: u64,
+    done: u64,
+}
+
+impl Default for ReferenceProgress {
+    fn default() -> Self {
+        ReferenceProgress { begun: Instant::now(), maps: 0, done: 0 }
+    }
+}
+
+impl ReferenceProgress {
+    /// What has happened, in one line; true if it says that the comparison takes long.
+    pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
+        match *event {
+            ReferenceEvent::Begins { maps, threads, bytes, seconds } => {
+                *self = ReferenceProgress { maps, ..ReferenceProgress::default() };
+                let time = duration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX));
+                let (squares, threads) = (counted(maps, "square"), counted(threads as u64, "thread"));
+                let memory = memory_size(bytes);
+                (format!("{squares} on {threads}: about {time} and {memory} of memory"), seconds >= LONG)
+            }
+            ReferenceEvent::Square { .. } => {
+                self.done += 1;
+                let ReferenceProgress { done, maps, begun } = *self;
+                let left = begun.elapsed().mul_f64((maps - done.min(maps)) as f64 / done as f64);
+                (format!("{done} of {}, {} left", counted(maps, "square"), duration(left)), false)
+            }
+        }
+    }
+}
+
+fn counted(count: u64, noun: &str) -> String {
+    format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
+}
+
+/// The loops of random squares so far in words, short ones; with the ratio of both models once all are done.
+pub fn square_loops_words(loops: &SquareLoops) -> String {
+    let SquareLoops { maps, curves, reference, .. } = loops;
+    let Some((reference, compared)) = reference.as_ref().and_then(|of| Some((of, of.headline()?))) else {
+        let done = if *maps == 0 { "begins".into() } else { format!("{} of {maps} squares", curves.len()) };
+        return format!("three dimensions: {done}");
+    };
+    let symbol = if reference.adhesion_force.is_some() { "F_a" } else { "d" };
+    let waves = match (reference.waves, reference.omitted) {
+        (Some((first, last)), Some(_)) => format!(", waves {first} to {last} alone"),
+        _ => String::new(),
+    };
+    format!("{symbol} line/three dimensions {}{waves}", ratio(compared))
+}
+
+/// The error of the model in a sentence.
+pub fn model_sentence(reference: &Reference) -> Option<String> {
+    let compared = reference.headline()?;
+    let quantity = if reference.adhesion_force.is_some() { "the adhesion force" } else { "the indentation" };
+    Some(format!(
+        "The mean of {quantity} over random lines is {} times the mean over random squares in three dimensions: this error \
+         of the model, {}, remains with any number of springs.",
+        ratio(compared),
+        percent(reference.budget.model)
+    ))
 }
 
 fn percent(share: f64) -> String {
@@ -81,6 +153,28 @@ impl ReferenceReport<'_> {
     }
 }
 
+/// The numbers of one model, or the ratios of both, with the area of contact where it means something.
+fn model<V: Serialize>(
+    reference: &Reference,
+    of: impl Fn(&Compared) -> V + Copy,
+    area: impl Fn(&Loaded) -> Option<f64>,
+) -> impl Serialize {
+    let point = |loaded: &Loaded| {
+        object! {
+            "force": loaded.force,
+            "indentation": of(&loaded.indentation),
+            "stiffness": of(&loaded.stiffness),
+            "contact_area"?: area(loaded),
+        }
+    };
+    object! {
+        "adhesion_force": reference.adhesion_force.as_ref().map(of),
+        "zero_load_adhesion_force": reference.zero_load_adhesion_force.as_ref().map(of),
+        "dissipated_energy": reference.dissipated_energy.as_ref().map(of),
+        "loading": reference.loading.iter().map(point).collect::<Vec<_>>(),
+    }
+}
+
 impl Report for ReferenceReport<'_> {
     fn text(&self) -> Option<String> {
         let reference = self.reference;
@@ -130,7 +224,24 @@ impl Report for ReferenceReport<'_> {
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(object! { "scene": self.scene, "reference": self.reference }))
+        let reference = self.reference;
+        let ratio = |of: &Compared| object! { "value": of.ratio, "error": of.error };
+        Some(Box::new(object! {
+            "scene": self.scene,
+            "cells": reference.options.cells,
+            "maps": reference.options.maps,
+            "lines": reference.options.lines,
+            "waves": reference.waves,
+            "omitted": reference.omitted,
+            "preload": reference.preload,
+            "line": model(reference, |of| of.line, |_| None),
+            "half_space": model(reference, |of| of.half_space, |loaded| Some(loaded.area)),
+            "ratio": model(reference, ratio, |_| None),
+            "budget": reference.budget,
+            "convolutions": reference.convolutions,
+            "seconds": reference.seconds,
+            "seconds_of_square": reference.seconds_of_square,
+        }))
     }
 
     /// A row for each force of the loading without adhesion.

@@ -121,7 +121,8 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// Chart with a bar for each change of a result, in per cent, by at most `most` numbers; the largest is at the top.
+/// Chart with a bar for each change of a result, in per cent. It has at most `most` numbers, with the largest change
+/// at the top.
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);

@@ -63,7 +63,8 @@ pub fn progress_text(progress: &StudyProgress) -> String {
     text
 }
 
-fn duration(time: Duration) -> String {
+/// A time in words: `2 min 5 s`.
+pub fn duration(time: Duration) -> String {
     let seconds = time.as_secs();
     let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
     match (hours, minutes) {

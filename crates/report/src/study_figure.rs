@@ -85,8 +85,8 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Curves of a quantity over the axis across, one for each row of a grid; if values are small on a linear scale, with a
-/// second, logarithmic chart.
+/// Curves of a quantity over the axis across, one for each row of a grid. If values are small on a linear scale, a
+/// second chart is logarithmic.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid.layer(quantity).map_or(AxisScale::Linear, |layer| layer.scale);

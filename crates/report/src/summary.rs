@@ -346,7 +346,9 @@ mod tests {
         // Without times and the solver's own counts of work.
         outcome.timings = Timings { line: 1.5e-3, ..Timings::default() };
         let springs = outcome.history.work.springs;
-        outcome.history.work = Work { springs, tree_nodes: springs, attached: 1_234_567, ..Work::default() };
+        outcome.history.work = Work::default();
+        let work = &mut outcome.history.work;
+        (work.springs, work.tree_nodes, work.attached) = (springs, springs, 1_234_567);
         text(scene, &outcome, None)
     }
 

@@ -42,8 +42,8 @@ pub struct SurfaceReport {
     pub modulus: Option<f64>,
     /// Work of adhesion γ, J/m², if it is given.
     pub work: Option<f64>,
-    /// Scene of the equivalent line, if its adhesion was requested, with the results on random profiles; without them if
-    /// the scene has many springs and they were not requested.
+    /// Scene of the equivalent line, if its adhesion was requested. The results on random profiles are absent if the
+    /// scene has many springs and they were not requested.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 

@@ -87,13 +87,17 @@ pub fn error_rows(
         (None, Some(_)) => "not known: the measured profile counts as exact".to_owned(),
         (None, None) => "none: the scene states the surface".to_owned(),
     };
-    let model = match scene.roughness {
-        Some(_) => "not known: the MDR is a model for rough bodies, whose adhesion is disputed",
-        None => "none for bodies of revolution whose equivalent profile rises everywhere",
+    let model = match (share(budget.model), &scene.roughness) {
+        (Some(model), _) => format!("{model}, against random squares in three dimensions"),
+        (None, Some(_)) => {
+            "not known: the MDR is a model for rough bodies, whose adhesion is disputed".into()
+        }
+        (None, None) => "none for bodies of revolution whose equivalent profile rises everywhere".into(),
     };
     let largest = match budget.largest {
         Some("grid") => "grid: more springs reduce it (--tolerance)",
         Some("sample") => "sample of profiles: more profiles reduce it (--lines)",
+        Some("model") => "model: more springs do not help",
         Some(_) => "surface: more or larger scans reduce it",
         None => "not known",
     };
@@ -101,7 +105,7 @@ pub fn error_rows(
         ("grid", grid),
         ("sample of profiles", sample),
         ("surface", surface),
-        ("model", model.to_owned()),
+        ("model", model),
         ("largest known error", largest.to_owned()),
     ]
 }

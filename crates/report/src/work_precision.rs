@@ -2,14 +2,26 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_scene::{CostTable, Knob};
+use asperity_scene::{CostTable, ErrorFigure, Knob};
+use asperity_study::Reference;
 
 /// Figure of relative errors over the shortest time of a run, one curve for each setting: errors of the adhesion force, or
-/// of the force curve if there is no adhesion force.
-pub fn work_precision(title: &str, table: &CostTable) -> Figure {
-    let points = |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).collect::<Vec<_>>();
+/// of the force curve if there is no adhesion force. Beside squares in three dimensions the curves end at the error of the
+/// model, below which no number of springs leads; the sign of the squares is their difference from a coarser grid.
+pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
+    let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
+    let floor = model.unwrap_or(0.0);
+    let ended = |(seconds, figure): (f64, ErrorFigure)| {
+        (seconds, ErrorFigure { error: figure.error.max(floor), ..figure })
+    };
+    let points =
+        |knob: Knob| table.rows_of(knob).filter_map(|row| table.point(row)).map(ended).collect::<Vec<_>>();
     let series: Vec<_> = Knob::ALL.into_iter().map(|knob| (knob, points(knob))).collect();
     let series: Vec<_> = series.into_iter().filter(|(_, points)| !points.is_empty()).collect();
+    let squares = reference.and_then(|reference| {
+        let grid = reference.budget.grid.filter(|grid| *grid > 0.0)?;
+        Some((reference.options.cells, (reference.seconds_of_square, grid)))
+    });
     let mut layers = Vec::new();
     for (number, (knob, points)) in series.iter().enumerate() {
         let of = |resolved: bool| {
@@ -25,12 +37,22 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
             layers.push(Layer::new("error below the error of the reference".into(), ink, rings));
         }
     }
-    let all = || series.iter().flat_map(|(_, points)| points);
+    if let Some(model) = model {
+        layers.push(Layer::new("error of the model".into(), Ink::Quiet, Shape::Level(model)));
+    }
+    if let Some((cells, at)) = squares {
+        let name = format!("three dimensions, {cells} × {cells} cells");
+        let shape = Shape::signs(vec![at], Sign::of_series(series.len()));
+        layers.push(Layer::new(Label::plain(&name), Ink::Series(series.len()), shape));
+    }
+    let lines =
+        series.iter().flat_map(|(_, points)| points).map(|(seconds, figure)| (*seconds, figure.error));
+    let all: Vec<(f64, f64)> = lines.chain(squares.map(|(_, at)| at)).collect();
     let axis = |span: Span, name: &str, symbol: &str, unit: &str| {
         ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
     };
-    let times = Span::decades(all().map(|(seconds, _)| seconds.log10()));
-    let errors = Span::decades(all().map(|(_, figure)| figure.error.log10()));
+    let times = Span::decades(all.iter().map(|(seconds, _)| seconds.log10()));
+    let errors = Span::decades(all.iter().map(|(_, error)| error.log10()));
     let of_force = table.reference.adhesion_force.is_some();
     let (name, symbol) =
         if of_force { ("relative error of", "F_a") } else { ("relative error of the curve", "") };
@@ -41,7 +63,7 @@ pub fn work_precision(title: &str, table: &CostTable) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::{CostReference, ErrorFigure, Row, Timing};
+    use asperity_scene::{CostReference, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {
@@ -58,7 +80,7 @@ mod tests {
         let rows = vec![row(1e-4, 1e-1, true), row(1e-2, 1e-3, false), row(1e-2, 0.0, true)];
         let (transform_seconds, left_out) = (1.0, Vec::new());
         let table = CostTable { budget: 1.0, spent: 1.0, transform_seconds, reference, rows, left_out };
-        let figure = work_precision("a < b", &table);
+        let figure = work_precision("a < b", &table, None);
         let chart = &figure.charts[0];
         assert_eq!(
             (chart.x.span, chart.y.span),
@@ -68,7 +90,7 @@ mod tests {
         let legend: Vec<String> = figure.legend().iter().map(|entry| entry.name.to_string()).collect();
         assert_eq!(legend, [Knob::SubCellSprings.name(), "error below the error of the reference"]);
         assert!(figure.svg().contains("a &lt; b"));
-        let empty = work_precision("", &CostTable { rows: Vec::new(), ..table }).svg();
+        let empty = work_precision("", &CostTable { rows: Vec::new(), ..table }, None).svg();
         assert!(!empty.contains("NaN") && !empty.contains("inf") && !empty.contains("<circle"), "{empty}");
     }
 }

@@ -9,6 +9,13 @@ use crate::simulation::stages::Simulation;
 ///
 /// # Errors
 /// [`Error::Run`] for a scene that cannot be computed.
+///
+/// ```
+/// let sphere = asperity_scene::open("jkr-sphere")?.set("adhesion.work", "20 mJ/m²")?;
+/// let outcome = asperity_scene::run(&sphere)?;
+/// assert!(outcome.figures.adhesion_force > Some(9.0e-6) && outcome.figures.adhesion_force < Some(9.6e-6));
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 pub fn run(document: &Document) -> Result<Outcome, Error> {
     Ok(Simulation::new(document.resolve("")).run(document.scene(), &|| false, &mut |_, _, _| Ok(()))?)
 }

@@ -34,7 +34,7 @@ pub use scene::errors::{Origin, SceneError, SceneErrors, did_you_mean, nearest};
 pub use scene::field::{
     Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, STAGE, Step, choice_in_words, target_field,
 };
-pub use scene::fields::{FIELDS, SCENE_VERSION, field};
+pub use scene::fields::{FIELDS, field};
 pub use scene::library::{
     DEFAULT, Entry, Preset, Source, find_scene, own_folder, presets, scenes, typed_path,
 };
@@ -49,12 +49,11 @@ pub use scene::stages::{
 };
 pub use scene::statements::{Statement, statements};
 pub use scene::text::index::{Text, TextSpan, line_column};
-pub use scene::text::scan::Unreadable;
 pub use scene::text::{read_ron, ron_float, ron_string};
 pub use scene::tree::{Tree, to_ron};
 pub use simulation::outcome::{LineFacts, Outcome, RunError, Timings};
 pub use simulation::reach::{BeyondFullContact, Reach};
-pub use simulation::reversals::{FEW_SAMPLES, SeeReversal, TURNING_POINTS};
+pub use simulation::reversals::{FEW_SAMPLES, TURNING_POINTS};
 pub use simulation::roughness::equivalent_springs;
 pub use simulation::stages::{AfterLeg, Simulation};
 pub use simulation::workload::{PlannedStage, Stage, Workload};

@@ -5,6 +5,16 @@ use asperity_surface::Form;
 
 /// The closed form of the contact of a form, for an effective modulus (Pa) and a work of adhesion (J/m²), if its profile is a
 /// power law; `None` for punches, waves and tables.
+///
+/// ```
+/// use asperity_scene::closed_form;
+/// use asperity_surface::Form;
+///
+/// let sphere = closed_form(&Form::Paraboloid { radius: 1.0e-4 }, 1.0e6, 0.05).unwrap();
+/// let jkr = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
+/// assert!((sphere.force_controlled_pull_off().1 / -jkr - 1.0).abs() < 1e-14);
+/// assert!(closed_form(&Form::Punch { radius: 1.0e-5 }, 1.0e6, 0.05).is_none());
+/// ```
 pub fn closed_form(form: &Form, effective_modulus: f64, work_of_adhesion: f64) -> Option<ClosedForm> {
     let (line_coefficient, exponent) = form.power_law()?;
     Some(ClosedForm { line_coefficient, exponent, effective_modulus, work_of_adhesion })

@@ -23,7 +23,7 @@ pub struct Budget {
     pub sample: Option<f64>,
     /// Of the median, by the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
-    /// Of the model, against the same bodies in three dimensions; not known.
+    /// Of the model, against the same bodies in three dimensions where they are computed.
     pub model: Option<f64>,
     /// Name of the largest known error.
     pub largest: Option<&'static str>,
@@ -52,6 +52,13 @@ impl Budget {
         let known = known.into_iter().filter_map(|(name, share)| Some((name, share?)));
         let largest = known.max_by(|one, other| one.1.total_cmp(&other.1)).map(|(name, _)| name);
         Some(Budget { grid, sample, surface, model: None, largest })
+    }
+
+    /// The budget with a known error of the model.
+    pub fn with_model(self, share: f64) -> Budget {
+        let known = [self.grid, self.sample, self.surface].into_iter().flatten();
+        let is_largest = known.fold(0.0, f64::max) <= share;
+        Budget { model: Some(share), largest: if is_largest { Some("model") } else { self.largest }, ..self }
     }
 }
 
@@ -118,6 +125,11 @@ mod tests {
         assert!((sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2, "{sample:?} {quartiles}");
         assert!((sample.surface.unwrap() - 2e-3).abs() < 1e-12 && sample.largest == Some("sample"));
         assert_eq!(budget(0.01, Some(&ensemble), Some(9.0 * median)).largest, Some("surface"));
+        let modelled = [0.2, 1e-3].map(|share| budget(0.01, None, None).with_model(share));
+        assert_eq!(
+            modelled.map(|one| (one.model, one.largest)),
+            [(Some(0.2), Some("model")), (Some(1e-3), Some("grid"))]
+        );
         assert_eq!(Budget::of(&outcome, None, None, None).unwrap().largest, None);
         let apart = run(&open("jkr-sphere").unwrap().set("adhesion", "None").unwrap()).unwrap();
         assert_eq!(Budget::of(&apart, None, None, None), None);

@@ -5,7 +5,7 @@ use super::plan::Plan;
 use asperity_data::{on_this_thread, on_threads};
 use asperity_scene::{RunError, Simulation};
 use std::panic::resume_unwind;
-use std::sync::mpsc::channel;
+use std::sync::mpsc::{Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
@@ -40,11 +40,10 @@ pub(super) fn on_profiles<R: Send>(
     }
     let mut simulations: Vec<Simulation> = (1..jobs).map(|_| simulation.another()).collect();
     simulations.push(simulation);
-    let (solved, simulations) = (&solved, &Mutex::new(simulations));
-    let (sender, receiver) = channel();
-    let worker = move || {
+    let simulations = Mutex::new(simulations);
+    let worker = |sender: Sender<(u64, R)>| {
         let own = simulations.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let (mut simulation, sender) = (own.unwrap_or_default(), sender.clone());
+        let (mut simulation, solved) = (own.unwrap_or_default(), &solved);
         move |number: u64| {
             let line = lines[number as usize];
             // The receiver lives until all threads have ended.
@@ -52,10 +51,27 @@ pub(super) fn on_profiles<R: Send>(
             Ok(())
         }
     };
+    let count = lines.len() as u64;
+    on_threads_received(count, jobs, worker, &mut |(line, solved)| receive(line, solved)).map(drop)
+}
+
+/// Results for the numbers below `count`, computed on `jobs` threads, each with its own `worker`. `receive` gets what the
+/// workers send, on this thread, as soon as it is sent.
+///
+/// # Errors
+/// The error of the smallest number that fails.
+pub(super) fn on_threads_received<M: Send, R: Send, W: FnMut(u64) -> Result<R, StudyError>>(
+    count: u64,
+    jobs: usize,
+    worker: impl Fn(Sender<M>) -> W + Sync,
+    receive: &mut dyn FnMut(M),
+) -> Result<Vec<R>, StudyError> {
+    let (sender, receiver) = channel();
+    let worker = &worker;
     std::thread::scope(|scope| {
-        let work = move || on_threads(lines.len() as u64, jobs, worker).map(drop);
+        let work = move || on_threads(count, jobs, || worker(sender.clone()));
         let threads = Builder::new().spawn_scoped(scope, work).map_err(StudyError::NoThread)?;
-        receiver.iter().for_each(|(line, solved)| receive(line, solved));
+        receiver.iter().for_each(receive);
         threads.join().unwrap_or_else(|panic| resume_unwind(panic))
     })
 }

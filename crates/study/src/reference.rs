@@ -5,28 +5,28 @@
 //! the area of three dimensions.
 
 use super::error::StudyError;
-use super::profiles::Stop;
+use super::profiles::{Stop, on_threads_received};
 use super::quantity::Quantity;
-use super::spatial::{Body, Pressing, Pulling};
+use super::resolved::{Resolved, of_scene};
+use super::spatial::{Body, Loads, Pressing, Pulling};
 use super::statistics::Statistics;
 use asperity_contact::{CurvePoint, Move};
-use asperity_data::on_threads;
-use asperity_scene::{CheckedScene, Outcome, Roughness, Scene, Simulation};
-
+use asperity_data::{check_room, memory_size, on_threads};
+use asperity_scene::{CheckedScene, Outcome, Scene, Simulation};
 use serde::Serialize;
+use std::sync::mpsc::Sender;
 use std::time::Instant;
 
-/// Cells for the shortest wave of a square.
-const CELLS_PER_WAVE: u64 = 8;
-/// Springs for the shortest wave of a line.
-const SPRINGS_PER_WAVE: u64 = 64;
-const LEAST_SPRINGS: u64 = 4096;
 /// Forces of the comparison without adhesion, as shares of the preload.
 const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
 /// Steps of the indentation from the preload to pull-off.
 const STEPS: f64 = 40.0;
 /// Fewest cells of a square, and of the coarser one that is compared with it.
 const LEAST_CELLS: usize = 32;
+/// Time, s, from which on a smaller square tells the time of larger ones.
+const TELLING: f64 = 0.2;
+/// Growth of the time of a square with twice the cells along a side, without and with adhesion.
+const GROWTH: [f64; 2] = [6.5, 8.5];
 
 /// Numbers of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -37,6 +37,18 @@ pub struct ReferenceOptions {
     pub maps: u64,
     /// Number of random lines.
     pub lines: u64,
+}
+
+/// Lines for each square: a line takes a thousandth of the time.
+const LINES_PER_MAP: u64 = 16;
+
+impl ReferenceOptions {
+    /// Numbers for a scene: by default 24 squares without adhesion, and 12 with adhesion, where a square takes ten times as
+    /// long.
+    pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
+        let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
+        ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
+    }
 }
 
 /// A number of both models.
@@ -92,6 +104,8 @@ pub struct Reference {
     pub convolutions: u64,
     /// Time of the lines and of the squares, s.
     pub seconds: [f64; 2],
+    /// Mean time of one square, s.
+    pub seconds_of_square: f64,
 }
 
 /// Errors by their sources, as shares of the adhesion force, or without adhesion of the indentation.
@@ -109,17 +123,45 @@ pub struct ReferenceBudget {
     pub largest: &'static str,
 }
 
-/// The numbers of one random square, and those of the coarser one.
+/// What happens during a comparison.
+#[derive(Clone, Debug)]
+pub enum ReferenceEvent {
+    /// The squares begin.
+    Begins {
+        /// Number of squares: one for a body without random roughness.
+        maps: u64,
+        /// Threads that share the squares: fewer than asked where the memory does not suffice for more.
+        threads: usize,
+        /// Memory of all threads, bytes.
+        bytes: u64,
+        /// Time of all squares, s, by smaller ones.
+        seconds: f64,
+    },
+    /// A square is done.
+    Square {
+        /// Its indentations, m, and forces, N.
+        curve: Vec<(f64, f64)>,
+        /// Its adhesion force, N, with adhesion.
+        adhesion_force: Option<f64>,
+    },
+}
+
+/// A random square, and the coarser one.
 struct OfSquare {
-    pressings: Vec<Pressing>,
-    pulling: Option<Pulling>,
-    coarser: Option<(f64, Option<Pulling>)>,
-    convolutions: u64,
+    fine: Loads,
+    coarse: Option<Loads>,
+    /// Time of the finer one, s.
+    seconds: f64,
 }
 
 impl Reference {
-    /// Compares a checked scene with squares. `jobs` threads share the lines and the squares; no bit but the seconds depends
-    /// on their number. `report` receives the number of squares that are done.
+    /// The number of both models that is compared first: the adhesion force, or without one the last indentation.
+    pub fn headline(&self) -> Option<&Compared> {
+        self.adhesion_force.as_ref().or(self.loading.last().map(|last| &last.indentation))
+    }
+
+    /// Compares a checked scene with squares. `simulation` has the files of the scene; `jobs` threads share the lines and the
+    /// squares, and no bit but the seconds depends on their number.
     ///
     /// # Errors
     /// The scene has no body in three dimensions or no preload above zero, the number of cells is not allowed, too little
@@ -127,76 +169,102 @@ impl Reference {
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
-        jobs: usize,
+        (mut simulation, jobs): (Simulation, usize),
         stop: &Stop<'_>,
-        report: &(dyn Fn() + Sync),
+        report: &mut dyn FnMut(ReferenceEvent),
     ) -> Result<Reference, StudyError> {
         if options.maps == 0 || options.lines == 0 {
             return Err(StudyError::refused(None, "no profiles", "at least one"));
         }
-        let mut simulation = Simulation::default();
-        let failed = |error| StudyError::Run { place: String::new(), error };
-        let (_, _, governing) = simulation.make_line(scene).map_err(failed)?;
-        let cut = Cut::of(scene, &governing, options.cells)?;
+        let resolved = Resolved::of(scene, options.cells, &mut simulation)?;
         let (seed, is_random) = (scene.seed().unwrap_or(0), scene.seed().is_some());
         let number = |wanted: u64| if is_random { wanted } else { 1 };
         let options =
             ReferenceOptions { maps: number(options.maps), lines: number(options.lines), ..options };
+        let bytes = resolved.body.bytes(options.cells);
+        let threads = jobs.clamp(1, usize::try_from(options.maps).unwrap_or(usize::MAX));
+        let fits = |threads: &usize| check_room(bytes.saturating_mul(*threads as u64)).is_ok();
+        let threads = (1..=threads).rev().find(fits).ok_or_else(|| {
+            let found = format!("not enough memory for the {} of a square", memory_size(bytes));
+            StudyError::refused(
+                Some(&format!("{} cells", options.cells)),
+                found,
+                "fewer cells along the side",
+            )
+        })?;
 
         let begun = Instant::now();
-        let own = run(&cut.line, &mut simulation, stop)?;
+        let own = run(&resolved.line, &mut resolved.simulation(), stop)?;
         let preload = own.figures.preload.filter(|preload| *preload > 0.0).ok_or_else(|| {
             let allowed = "a loading to a force or an indentation before the separation";
             StudyError::refused(None, "the loading has no preload above 0 N", allowed)
         })?;
-        let bare = cut.line.with(|scene| {
+        let bare = resolved.line.with(|scene| {
             scene.adhesion = None;
             scene.loading = vec![Move::ToForce(preload)];
         });
-        let bare = bare.map_err(|errors| StudyError::Run { place: String::new(), error: errors.into() })?;
+        let bare = bare.map_err(|errors| of_scene(errors.into()))?;
         let forces = SHARES.map(|share| share * preload);
         let lines = on_threads(options.lines, jobs, || {
-            let mut simulation = Simulation::default();
-            let (cut, bare) = (&cut, &bare);
+            let mut simulation = resolved.simulation();
+            let (resolved, bare) = (&resolved, &bare);
             move |line: u64| {
                 let seed = seed.wrapping_add(line);
                 let pressed = run(&bare.with_seed(seed), &mut simulation, stop)?;
-                let outcome = run(&cut.line.with_seed(seed), &mut simulation, stop)?;
+                let outcome = run(&resolved.line.with_seed(seed), &mut simulation, stop)?;
                 Ok::<_, StudyError>((forces.map(|force| at_force(&pressed, force)), outcome))
             }
         })?;
         let of_lines = begun.elapsed().as_secs_f64();
 
-        let begun = Instant::now();
         let depth =
             own.figures.preload_indentation.unwrap_or(0.0) - own.figures.pull_off_indentation.unwrap_or(0.0);
-        let step = depth.abs() / STEPS;
-        let squares = on_threads(options.maps, jobs, || {
-            let (body, stop) = (&cut.body, || stop());
+        let loads = (&forces[..], depth.abs() / STEPS);
+        let stop = || stop();
+        let of_one = seconds_of_square(&resolved.body, (options.cells, seed), loads, &stop)?;
+        let seconds = of_one * options.maps.div_ceil(threads as u64) as f64;
+        let bytes = bytes * threads as u64;
+        report(ReferenceEvent::Begins { maps: options.maps, threads, bytes, seconds });
+        let begun = Instant::now();
+        let body = &resolved.body;
+        let worker = |sender: Sender<ReferenceEvent>| {
             move |map: u64| {
-                let found = of_square(body, (options.cells, seed.wrapping_add(map)), (&forces, step), &stop)?;
-                report();
-                Ok::<_, StudyError>(found)
+                let (begun, seed) = (Instant::now(), seed.wrapping_add(map));
+                let fine = body.load((options.cells, seed), loads, &stop)?;
+                let seconds = begun.elapsed().as_secs_f64();
+                let coarse = match options.cells / 2 {
+                    cells if cells >= LEAST_CELLS => Some(body.load((cells, seed), loads, &stop)?),
+                    _ => None,
+                };
+                let pressed =
+                    fine.pressings.iter().zip(loads.0).map(|(found, force)| (found.indentation, *force));
+                let pulling = fine.pulling.as_ref();
+                let curve = pulling.map_or_else(|| pressed.collect(), |pulling| pulling.curve.clone());
+                let adhesion_force = pulling.map(|pulling| pulling.adhesion_force);
+                // The receiver lives until all threads have ended.
+                let _ = sender.send(ReferenceEvent::Square { curve, adhesion_force });
+                Ok(OfSquare { fine, coarse, seconds })
             }
-        })?;
+        };
+        let squares = on_threads_received(options.maps, threads, worker, report)?;
         let of_squares = begun.elapsed().as_secs_f64();
-        Ok(Reference::gather(options, &cut, preload, &lines, &squares, [of_lines, of_squares]))
+        Ok(Reference::gather(options, &resolved, preload, &lines, &squares, [of_lines, of_squares]))
     }
 
     fn gather(
         options: ReferenceOptions,
-        cut: &Cut,
+        resolved: &Resolved,
         preload: f64,
         lines: &[([CurvePoint; SHARES.len()], Outcome)],
         squares: &[OfSquare],
         seconds: [f64; 2],
     ) -> Reference {
-        let modulus = cut.body.effective_modulus;
+        let modulus = resolved.body.effective_modulus;
         let loading = SHARES.iter().enumerate().filter_map(|(at, share)| {
             let of = |line: &dyn Fn(&CurvePoint) -> f64, square: &dyn Fn(&Pressing) -> f64| {
                 compared(
                     lines.iter().map(|(points, _)| line(&points[at])),
-                    squares.iter().map(|found| square(&found.pressings[at])),
+                    squares.iter().map(|found| square(&found.fine.pressings[at])),
                 )
             };
             Some(Loaded {
@@ -204,7 +272,7 @@ impl Reference {
                 indentation: of(&|point| point.indentation, &|found| found.indentation)?,
                 // Without adhesion the stiffness of the springs is E* times their length in contact.
                 stiffness: of(&|point| modulus * point.contact_length, &|found| found.stiffness)?,
-                area: squares.iter().map(|found| found.pressings[at].area).sum::<f64>()
+                area: squares.iter().map(|found| found.fine.pressings[at].area).sum::<f64>()
                     / squares.len() as f64,
             })
         });
@@ -212,15 +280,15 @@ impl Reference {
         let of = |line: &dyn Fn(&Outcome) -> Option<f64>, square: &dyn Fn(&Pulling) -> f64| {
             compared(
                 lines.iter().filter_map(|(_, outcome)| line(outcome)),
-                squares.iter().filter_map(|found| found.pulling.as_ref().map(square)),
+                squares.iter().filter_map(|found| found.fine.pulling.as_ref().map(square)),
             )
         };
         let adhesion_force = of(&|outcome| outcome.figures.adhesion_force, &|found| found.adhesion_force);
         let headline = adhesion_force.or(loading.last().map(|last| last.indentation));
         let budget = budget(headline, squares, adhesion_force.is_some());
         Reference {
-            waves: cut.waves,
-            omitted: cut.omitted,
+            waves: resolved.waves,
+            omitted: resolved.omitted,
             preload,
             adhesion_force,
             zero_load_adhesion_force: of(&|outcome| outcome.zero_load_adhesion_force, &|found| {
@@ -231,78 +299,36 @@ impl Reference {
             }),
             loading,
             budget,
-            convolutions: squares.iter().map(|found| found.convolutions).sum(),
+            convolutions: squares.iter().map(|found| found.fine.convolutions).sum(),
             seconds,
+            seconds_of_square: squares.iter().map(|found| found.seconds).sum::<f64>() / squares.len() as f64,
             options,
         }
     }
 }
 
-/// A scene with the waves that squares resolve, as a line and in three dimensions.
-struct Cut {
-    line: CheckedScene,
-    body: Body,
-    waves: Option<(u64, u64)>,
-    omitted: Option<u64>,
-}
-
-impl Cut {
-    fn of(
-        scene: &CheckedScene,
-        governing: &asperity_scene::Governing,
-        cells: usize,
-    ) -> Result<Cut, StudyError> {
-        if scene.measured().is_some() {
-            let allowed = "self-affine roughness, and any form: asperity surface states H and the waves of a measured surface";
-            return Err(StudyError::refused(None, "the roughness is measured", allowed));
-        }
-        let mut changed = Scene::clone(scene);
-        // The work of adhesion stays where waves are left out.
-        if let Some((adhesion, work)) = scene.adhesion.zip(governing.work_of_adhesion) {
-            changed.adhesion = Some(adhesion.with_work(work));
-        }
-        changed.observe.clear();
-        let mut body = Body {
-            form: scene.form.clone(),
-            roughness: None,
-            side: scene.length,
-            effective_modulus: governing.effective_modulus,
-            works: governing.adhesive_works(),
-        };
-        let (mut waves, mut omitted) = (None, None);
-        if let (Some(spectrum), Some(amplitude)) = (scene.spectrum(), governing.amplitude) {
-            let last = spectrum.last.min(cells as u64 / CELLS_PER_WAVE);
-            if last < spectrum.first {
-                let least = (CELLS_PER_WAVE * spectrum.first).next_power_of_two();
-                return Err(StudyError::refused(
-                    Some(&format!("{cells} cells")),
-                    format!("the longest wave of the scene has {} cells", cells as u64 / spectrum.first),
-                    format!("at least {least} cells along the side"),
-                ));
-            }
-            let kept = asperity_surface::SelfAffine { last, ..spectrum };
-            let first = amplitude.rms_height / spectrum.relative_rms();
-            let Some(Roughness::SelfAffine { rms_height, rms_gradient, modes, wavelengths, .. }) =
-                &mut changed.roughness
-            else {
-                unreachable!("a spectrum is that of self-affine roughness")
-            };
-            (*rms_height, *rms_gradient) = (Some(first * kept.relative_rms()), None);
-            (*modes, *wavelengths) = (Some((kept.first, kept.last)), None);
-            changed.numerics.points = (SPRINGS_PER_WAVE * last).next_power_of_two().max(LEAST_SPRINGS);
-            waves = Some((kept.first, kept.last));
-            omitted = (last < spectrum.last).then_some(spectrum.last);
-            body.roughness = Some((kept, first));
-        }
-        let line = changed.checked();
-        let line = line.map_err(|errors| StudyError::Run { place: String::new(), error: errors.into() })?;
-        Ok(Cut { line, body, waves, omitted })
-    }
-}
-
 fn run(scene: &CheckedScene, simulation: &mut Simulation, stop: &Stop<'_>) -> Result<Outcome, StudyError> {
-    let outcome = simulation.run(scene, &|| stop(), &mut |_, _, _| Ok(()));
-    outcome.map_err(|error| StudyError::Run { place: String::new(), error })
+    simulation.run(scene, &|| stop(), &mut |_, _, _| Ok(())).map_err(of_scene)
+}
+
+/// Time of a square, s, by smaller ones, each with twice the cells of the one before.
+fn seconds_of_square(
+    body: &Body,
+    (cells, seed): (usize, u64),
+    loads: (&[f64], f64),
+    stop: &dyn Fn() -> bool,
+) -> Result<f64, StudyError> {
+    let growth = GROWTH[usize::from(body.works.is_some())];
+    let mut smaller = LEAST_CELLS;
+    loop {
+        let begun = Instant::now();
+        body.load((smaller, seed), loads, stop)?;
+        let seconds = begun.elapsed().as_secs_f64();
+        if 2 * smaller >= cells || seconds > TELLING {
+            return Ok(seconds * growth.powi((cells / smaller).ilog2() as i32) * (1.0 + growth.recip()));
+        }
+        smaller *= 2;
+    }
 }
 
 /// The point of a loading without adhesion at a force, N, between the samples of its curve.
@@ -322,28 +348,6 @@ fn at_force(outcome: &Outcome, force: f64) -> CurvePoint {
     }
 }
 
-fn of_square(
-    body: &Body,
-    (cells, seed): (usize, u64),
-    (forces, step): (&[f64], f64),
-    stop: &dyn Fn() -> bool,
-) -> Result<OfSquare, StudyError> {
-    let preload = forces[forces.len() - 1];
-    let heights = body.heights(cells, seed)?;
-    let (pressings, mut convolutions) = body.press(&heights, forces, stop)?;
-    let pulling = body.pull(&heights, (preload, step), stop)?;
-    convolutions += pulling.map_or(0, |(_, count)| count);
-    let coarser = if cells / 2 >= LEAST_CELLS {
-        let heights = body.heights(cells / 2, seed)?;
-        let (pressings, _) = body.press(&heights, &[preload], stop)?;
-        let pulling = body.pull(&heights, (preload, step), stop)?;
-        Some((pressings[0].indentation, pulling.map(|(figures, _)| figures)))
-    } else {
-        None
-    };
-    Ok(OfSquare { pressings, pulling: pulling.map(|(figures, _)| figures), coarser, convolutions })
-}
-
 /// Statistics of both models and the ratio of their means; `None` without values.
 fn compared(line: impl Iterator<Item = f64>, square: impl Iterator<Item = f64>) -> Option<Compared> {
     let bounds = Quantity::AdhesionForce.bounds();
@@ -358,21 +362,17 @@ fn compared(line: impl Iterator<Item = f64>, square: impl Iterator<Item = f64>) 
 }
 
 fn budget(headline: Option<Compared>, squares: &[OfSquare], is_adhesive: bool) -> ReferenceBudget {
-    let of = |found: &OfSquare| {
-        let (indentation, pulling) = found.coarser?;
-        let fine = found.pressings.last()?.indentation;
-        if is_adhesive {
-            Some((pulling?.adhesion_force, found.pulling?.adhesion_force))
-        } else {
-            Some((indentation, fine))
-        }
+    let headline_of = |loads: &Loads| match &loads.pulling {
+        Some(pulling) if is_adhesive => Some(pulling.adhesion_force),
+        _ => Some(loads.pressings.last()?.indentation),
     };
+    let of = |found: &OfSquare| headline_of(found.coarse.as_ref()?).zip(headline_of(&found.fine));
     let both: Option<Vec<(f64, f64)>> = squares.iter().map(of).collect();
     let grid = both.and_then(|both| {
         let (coarse, fine) = both.iter().fold((0.0, 0.0), |(a, b), (c, d)| (a + c, b + d));
         Some((coarse / fine - 1.0).abs()).filter(|share| share.is_finite())
     });
-    let solver = squares.iter().flat_map(|found| &found.pressings).map(|found| found.residual);
+    let solver = squares.iter().flat_map(|found| &found.fine.pressings).map(|found| found.residual);
     let solver = solver.fold(0.0, f64::max);
     let model = headline.map_or(0.0, |of| (of.ratio - 1.0).abs());
     let sample = headline.and_then(|of| Some(of.error? / of.ratio));
@@ -385,7 +385,7 @@ fn budget(headline: Option<Compared>, squares: &[OfSquare], is_adhesive: bool) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::open;
+    use asperity_scene::{Roughness, open};
 
     fn reference(
         scene: &CheckedScene,
@@ -394,7 +394,7 @@ mod tests {
         jobs: usize,
     ) -> Result<Reference, StudyError> {
         let options = ReferenceOptions { cells, maps, lines: 16 * maps };
-        Reference::of(scene, options, jobs, &|| false, &|| ())
+        Reference::of(scene, options, (Simulation::default(), jobs), &|| false, &mut |_| ())
     }
 
     /// For a sphere the line is exact, so that both models agree to the error of the grid.
@@ -422,7 +422,8 @@ mod tests {
             // Two squares scatter by a half.
             assert!((0.4..2.5).contains(&loaded.stiffness.ratio), "{loaded:?}");
         }
-        let same = Reference { seconds: found.seconds, ..reference(scene.scene(), 64, 2, 1).unwrap() };
+        let (seconds, seconds_of_square) = (found.seconds, found.seconds_of_square);
+        let same = Reference { seconds, seconds_of_square, ..reference(scene.scene(), 64, 2, 1).unwrap() };
         assert_eq!(same, found);
         assert!(found.budget.solver <= 1e-8 && found.budget.grid.is_some() && found.budget.sample.is_some());
     }

@@ -4,7 +4,7 @@ use super::error::StudyError;
 use asperity_half_space::{
     AdhesiveSquare, AdhesiveState, Boundary, HalfSpace, HalfSpaceError, Load, Square, random_map,
 };
-use asperity_surface::{Form, SelfAffine};
+use asperity_surface::{EquivalentLine, Form, SelfAffine};
 
 /// Residual of contacts without adhesion, in rms heights.
 const TOLERANCE: f64 = 1e-8;
@@ -15,12 +15,21 @@ const NEAR: f64 = 0.01;
 /// Most steps of a loop: far more than any takes.
 const MOST_STEPS: usize = 4000;
 
+/// Spectrum of a random surface.
+#[derive(Clone, Debug)]
+pub(super) enum Spectrum {
+    /// With the amplitude A₁, m, of its first mode without a roll-off.
+    SelfAffine(SelfAffine, f64),
+    /// That of the surface with this equivalent line.
+    Measured(EquivalentLine),
+}
+
 /// A body in three dimensions, without its random phases.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub form: Option<Form>,
-    /// Spectrum of the roughness and amplitude A₁, m, of its first mode without a roll-off.
-    pub roughness: Option<(SelfAffine, f64)>,
+    /// Spectrum of the roughness; `None` for a smooth body.
+    pub spectrum: Option<Spectrum>,
     /// Side L, m.
     pub side: f64,
     /// E*, Pa.
@@ -41,7 +50,7 @@ pub(super) struct Pressing {
 }
 
 /// Figures of an adhesive loop.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
     /// N.
     pub adhesion_force: f64,
@@ -49,15 +58,66 @@ pub(super) struct Pulling {
     pub at_touch: f64,
     /// J.
     pub dissipated_energy: f64,
+    /// Indentation, m, and force, N, from first touch on.
+    pub curve: Vec<(f64, f64)>,
+}
+
+/// The numbers of one random square.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Loads {
+    pub pressings: Vec<Pressing>,
+    /// `None` without adhesion.
+    pub pulling: Option<Pulling>,
+    pub convolutions: u64,
 }
 
 impl Body {
+    /// Bytes of the heaviest part of a computation.
+    pub fn bytes(&self, cells: usize) -> u64 {
+        let adhesive = if self.works.is_some() { AdhesiveSquare::bytes(cells) } else { 0 };
+        // Heights; waves in their place before.
+        let heights = 8 * (cells * cells) as u64;
+        heights + HalfSpace::bytes(cells, Boundary::Free).max(adhesive).max(3 * heights)
+    }
+
+    /// Loads the square with these random phases with each force, N, without adhesion, and with the last one with adhesion,
+    /// in steps of the indentation, m.
+    pub fn load(
+        &self,
+        (cells, seed): (usize, u64),
+        (forces, step): (&[f64], f64),
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Loads, StudyError> {
+        let heights = self.heights(cells, seed)?;
+        let mut loads = Loads::default();
+        self.press(&heights, forces, &mut loads, stop)?;
+        if let (Some([closing, opening]), Some(preload)) = (self.works, forces.last()) {
+            let square = || AdhesiveSquare::new(&self.square(&heights), (opening, closing));
+            let mut touched = Loop::begin(square()?, stop)?;
+            touched.pull_off(step, stop)?;
+            let mut pressed = Loop::begin(square()?, stop)?;
+            pressed.press(*preload, step, stop)?;
+            pressed.pull_off(step, stop)?;
+            loads.convolutions += touched.body.convolutions() + pressed.body.convolutions();
+            loads.pulling = Some(Pulling {
+                at_touch: touched.adhesion_force(),
+                adhesion_force: pressed.adhesion_force(),
+                dissipated_energy: work(&pressed.curve).max(0.0),
+                curve: pressed.curve,
+            });
+        }
+        Ok(loads)
+    }
+
     /// Heights, m, of the square with these random phases, row by row.
     pub fn heights(&self, cells: usize, seed: u64) -> Result<Vec<f64>, StudyError> {
-        let mut heights = match self.roughness {
-            Some((spectrum, first)) => {
+        let mut heights = match &self.spectrum {
+            Some(Spectrum::SelfAffine(spectrum, first)) => {
                 let variance = |waves: f64| first * first * spectrum.relative_variance_of_surface(waves);
                 random_map(cells, variance, seed)?
+            }
+            Some(Spectrum::Measured(line)) => {
+                random_map(cells, |waves| line.variance_of_surface(waves, self.side), seed)?
             }
             None => asperity_data::resized(Vec::new(), cells * cells, 0.0).map_err(HalfSpaceError::from)?,
         };
@@ -76,86 +136,86 @@ impl Body {
         Square { heights, side: self.side, effective_modulus: self.effective_modulus }
     }
 
-    /// Presses the square without adhesion with each force, N; returns the states and the convolutions of all.
-    pub fn press(
+    /// Presses the square without adhesion with each force, N.
+    fn press(
         &self,
         heights: &[f64],
         forces: &[f64],
+        loads: &mut Loads,
         stop: &dyn Fn() -> bool,
-    ) -> Result<(Vec<Pressing>, u64), StudyError> {
+    ) -> Result<(), StudyError> {
         let mut half_space = HalfSpace::new(heights.len().isqrt(), Boundary::Free)?;
-        let (mut states, mut convolutions) = (Vec::new(), 0);
         for force in forces {
             let mut at = |force: f64| {
                 let found = half_space.press(&self.square(heights), Load::Force(force), TOLERANCE, stop)?;
-                convolutions += found.convolutions;
+                loads.convolutions += found.convolutions;
                 Ok::<_, HalfSpaceError>((found.indentation, found.area, found.residual))
             };
             let (indentation, area, residual) = at(*force)?;
             let (deeper, ..) = at(force * (1.0 + APART))?;
             let stiffness = APART * force / (deeper - indentation);
-            states.push(Pressing { indentation, stiffness, area, residual });
+            loads.pressings.push(Pressing { indentation, stiffness, area, residual });
         }
-        Ok((states, convolutions))
+        Ok(())
+    }
+}
+
+/// The motion of a square with adhesion.
+struct Loop {
+    body: AdhesiveSquare,
+    state: AdhesiveState,
+    curve: Vec<(f64, f64)>,
+}
+
+impl Loop {
+    /// At first touch.
+    fn begin(mut body: AdhesiveSquare, stop: &dyn Fn() -> bool) -> Result<Loop, HalfSpaceError> {
+        let state = body.move_to(0.0, stop)?;
+        Ok(Loop { body, state, curve: vec![(0.0, state.force)] })
     }
 
-    /// Pulls the square off after a turn at first touch and after the preload, N, in steps of the indentation, m; returns the
-    /// figures and the convolutions. `None` without adhesion.
-    pub fn pull(
-        &self,
-        heights: &[f64],
-        (preload, step): (f64, f64),
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Option<(Pulling, u64)>, StudyError> {
-        let Some([closing, opening]) = self.works else { return Ok(None) };
-        let separated = || AdhesiveSquare::new(&self.square(heights), (opening, closing));
-        let mut touched = separated()?;
-        let at_touch = touched.move_to(0.0, stop)?;
-        let (at_touch, _) = pull_off(&mut touched, at_touch, step, stop)?;
-        let mut body = separated()?;
-        let mut lost = 0.0;
-        let mut state = body.move_to(0.0, stop)?;
+    fn move_by(&mut self, step: f64, stop: &dyn Fn() -> bool) -> Result<(), HalfSpaceError> {
+        self.state = self.body.move_to(self.state.indentation + step, stop)?;
+        self.curve.push((self.state.indentation, self.state.force));
+        Ok(())
+    }
+
+    /// Presses to a force, N, in steps of the indentation, m.
+    fn press(&mut self, preload: f64, step: f64, stop: &dyn Fn() -> bool) -> Result<(), StudyError> {
         // The next step ends at the preload, by the stiffness of the last one.
         let mut next = step;
         for _ in 0..MOST_STEPS {
-            if state.force >= preload * (1.0 - NEAR) {
+            let before = self.state.force;
+            if before >= preload * (1.0 - NEAR) {
+                return Ok(());
+            }
+            self.move_by(next, stop)?;
+            let missing = (preload - self.state.force) * next / (self.state.force - before);
+            next = if missing > 0.0 { missing.clamp(0.05 * step, step) } else { step };
+        }
+        let deepest = self.state.indentation;
+        let found = format!("{preload:e} N is not reached at the indentation {deepest:e} m");
+        Err(StudyError::refused(Some("the preload in three dimensions"), found, "a smaller preload"))
+    }
+
+    /// Pulls off in steps of the indentation, m, until nothing touches.
+    fn pull_off(&mut self, step: f64, stop: &dyn Fn() -> bool) -> Result<(), StudyError> {
+        for _ in 0..MOST_STEPS {
+            if self.state.area == 0.0 {
                 break;
             }
-            let deeper = body.move_to(state.indentation + next, stop)?;
-            lost += work(&state, &deeper);
-            let stiffness = (deeper.force - state.force) / next;
-            let missing = (preload - deeper.force) / stiffness;
-            next = if missing > 0.0 { missing.clamp(0.05 * step, step) } else { step };
-            state = deeper;
+            self.move_by(-step, stop)?;
         }
-        let (adhesion_force, gained) = pull_off(&mut body, state, step, stop)?;
-        let convolutions = touched.convolutions() + body.convolutions();
-        let dissipated_energy = (lost + gained).max(0.0);
-        Ok(Some((Pulling { adhesion_force, at_touch, dissipated_energy }, convolutions)))
+        Ok(())
+    }
+
+    /// Largest tensile force, N.
+    fn adhesion_force(&self) -> f64 {
+        self.curve.iter().map(|(_, force)| -force).fold(0.0, f64::max)
     }
 }
 
-/// Work of the force between two states, J.
-fn work(from: &AdhesiveState, to: &AdhesiveState) -> f64 {
-    0.5 * (from.force + to.force) * (to.indentation - from.indentation)
-}
-
-/// Pulls a body off; returns the largest tensile force, N, and the work, J.
-fn pull_off(
-    body: &mut AdhesiveSquare,
-    from: AdhesiveState,
-    step: f64,
-    stop: &dyn Fn() -> bool,
-) -> Result<(f64, f64), StudyError> {
-    let (mut state, mut largest, mut done) = (from, (-from.force).max(0.0), 0.0);
-    for _ in 0..MOST_STEPS {
-        if state.area == 0.0 {
-            break;
-        }
-        let next = body.move_to(state.indentation - step, stop)?;
-        done += work(&state, &next);
-        largest = largest.max(-next.force);
-        state = next;
-    }
-    Ok((largest, done))
+/// Work of the force along a curve, J.
+fn work(curve: &[(f64, f64)]) -> f64 {
+    curve.windows(2).map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0)).sum()
 }

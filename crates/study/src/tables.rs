@@ -110,7 +110,8 @@ fn recorded_hash(folder: &Path) -> Option<String> {
 }
 
 impl Results {
-    pub(super) fn table(&self) -> Table<'_> {
+    /// The table with a row for each record: the values of the axes, the seed of the profile, and the recorded quantities.
+    pub fn table(&self) -> Table<'_> {
         let rows = || {
             let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
             let record = |(cell, line)| (cell, line, self.record(cell, line), self.reason(cell, line));

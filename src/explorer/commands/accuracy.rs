@@ -12,7 +12,7 @@ use crate::explorer::studies::{Study, ensemble_key};
 use asperity_data::parallel::threads;
 use asperity_scene::{CheckedScene, Document};
 use asperity_scene::{Choice, ChoiceError, Estimate, choose, estimate, parse_tolerance};
-use asperity_study::Ensemble;
+use asperity_study::{Ensemble, SquareLoops};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -49,6 +49,7 @@ pub fn studies(app: &mut App) -> Vec<Study> {
             wanted.extend(
                 app.view.large.map_or_else(Vec::new, |pane| (panes::row(pane).studies)(app, &computed)),
             );
+            wanted.extend(app.view.squares.then(|| squares(app)));
         }
     }
     app.studies.begin(wanted)
@@ -73,6 +74,16 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
             let found = Ensemble::of(&scene, &[], profiles, solver, stop, &mut |part| report(part.clone()));
             found.map_err(|error| error.to_string())
         })
+    })
+}
+
+/// Computes loops of random squares in three dimensions.
+fn squares(app: &App) -> Study {
+    let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
+    Study::new(key, true, move |simulation, stop, report| {
+        let solver = (std::mem::take(simulation), threads());
+        let found = SquareLoops::of(&scene, solver, stop, &mut |part| report(part.clone()));
+        found.map_err(|error| error.to_string())
     })
 }
 

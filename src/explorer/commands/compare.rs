@@ -1,8 +1,10 @@
 //! Scenes kept for comparison.
 
 use super::edit;
+use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::ghost::{Ghost, letter};
+use asperity_study::SquareLoops;
 use std::sync::Arc;
 
 /// Largest number of kept scenes: each has a colour of its own.
@@ -10,6 +12,13 @@ const MOST_GHOSTS: usize = 4;
 
 pub fn clear(app: &mut App) {
     app.ghosts.clear();
+}
+
+/// Computes and shows loops in three dimensions, or no longer.
+pub fn toggle_squares(app: &mut App) {
+    app.view.squares ^= true;
+    app.studies.forget::<SquareLoops>();
+    app.effects.push(Task::Study);
 }
 
 fn ghost(app: &App) -> Option<Ghost> {

@@ -150,7 +150,7 @@ static TABLE: &[Entry] = &[
     row("<", EXPLORE, "previous-stage", Do(|app| movement::go_to_leg(app, -1)), "", "jump to the start of this stage, or to the previous stage", ANIMATION),
     row("!", EXPLORE, "pull-off", Do(movement::go_to_pull_off), "", "jump to the pull-off", ANIMATION),
 
-    row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin or end manual loading", MANUAL).words("minor loop hand by hand"),
+    row("d", EXPLORE, "toggle-manual", Do(movement::toggle_manual), "manual", "begin manual loading, or end it", MANUAL).words("minor loop hand by hand"),
     row("]", EXPLORE, "press", Do(|app| movement::push(app, 1, false)), "press/pull", "press by a small step", MANUAL).shown_if(is_manual),
     row("[", EXPLORE, "pull", Do(|app| movement::push(app, -1, false)), "press/pull", "pull by a small step", MANUAL).shown_if(is_manual),
     row("}", EXPLORE, "press-coarse", Do(|app| movement::push(app, 1, true)), "large step", "press by a large step", MANUAL).shown_if(is_manual),
@@ -187,11 +187,12 @@ static TABLE: &[Entry] = &[
     row("c", EXPLORE, "pin", Do(compare::pin), "compare", "keep this loop as a ghost for comparison", COMPARE).words("ghost overlay keep").rank(2),
     row("x", EXPLORE, "swap", Do(compare::swap), "", "swap the scene with the newest ghost", COMPARE),
     row("C", EXPLORE, "clear-ghosts", Do(compare::clear), "", "remove all ghosts", COMPARE),
+    row("D", EXPLORE, "toggle-squares", Do(compare::toggle_squares), "", "compare with random squares in three dimensions", COMPARE).words("3D half-space model error boundary elements reference"),
     row("Ctrl+f", EXPLORE, "fit", Do(measured::ask_fit), "fit", "fit parameters of the scene to the measured curve", COMPARE).rank(2).shown_if(|app| app.edit.measured.is_some()),
 
     row("v", EXPLORE, "next-curve", Do(|app| app.view.curve.quantities = app.view.curve.quantities.next(app.deflects())), "", "plot force (over d, over D), contact length or number of patches", LOOK).words("contact area displacement quantity axis"),
-    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "units of F_a,max and h, or SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
-    row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the dissipated energy", LOOK).words("hysteresis loss work energy"),
+    row("N", EXPLORE, "toggle-normalised", Do(|app| app.view.curve.normalised ^= true), "", "forces in units of F_a,max, or in SI units", LOOK).words("normalise normalised normalize normalized dimensionless units SI share"),
+    row("a", EXPLORE, "toggle-dissipated-energy", Do(|app| app.view.curve.loss ^= true), "", "shade the area of the loop: the dissipated energy", LOOK).words("hysteresis loss work energy"),
     row("n", EXPLORE, "next-patch", Do(|app| view::go_to_patch(app, Focus::After)), "patch", "show the next patch", LOOK),
     row("p", EXPLORE, "previous-patch", Do(|app| view::go_to_patch(app, Focus::Before)), "", "show the previous patch", LOOK),
     row("+ =", EXPLORE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom in: the profile if selected, else the close-up", LOOK),

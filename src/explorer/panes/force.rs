@@ -15,6 +15,7 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Si
 use asperity_report::{FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart};
 use asperity_scene::LEAST_TABOR_NUMBER;
 use asperity_scene::quoted;
+use asperity_study::SquareLoops;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::f64::consts::PI;
@@ -254,6 +255,13 @@ fn chart(app: &App) -> Option<Chart> {
         stroke: Some(Stroke::Sparse),
         ..unmarked(&ghost.outcome)
     });
+    let squares = app.studies.value::<SquareLoops>().filter(|_| app.view.squares);
+    let squares = squares.into_iter().flat_map(|loops| &loops.curves).map(|curve| ForceLoop {
+        curves: vec![(Direction::Unloading, curve)],
+        ink: Some(Ink::Kept),
+        stroke: Some(Stroke::Sparse),
+        ..ForceLoop::new(&[])
+    });
     let tried = app.tried_outcome().map(|outcome| ForceLoop {
         name: Some("preview".into()),
         ink: Some(Ink::Kept),
@@ -284,7 +292,7 @@ fn chart(app: &App) -> Option<Chart> {
         ..ForceLoop::new(&[])
     });
     let loops: Vec<ForceLoop<'_>> =
-        data.into_iter().chain(ghosts).chain(tried).chain([present]).chain(manual).collect();
+        data.into_iter().chain(squares).chain(ghosts).chain(tried).chain([present]).chain(manual).collect();
     let mut chart = loop_chart(&loops, units);
     for layer in chart.layers.iter_mut().filter(|layer| layer.name.to_string() == MEASURED) {
         layer.shape = Shape::signs(layer.shape.points(), Sign::Point);

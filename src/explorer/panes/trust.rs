@@ -16,7 +16,7 @@ use asperity_report::work_precision;
 use asperity_report::{CostReport, error_rows, theory_rows, without_jkr};
 use asperity_scene::{CostTable, Estimate, Knob, Progress, measure};
 use asperity_scene::{Numerics, Solver};
-use asperity_study::{Budget, Ensemble, MeasuredAdhesion};
+use asperity_study::{Budget, Ensemble, MeasuredAdhesion, Reference, SquareLoops};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
 use std::path::Path;
@@ -62,7 +62,15 @@ fn study(computed: &SolvedScene) -> Study {
 
 fn report(app: &App) -> Exported<'_> {
     let (document, table) = (&app.edit.document, app.studies.value::<Costs>()?.table.as_ref()?);
-    Some(("asperity cost".into(), Box::new(CostReport::new(document.title(), document.scene(), table))))
+    Some((
+        "asperity cost".into(),
+        Box::new(CostReport::new(document.title(), document.scene(), table, reference(app))),
+    ))
+}
+
+/// The comparison with three dimensions, if it is computed.
+fn reference(app: &App) -> Option<&Reference> {
+    app.studies.value::<SquareLoops>()?.reference.as_ref()
 }
 
 /// Relative errors that are drawn as lines, and whose requirements are stated.
@@ -87,7 +95,8 @@ fn panel(app: &App, size: Size) -> Panel {
     if !has_room {
         return Panel { head, foot, ..Panel::of_text(title, "") };
     }
-    let chart = table.and_then(|table| Some((table, work_precision("", table).charts.pop()?)));
+    let chart =
+        table.and_then(|table| Some((table, work_precision("", table, reference(app)).charts.pop()?)));
     let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
         return Panel { head, foot, ..Panel::of_text(title, &nothing_yet(app)) };
     };
@@ -100,8 +109,11 @@ fn rows(app: &App, width: u16) -> Vec<Line<'static>> {
     let (scene, outcome) = (&computed.scene, &computed.outcome);
     let (estimate, ensemble) = (app.studies.value::<Estimate>(), app.studies.value::<Ensemble>());
     let deviation = app.studies.value::<MeasuredAdhesion>().and_then(MeasuredAdhesion::fit_deviation);
-    let mut errors = Budget::of(outcome, estimate, ensemble, deviation)
-        .map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble));
+    let budget = Budget::of(outcome, estimate, ensemble, deviation).map(|budget| match reference(app) {
+        Some(reference) => budget.with_model(reference.budget.model),
+        None => budget,
+    });
+    let mut errors = budget.map_or_else(Vec::new, |budget| error_rows(scene, estimate, &budget, ensemble));
     let first = errors.len().min(1);
     errors.rotate_right(first);
     let theories = theory_rows(scene, outcome, ensemble);

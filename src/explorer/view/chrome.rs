@@ -15,9 +15,10 @@ use crate::explorer::typed;
 use asperity_data::grouped;
 use asperity_data::{format_quantity, format_range, format_rounded};
 use asperity_experiment::FitResult;
+use asperity_report::square_loops_words;
 use asperity_scene::Estimate;
 use asperity_scene::SteepWaves;
-use asperity_study::{Ensemble, Quantity};
+use asperity_study::{Ensemble, Quantity, SquareLoops};
 use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
@@ -184,6 +185,7 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         };
         facts.push((format!("{}: residual {residual}", measured.name), Meaning::Title));
     }
+    facts.extend(app.view.squares.then(|| squares(app)));
     facts.extend(regime);
     if let Some(SteepWaves { ratio, jkr_factor }) = outcome.steep_waves {
         let least = SteepWaves::LEAST_RATIO;
@@ -199,6 +201,17 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
         facts.push((format!("ΔW {}", format_rounded(energy, 2, "J")), Meaning::Text));
     }
     facts
+}
+
+/// What is known of the loops of random squares in three dimensions, and their difference from the line.
+fn squares(app: &App) -> (String, Meaning) {
+    match app.studies.failure::<SquareLoops>() {
+        Some(why) => (format!("three dimensions: {why}"), Meaning::Error),
+        None => {
+            let words = square_loops_words(app.studies.value().unwrap_or(&SquareLoops::default()));
+            (words, Meaning::Title)
+        }
+    }
 }
 
 /// Median and quartiles of the adhesion force over the random profiles computed so far, and with room their number.

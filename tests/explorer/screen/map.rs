@@ -111,7 +111,7 @@ fn other_edits_begin_the_map_anew() {
 #[test]
 fn the_regime_has_two_protocols() {
     let mut driver = mapped(rough());
-    driver.shows("Map of regime (touch) over H, κ");
+    driver.shows("Map of regime (d=0) over H, κ");
     driver.press("V V V V V");
     driver.shows_all([
         "Map of regime (F=0)",

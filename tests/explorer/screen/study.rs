@@ -110,7 +110,7 @@ fn the_scene_follows_to_the_next_preload() {
     // A different scene is left unchanged.
     driver.press("Tab Tab");
     driver.select("material.youngs_modulus");
-    driver.sees("L", "no longer that of the study");
+    driver.sees("L", "no longer belongs to the study");
     let other = driver.document().clone();
     driver.press("m P P");
     assert_eq!(*driver.document(), other);
@@ -132,7 +132,7 @@ fn the_computed_map_can_be_had_instead() {
     // The study is hidden and shown again with the pane.
     driver.sees("m m", "Study small");
     // Another scene has a map of its own, and the study stays loaded.
-    driver.sees("o 1 Enter W", "no longer that of the study");
+    driver.sees("o 1 Enter W", "no longer belongs to the study");
     driver.sees("W", "over H, κ, 4 profiles");
 }
 
@@ -164,7 +164,7 @@ fn a_study_is_opened_by_its_path() {
     let mut driver = pressed("");
     driver.press("o");
     driver.act(Action::Paste(path("small")));
-    driver.sees("Enter", "Study small: regime (touch) over H, κ, 12 profiles");
+    driver.sees("Enter", "Study small: regime (d=0) over H, κ, 12 profiles");
     assert!(is_up_to_date(&driver.app) && !driver.app.edit.is_unsaved());
     let Some(Roughness::SelfAffine { modes, .. }) = driver.document().scene().roughness else { panic!() };
     assert_eq!(modes, Some((1, 32)));

@@ -5,6 +5,19 @@ use asperity_data::CompensatedSum;
 use serde::{Deserialize, Serialize};
 
 /// Edge model of a contact patch.
+///
+/// ```
+/// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
+///
+/// // A flat face of eight springs: the length in contact is the same with both edge models.
+/// let flat = Profile::from_gaps(vec![0.0; 8], 1.0e-6)?;
+/// for edges in [Edges::Grid, Edges::SubCell] {
+///     let contact = Contact::builder(&flat, Modulus::effective(1.0e6)?).edges(edges).build()?;
+///     let pressed = contact.load(&[Move::ToIndentation(1.0e-9)])?;
+///     assert_eq!(pressed.curve().contact_length.last(), Some(&flat.length()));
+/// }
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {

@@ -16,6 +16,20 @@ use std::sync::Arc;
 /// Contact at all indentations of a motion in one direction.
 ///
 /// A leg is a value: it stays valid after the body has moved on, and its clones share their memory.
+///
+/// ```
+/// use asperity_contact::{Contact, Leg, Modulus, Profile};
+///
+/// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// // Approach, and turn at an indentation of 100 nm: in one piece the contact returns along the same curve.
+/// let loading = Leg::approach(&contact)?;
+/// let unloading = loading.turn(1.0e-7)?;
+/// let [up, down] = [loading.point(0.5e-7)?, unloading.point(0.5e-7)?];
+/// assert!((up.force - down.force).abs() <= 1e-12 * up.force.abs());
+/// # Ok::<(), asperity_contact::ContactError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Leg {
     contact: Contact,

@@ -5,7 +5,7 @@ use super::summary::{Summaries, summaries};
 use crate::error::ExperimentError;
 use crate::model::Sampling;
 use asperity_contact::{Body, ContactError, CurvePoint, Modulus, Move, MovingBody};
-use asperity_scene::{DisplacementCurve, Scene, Simulation};
+use asperity_scene::{CheckedScene, DisplacementCurve, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -60,7 +60,7 @@ impl Place {
 /// What is common to all computed curves.
 #[derive(Clone, Copy)]
 pub(crate) struct Specimen<'a> {
-    pub scene: &'a Scene,
+    pub scene: &'a CheckedScene,
     pub stiffness: f64,
     /// Work of adhesion on closing over that on opening.
     pub closing: f64,
@@ -81,8 +81,7 @@ impl Specimen<'_> {
         ranges: &[f64],
         moduli: &[f64],
     ) -> Result<Vec<Summaries>, ExperimentError> {
-        let mut scene = self.scene.clone();
-        scene.set_seed(FIRST_SEED.wrapping_add(line));
+        let scene = self.scene.with_seed(FIRST_SEED.wrapping_add(line));
         let (bare, _) = simulation.contact(&scene)?;
         let modulus = Modulus::effective(bare.effective_modulus())?;
         let protocol = &self.protocols[line as usize % self.protocols.len()];

@@ -8,7 +8,7 @@ use super::result::RoughnessShifts;
 use super::table::Workers;
 use crate::error::ExperimentError;
 use asperity_data::mean;
-use asperity_scene::{Roughness, Scene};
+use asperity_scene::{Roughness, RunError};
 
 /// Changes of the logarithm of the rms height and of the Hurst exponent.
 const HEIGHT_STEP: f64 = 0.05;
@@ -52,10 +52,12 @@ impl Shifts<'_> {
         change: &dyn Fn(&mut Roughness, f64),
     ) -> Result<[f64; 2], ExperimentError> {
         let at = |change_by: f64| {
-            let mut scene = Scene::clone(self.workers.specimen.scene);
-            if let Some(roughness) = &mut scene.roughness {
-                change(roughness, change_by);
-            }
+            let scene = self.workers.specimen.scene.with(|scene| {
+                if let Some(roughness) = &mut scene.roughness {
+                    change(roughness, change_by);
+                }
+            });
+            let scene = scene.map_err(RunError::from)?;
             let others =
                 Workers { specimen: Specimen { scene: &scene, ..self.workers.specimen }, ..*self.workers };
             let curves = others.curves(lines, &[place.range], &[place.modulus])?;

@@ -14,7 +14,7 @@ const FINE: u64 = 1 << 14;
 pub(super) fn scene(name: &str) -> Scene {
     let mut scene = Scene::clone(open(name).unwrap().scene());
     let (stiffness, preload) = if name == "rough-sphere" { (Some(200.0), 2e-4) } else { (None, 1e-5) };
-    let (_, governing) = Simulation::default().contact(&scene).unwrap();
+    let (_, governing) = Simulation::default().contact(&scene.clone().checked().unwrap()).unwrap();
     scene.adhesion = Some(Adhesion::by_work(governing.work_of_adhesion.unwrap()));
     scene.material = Material::effective(governing.effective_modulus);
     scene.loading_stiffness = stiffness;

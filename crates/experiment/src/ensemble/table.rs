@@ -140,6 +140,7 @@ mod tests {
         let branches = Branches::of(&curve(&mut Simulation::default(), &scene, 3, 0.01)).unwrap();
         let protocols = [Protocol::of(&branches, branches.preload())];
         let computed = AtomicUsize::new(0);
+        let scene = scene.checked().unwrap();
         let workers = |jobs| Workers {
             specimen: Specimen {
                 scene: &scene,

@@ -27,7 +27,7 @@ const DOTS: (u16, u16) = (2, 4);
 /// A text beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Points of the chart, in numbers on the axes; the text is beside the first one with room for the text.
+    /// Points of the chart, in numbers on the axes. The text is drawn beside the first point that has room.
     pub at: Vec<(f64, f64)>,
     /// The text, followed by shorter ones for less room.
     pub texts: Vec<String>,
@@ -55,8 +55,8 @@ impl CellPlot {
         CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
     }
 
-    /// Divides an area as [`CellPlot::within`] does, with rows of the caller between the plot and the numbers below it in
-    /// place of the line.
+    /// Divides an area as [`CellPlot::within`] does. Rows of the caller take the place of the line between the plot
+    /// and the numbers below it.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);

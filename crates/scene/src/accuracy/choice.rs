@@ -19,6 +19,13 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 const MOST_TRIED: u64 = 1 << 21;
 
 /// Parses a tolerance: `1e-3` or `0.1 %`; the error is the allowed range.
+///
+/// ```
+/// use asperity_scene::parse_tolerance;
+///
+/// assert_eq!(parse_tolerance("0.1%"), Ok(0.001));
+/// assert!(parse_tolerance("2").is_err());
+/// ```
 pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     let allowed = || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
     let tolerance = parse_quantity(text, "1").map_err(|_| allowed())?;
@@ -76,6 +83,7 @@ impl Choice {
 
 /// Reason why no number of springs was chosen.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ChoiceError {
     /// The scene could not be computed.
     #[error(transparent)]
@@ -123,6 +131,16 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// both edge models take about the same time; edges between springs are preferred, since their error falls faster if the
 /// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is polled now and then;
 /// `trying` receives the next number of springs.
+///
+/// ```
+/// use asperity_scene::{choose, open};
+/// use std::path::Path;
+///
+/// let sphere = open("jkr-sphere")?;
+/// let choice = choose(sphere.scene(), Path::new(""), 0.01, &|| false, &mut |_| ()).unwrap();
+/// assert!(choice.closed_form && choice.error <= 0.01);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 pub fn choose(
     scene: &CheckedScene,
     folder: &Path,

@@ -85,6 +85,20 @@ pub enum Evidence {
 /// Returns `None` if the scene has neither figure, if the foundation allows no other number of springs or would need more
 /// than the limit, if a solution with another number of springs cannot reach a target of the loading, or if `stop` ends the
 /// computation.
+///
+/// ```
+/// use asperity_contact::{Modulus, Move};
+/// use asperity_scene::{Adhesion, ProfileBuilder, Simulation, estimate};
+/// use std::path::Path;
+///
+/// let rough = ProfileBuilder::new(1.0e-4, 1024).self_affine(0.7).rms_height(1.0e-7).modes(1, 64);
+/// let (modulus, adhesion) = (Modulus::effective(2.0e6)?, Some(Adhesion::by_work(0.02)));
+/// let scene = rough.scene(modulus, adhesion, &[Move::ToForce(1.0e-4), Move::ToSeparation])?;
+/// let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(()))?;
+/// let estimated = estimate(&scene, Path::new(""), &outcome, &|| false).unwrap();
+/// assert!(estimated.of_adhesion_force(&outcome) < outcome.figures.adhesion_force);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 pub fn estimate(
     scene: &CheckedScene,
     folder: &Path,

@@ -13,6 +13,18 @@ use serde::Serialize;
 use std::f64::consts::PI;
 
 /// The governing parameters of a scene, given or derived from each other.
+///
+/// ```
+/// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
+///
+/// let rough = open("pressure-sensitive")?;
+/// let (_, _, governing) = Simulation::default().make_line(rough.scene())?;
+/// // The same profile with κ = 1: the work of adhesion grows with 1/κ².
+/// let softer = governing.with_adhesion(Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0)));
+/// let ratio = softer.work_of_adhesion.unwrap() / governing.work_of_adhesion.unwrap();
+/// assert!((ratio / governing.kappa.unwrap().powi(2) - 1.0).abs() < 1e-12);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Governing {
     /// Effective modulus E*, Pa.

@@ -19,6 +19,16 @@ pub struct DisplacementPoint {
 
 /// Force curve of one loading stage over the displacement of the instrument, linear between its points. It is exact at the
 /// points of the stage; computing it takes a time proportional to their number.
+///
+/// ```
+/// use asperity_contact::{CurvePoint, Direction};
+/// use asperity_scene::DisplacementCurve;
+///
+/// let point = |indentation, force| CurvePoint { indentation, force, springs: 1, ..CurvePoint::default() };
+/// let curve = DisplacementCurve::new(Direction::Loading, &[point(0.0, 0.0), point(1.0, 2.0)], 2.0);
+/// // D = d + F/k: half of the way is taken by the instrument.
+/// assert_eq!(curve.at(1.0).map(|point| (point.indentation, point.force)), Some((0.5, 1.0)));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DisplacementCurve {
     /// Points in the order of the stage, along which D never turns back. Two neighbours with the same D are the ends of a
@@ -125,6 +135,7 @@ fn sign_of(direction: Direction) -> f64 {
 
 /// Figures of a loading history under a compliant instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct InstrumentFigures {
     /// Loading stiffness k, N/m.
     pub stiffness: f64,

@@ -17,6 +17,16 @@ pub const VANISHING_SHARE: f64 = 0.05;
 pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
 /// Regime of adhesion: how adhesion depends on the load, Fig. 4.
+///
+/// ```
+/// use asperity_contact::Figures;
+/// use asperity_scene::Regime;
+///
+/// // 5 µN after a preload, 1 µN without one, 10 µN of the smooth body.
+/// let figures = Figures { preload: Some(1.0e-4), adhesion_force: Some(5.0e-6), ..Figures::default() };
+/// let regime = Regime::of_loading(&figures, Some(1.0e-6), Some(1.0e-5));
+/// assert_eq!(regime, Some(Regime::PressureSensitive));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]

@@ -6,6 +6,14 @@ use super::fields::field;
 use super::text::ron_float;
 
 /// Dimensionless roughness-adhesion parameter, which may be given in place of the work of adhesion.
+///
+/// ```
+/// use asperity_scene::RoughnessParameter;
+///
+/// let [kappa, energy] = [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
+/// // κ² is the energy h⟨∇z⟩E* over the work of adhesion, e_el/γ the elastic energy itself.
+/// assert_eq!((kappa.energy_over_work(6.0), energy.energy_over_work(6.0)), (36.0, 6.0));
+/// ```
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
@@ -88,11 +96,25 @@ pub enum Strength {
 
 impl Adhesion {
     /// Adhesion given by the work of adhesion, J/m².
+    ///
+    /// ```
+    /// use asperity_scene::Adhesion;
+    ///
+    /// let work = Adhesion::by_work(0.05);
+    /// assert_eq!((work.work(), work.closing_work(), work.parameter()), (Some(0.05), None, None));
+    /// ```
     pub fn by_work(work: f64) -> Self {
         Adhesion { strength: Strength::Work { opening: work, closing: None }, range: None }
     }
 
     /// Adhesion given by a parameter and its value.
+    ///
+    /// ```
+    /// use asperity_scene::{Adhesion, RoughnessParameter};
+    ///
+    /// let given = Adhesion::by_parameter(RoughnessParameter::Kappa, 6.0);
+    /// assert_eq!((given.work(), given.parameter()), (None, Some((RoughnessParameter::Kappa, 6.0))));
+    /// ```
     pub fn by_parameter(parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion { strength: Strength::Parameter(parameter, value), range: None }
     }

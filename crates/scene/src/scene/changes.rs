@@ -63,6 +63,13 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 impl Document {
     /// The fields that differ from another scene, except texts: each field by itself where both scenes make the same choices,
     /// otherwise the whole group. Loading stages are compared one by one if both scenes have the same number of stages.
+    ///
+    /// ```
+    /// let sphere = asperity_scene::open("jkr-sphere")?;
+    /// let changes = sphere.changes_to(&sphere.set("length", "200 µm")?);
+    /// assert_eq!(changes[0].to_string(), "L 100 µm → 200 µm");
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
         let scenes = [self, other].map(|document| &**document.scene());
         let [here, there] = scenes.map(Tree::of);

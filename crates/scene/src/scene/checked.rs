@@ -10,6 +10,14 @@ use super::text::index::Text;
 use serde::Serialize;
 
 /// A scene whose values have been checked. It can be read like a [`Scene`]; a changed one is checked again.
+///
+/// ```
+/// use asperity_scene::{Material, Scene};
+///
+/// let scene = Scene::new(Material::effective(1.0e6), 1.0e-4).checked()?;
+/// assert_eq!(scene.spacing(), 1.0e-4 / scene.numerics.points as f64);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckedScene(Scene);
 

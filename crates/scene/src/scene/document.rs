@@ -22,6 +22,17 @@ pub const LONGEST_TEXT: usize = 1 << 20;
 
 /// A checked scene with its text and the overrides of its fields. A change returns a new document; a refused change leaves
 /// the document as it was.
+///
+/// ```
+/// use asperity_scene::Document;
+///
+/// let text = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4) // flat";
+/// let flat = Document::parse(text, "flat.ron")?;
+/// // Edits keep comments.
+/// let longer = flat.set("length", "2 mm")?;
+/// assert!(longer.scene().length == 2.0e-3 && longer.text().ends_with("// flat"));
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     name: String,
@@ -42,6 +53,14 @@ impl Document {
     /// # Errors
     /// The first syntax error of the text, or all invalid values, each with line and column. An unsupported version is
     /// stated instead of a syntax error.
+    ///
+    /// ```
+    /// use asperity_scene::Document;
+    ///
+    /// let text = "(version: 1, material: (effective_modulus: 1.0e6), length: -1.0)";
+    /// let errors = Document::parse(text, "my.ron").unwrap_err();
+    /// assert_eq!(errors.to_string(), "my.ron:1:60: length = -1.0: allowed: from 1e-9 to 10 m (apparent diameter)");
+    /// ```
     pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);

@@ -8,6 +8,15 @@ use asperity_surface::Form;
 
 /// Optional effect of a scene, switched by [`Document::with`](crate::scene::document::Document::with) and
 /// [`Document::without`](crate::scene::document::Document::without).
+///
+/// ```
+/// use asperity_scene::{Effect, open};
+///
+/// let sphere = open("jkr-sphere")?;
+/// assert!(Effect::Adhesion.is_on(sphere.scene()) && !Effect::Roughness.is_on(sphere.scene()));
+/// assert!(!Effect::Adhesion.is_on(sphere.without(Effect::Adhesion)?.scene()));
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
     /// A macroscopic form; without it the body is nominally flat.

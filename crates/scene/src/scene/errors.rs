@@ -45,6 +45,15 @@ impl fmt::Display for Origin {
 }
 
 /// One error of a scene.
+///
+/// ```
+/// use asperity_scene::{Material, Scene};
+///
+/// let errors = Scene::new(Material::isotropic(1.0e6, 0.7), 1.0e-4).checked().unwrap_err();
+/// let error = errors.first();
+/// assert_eq!((error.field.as_str(), error.value.as_str()), ("material.poisson_ratio", "0.7"));
+/// assert_eq!(error.allowed, "above -1, at most 0.5");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq, thiserror::Error)]
 #[error("{origin}{}", self.what())]
 pub struct SceneError {
@@ -97,6 +106,15 @@ impl SceneError {
 }
 
 /// All errors of a scene, at least one, in the order of their detection; each is a line of its own.
+///
+/// ```
+/// use asperity_scene::{Material, Scene};
+///
+/// let mut scene = Scene::new(Material::effective(-1.0), 1.0e-4);
+/// scene.numerics.points = 0;
+/// let errors = scene.checked().unwrap_err();
+/// assert_eq!((errors.iter().count(), errors.to_string().lines().count()), (2, 2));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
@@ -161,6 +179,13 @@ const LONGEST: usize = 64;
 /// The nearest of the names, if it is near enough to be the intended one.
 ///
 /// The last component of a name suffices: `hurst` means `roughness.hurst`.
+///
+/// ```
+/// use asperity_scene::nearest;
+///
+/// assert_eq!(nearest("parabloid", ["Cone", "Paraboloid"]), Some("Paraboloid"));
+/// assert_eq!(nearest("sphere", ["Cone", "Paraboloid"]), None);
+/// ```
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_lowercase();
     // At most a third of the name is wrong.

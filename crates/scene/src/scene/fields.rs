@@ -21,6 +21,11 @@ pub const MOST_POINTS: u64 = 1 << 28;
 
 /// The field at a path. Where variants of a choice have fields of the same name, `variant` decides; for `None` the first
 /// one is returned.
+///
+/// ```
+/// let radius = asperity_scene::field("form.radius", Some("Paraboloid")).unwrap();
+/// assert_eq!((radius.unit, radius.allowed().as_str()), ("m", "above 0, at most 1e9 m"));
+/// ```
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
     let is_of = |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
     FIELDS.iter().find(|field| field.path == path && is_of(field))

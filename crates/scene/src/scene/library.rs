@@ -53,6 +53,12 @@ const PRESETS: &[Preset] = built_in!["":
 ];
 
 /// All built-in scenes, in the recommended order.
+///
+/// ```
+/// use asperity_scene::presets;
+///
+/// assert!(presets().iter().any(|preset| preset.name == "jkr-sphere"));
+/// ```
 pub fn presets() -> &'static [Preset] {
     PRESETS
 }

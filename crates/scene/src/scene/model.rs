@@ -21,7 +21,7 @@ pub const SPRINGS_PER_WAVE: u64 = 4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Version of the file format, [`SCENE_VERSION`](crate::scene::fields::SCENE_VERSION).
+    /// Version of the file format, 1.
     pub version: u32,
     /// Title of the scene, one line.
     #[serde(default)]
@@ -54,6 +54,15 @@ pub struct Scene {
 }
 
 /// Elastic constants of the half-space as written: E and ν of a half-space under a rigid body, or E* of two elastic bodies.
+///
+/// ```
+/// use asperity_scene::Material;
+///
+/// let rubber = Material::isotropic(3.0e6, 0.5);
+/// assert!((rubber.modulus()?.pascals() / 4.0e6 - 1.0).abs() < 1e-15);
+/// assert!(Material::default().modulus().is_err());
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
@@ -182,6 +191,16 @@ impl Scene {
     }
 
     /// Warning, in words, if the shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.
+    ///
+    /// ```
+    /// use asperity_contact::{Modulus, Move};
+    /// use asperity_scene::ProfileBuilder;
+    ///
+    /// let coarse = ProfileBuilder::new(1.0e-4, 256).self_affine(0.7).rms_height(1.0e-7).modes(1, 100);
+    /// let scene = coarse.scene(Modulus::effective(1.0e6)?, None, &[Move::ToTouch])?;
+    /// assert!(scene.warning().unwrap().starts_with("roughness.modes: the shortest wave has 2.5 springs"));
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
     pub fn warning(&self) -> Option<String> {
         let (path, springs) = match self.roughness.as_ref()? {
             Roughness::SelfAffine { modes, .. } => {

@@ -18,6 +18,13 @@ use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, read_li
 ///
 /// # Errors
 /// There is no such scene, its file cannot be read, or the scene has errors.
+///
+/// ```
+/// assert_eq!(asperity_scene::open("jkr-sphere")?.scene().length, 1.0e-4);
+/// let unknown = asperity_scene::open("jkr-spere").unwrap_err().to_string();
+/// assert!(unknown.contains("jkr-sphere"), "{unknown}");
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     let own = own_folder();
     let path = Path::new(name_or_path);

@@ -90,6 +90,15 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
 
 /// A loading as text; repeated minor loops are one item: `10 µN, 3 loops 0 N to 10 µN, separation`. With
 /// [`exact_quantity`](asperity_data::exact_quantity) as the format, `read_loading` returns the same loading.
+///
+/// ```
+/// use asperity_contact::Move;
+/// use asperity_data::format_quantity;
+/// use asperity_scene::loading_text;
+///
+/// let loading = [Move::ToForce(1.0e-5), Move::ToZeroForce, Move::ToSeparation];
+/// assert_eq!(loading_text(&loading, format_quantity), "10 µN, zero force, separation");
+/// ```
 pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String {
     let (mut items, mut rest) = (Vec::new(), loading);
     while let Some(&first) = rest.first() {
@@ -138,6 +147,15 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 ///
 /// # Errors
 /// A text that is no stage.
+///
+/// ```
+/// use asperity_contact::Move;
+/// use asperity_scene::read_stage;
+///
+/// assert_eq!(read_stage("10 µN", None), Ok(Move::ToForce(1.0e-5)));
+/// assert_eq!(read_stage("separation", None), Ok(Move::ToSeparation));
+/// assert!(read_stage("10 kg", None).is_err());
+/// ```
 pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityError> {
     let plain = text.replace(['(', ')'], " ");
     let plain = plain.trim();

@@ -23,6 +23,15 @@ pub struct Statement {
 
 /// The values that a scene states: all numbers, and the choices and names that differ from their defaults. For a choice
 /// with numbers, only its numbers.
+///
+/// ```
+/// use asperity_scene::{open, statements};
+///
+/// let stated = statements(open("jkr-sphere")?.scene());
+/// let length = stated.iter().find(|one| one.field.path == "length").unwrap();
+/// assert_eq!(length.value, "100 µm");
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 pub fn statements(scene: &Scene) -> Vec<Statement> {
     let (tree, mut found) = (Tree::of(scene), Vec::new());
     fields_inside("", None).for_each(|field| add(scene, &tree, field, &mut found));

@@ -11,6 +11,15 @@ use super::text::{ron_float, ron_string};
 
 /// The values of a scene as JSON. A choice is the name of its variant, or an object with this name as its only key and the
 /// fields of the variant inside; an omitted field has no value.
+///
+/// ```
+/// use asperity_scene::{Tree, open};
+///
+/// let mut tree = Tree::of(open("jkr-sphere")?.scene());
+/// assert!(tree.set("length", 2.0e-4) && !tree.set("width", 1.0));
+/// assert_eq!(tree.get("length"), Some(2.0e-4));
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree(Value);
 

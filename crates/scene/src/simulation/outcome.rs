@@ -13,6 +13,7 @@ use thiserror::Error;
 
 /// All results of a scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Outcome {
     /// Facts about the profile.
     pub line: LineFacts,
@@ -57,6 +58,7 @@ impl Outcome {
 
 /// Facts about a profile, without its heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LineFacts {
     /// Number of springs N of the foundation.
     pub points: usize,
@@ -103,6 +105,7 @@ impl Timings {
 
 /// Reason why a checked scene could not be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// A variant of the scene that the computation needs has values out of their ranges.
     #[error(transparent)]

@@ -8,6 +8,16 @@ use thiserror::Error;
 
 /// The deepest state within reach of the model: the body one length of the profile deeper than at full contact. Beyond full
 /// contact the force curve is a straight line, and a body so deep is no longer on a half-space with small deformations.
+///
+/// ```
+/// use asperity_contact::Move;
+/// use asperity_scene::{Simulation, open};
+///
+/// let reach = Simulation::default().reach(open("jkr-sphere")?.scene())?;
+/// assert!(reach.refusal(Move::ToForce(2.0 * reach.force)).unwrap().contains("far beyond full contact"));
+/// assert_eq!(reach.refusal(Move::ToForce(0.5 * reach.force)), None);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
     /// Force, N, and indentation, m, at which the last spring touches.

@@ -65,6 +65,15 @@ impl Simulation {
     ///
     /// # Errors
     /// As for [`Simulation::reverse`], and for a loading that never presses.
+    ///
+    /// ```
+    /// use asperity_scene::{Simulation, open};
+    ///
+    /// let sphere = open("jkr-sphere")?.set("numerics.points", "512")?;
+    /// let map = Simulation::default().reversal_map(sphere.scene(), None, 8, &|| false)?;
+    /// assert_eq!(map.reversals.len(), 8);
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
     pub fn reversal_map(
         &mut self,
         scene: &CheckedScene,

@@ -11,11 +11,11 @@ use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::{
     Body, Contact, ContactError, ContactTree, Edges, Figures, History, Leg, LegRecord, Move, MovingBody,
-    Patch, Profile, Stepwise, Work, ideal_adhesion_force, load_body,
+    Patch, Profile, Stepwise, ideal_adhesion_force, load_body,
 };
 use asperity_data::{check_room, emptied};
 use asperity_surface::Form;
-use asperity_surface::{Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
+use asperity_surface::{EquivalentLine, Histogram, Line, MeasuredRoughness, SurfaceError, Synthesizer};
 use std::mem::take;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -33,6 +33,18 @@ const SMALL: u64 = 32 << 20;
 /// Between runs at most four times the memory of the last scene is kept ([`Workload::peak_bytes`], and 20 bytes for each
 /// spring of a Fourier transform), or 32 MiB. Released memory returns to the allocator; the allocator of glibc keeps blocks
 /// of less than 32 MiB, up to 64 MiB for each thread.
+///
+/// ```
+/// use asperity_scene::{Simulation, open};
+///
+/// let (mut simulation, sphere) = (Simulation::default(), open("jkr-sphere")?);
+/// let mut force = |points: u64| {
+///     let scene = sphere.scene().with(|scene| scene.numerics.points = points)?;
+///     Ok::<_, asperity_scene::Error>(simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()))?.figures.adhesion_force)
+/// };
+/// assert!((force(512)?.unwrap() / force(4096)?.unwrap() - 1.0).abs() < 1e-3);
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Default)]
 pub struct Simulation {
     /// True for a single scene: memory for a further profile is released at once.
@@ -98,6 +110,15 @@ impl Simulation {
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
+    }
+
+    /// The equivalent line of the measured surface of the scene whose profile was made last.
+    pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
+        let RoughnessMaker { measured, equivalent, .. } = &self.maker;
+        match &**measured.as_ref().or(equivalent.as_ref().map(|(.., surface)| surface))? {
+            MeasuredRoughness::Equivalent(line) => Some(line),
+            MeasuredRoughness::Profile(_) => None,
+        }
     }
 
     /// Creates a simulation for the same files and the same measured surface, without any kept stage.
@@ -278,9 +299,11 @@ impl Simulation {
         Ok(Prepared { contact, facts, governing, random_phases, heights_binned, timings })
     }
 
-    /// Contact of a scene before its loading, and its governing parameters. The values of the scene are checked, except the
-    /// radius of its form, which a fit may vary.
-    pub fn contact(&mut self, scene: &Scene) -> Result<(Contact, Governing), RunError> {
+    /// Contact of a checked scene before its loading, and its governing parameters.
+    ///
+    /// # Errors
+    /// As for [`Self::make_line`].
+    pub fn contact(&mut self, scene: &CheckedScene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
     }
@@ -321,7 +344,9 @@ impl Simulation {
         timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
         history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
         let transforms = u64::from(random_phases > 0);
-        history.work = Work { random_phases, transforms, heights_binned, ..history.work };
+        let work = &mut history.work;
+        (work.random_phases, work.transforms, work.heights_binned) =
+            (random_phases, transforms, heights_binned);
 
         let figures = Figures::of(&history);
         let [zero_load_adhesion_force, zero_force_adhesion_force] = zero_load;

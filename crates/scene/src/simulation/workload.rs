@@ -89,6 +89,15 @@ pub struct PlannedStage {
 }
 
 /// The computing stages of a scene, in the order of execution, with its memory.
+///
+/// ```
+/// use asperity_scene::{Stage, Workload, open};
+///
+/// // Without adhesion there is no contact tree.
+/// let bare = open("jkr-sphere")?.set("adhesion", "None")?;
+/// assert!(!Workload::of(bare.scene()).runs(Stage::Tree));
+/// # Ok::<(), asperity_scene::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Workload {
     /// Number of springs under the body.

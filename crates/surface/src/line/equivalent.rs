@@ -109,15 +109,34 @@ impl EquivalentLine {
         Ok((first as u64, last as u64))
     }
 
+    /// The same line without the waves beyond a wave number, rad/m.
+    pub fn up_to(&self, wave_number: f64) -> EquivalentLine {
+        EquivalentLine { faces: self.faces.iter().map(|face| face.up_to(wave_number)).collect() }
+    }
+
     /// Amplitude A_k, m, of a mode k of a line of this length (m): A_k² = 4 C_line(q_k)/L.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
-        let wave_number = TAU * mode as f64 / length;
+        self.squared_amplitude(mode as f64, length).sqrt()
+    }
+
+    /// Share, m², of a wave of k waves over the side of a square (m) in the mean square height of a surface with these spectra:
+    /// A_k²/(4πk), where k need not be a whole number; zero half a wave beyond the first and the last one.
+    pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
+        let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
+        if waves < first - 0.5 || waves > last + 0.5 {
+            return 0.0;
+        }
+        self.squared_amplitude(waves.min(last), side) / (2.0 * TAU * waves)
+    }
+
+    fn squared_amplitude(&self, waves: f64, length: f64) -> f64 {
+        let wave_number = TAU * waves / length;
         let power = |face: &IsotropicSpectrum| {
             // A wave may exceed the end by rounding.
             let end = face.range()[1];
             face.line(if wave_number <= end * (1.0 + ROUNDING) { wave_number.min(end) } else { wave_number })
         };
-        2.0 * (self.faces.iter().map(power).sum::<f64>() / length).sqrt()
+        4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
 
     /// Roughness amplitude of the modes `first..=last` on a line of this length (m).
@@ -176,6 +195,20 @@ mod tests {
 
     fn line_with(options: &MeasuredOptions) -> EquivalentLine {
         EquivalentLine::new(&[face()], options).unwrap()
+    }
+
+    /// The squares of the waves of a surface, in all directions, sum to the mean square height of its equivalent line.
+    #[test]
+    fn a_surface_has_the_rms_height_of_its_line() {
+        let side = 256e-6;
+        let line = line_with(&continued()).up_to(64.0 * TAU / side);
+        let (first, last) = line.modes(side, 4096).unwrap();
+        assert_eq!((first, last), (1, 64));
+        let of_line = line.amplitude_of_modes(side, (first, last)).rms_height.powi(2);
+        let waves =
+            (-70..=70_i32).flat_map(|x| (-70..=70_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
+        let of_surface: f64 = waves.filter(|k| *k > 0.0).map(|k| line.variance_of_surface(k, side)).sum();
+        assert!((of_surface / of_line - 1.0).abs() < 0.1, "{of_surface} {of_line}");
     }
 
     #[test]

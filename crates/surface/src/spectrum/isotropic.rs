@@ -275,6 +275,12 @@ impl IsotropicSpectrum {
         [self.nodes.wave_number(0), self.nodes.end]
     }
 
+    /// The same spectrum without the waves beyond a wave number, rad/m.
+    pub(crate) fn up_to(&self, wave_number: f64) -> IsotropicSpectrum {
+        let nodes = Nodes { end: self.nodes.end.min(wave_number), ..self.nodes };
+        IsotropicSpectrum { nodes, ..self.clone() }
+    }
+
     /// The nodes, with the spectrum and its error at each.
     pub fn nodes(&self) -> impl Iterator<Item = Node> {
         self.values.iter().enumerate().map(|(index, value)| {

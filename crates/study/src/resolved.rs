@@ -1,0 +1,119 @@
+//! A scene with the waves that squares resolve, as a line and in three dimensions.
+
+use super::error::StudyError;
+use super::spatial::{Body, Spectrum};
+use asperity_half_space::check_cells;
+use asperity_scene::{CheckedScene, Roughness, RunError, Scene, Simulation};
+use asperity_surface::MeasuredRoughness;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Cells for the shortest wave of a square.
+const CELLS_PER_WAVE: u64 = 8;
+/// Springs for the shortest wave of a line.
+const SPRINGS_PER_WAVE: u64 = 64;
+const LEAST_SPRINGS: u64 = 4096;
+
+/// A scene with the waves that squares resolve.
+pub(super) struct Resolved {
+    /// The scene of the lines.
+    pub line: CheckedScene,
+    /// The equivalent line of a measured surface without the waves that squares do not resolve.
+    measured: Option<Arc<MeasuredRoughness>>,
+    pub body: Body,
+    /// First and last wave over the length; `None` for a smooth body.
+    pub waves: Option<(u64, u64)>,
+    /// Last wave of the scene where it is left out.
+    pub omitted: Option<u64>,
+}
+
+impl Resolved {
+    /// Keeps the waves of a scene that squares with this number of cells along a side resolve.
+    ///
+    /// # Errors
+    /// The number of cells is not allowed, or the scene has no body in three dimensions.
+    pub fn of(
+        scene: &CheckedScene,
+        cells: usize,
+        simulation: &mut Simulation,
+    ) -> Result<Resolved, StudyError> {
+        check_cells(cells)?;
+        if scene.measured_as_line() {
+            let allowed =
+                "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
+            return Err(StudyError::refused(None, "the measured profile itself is the line", allowed));
+        }
+        let (_, _, governing) = simulation.make_line(scene).map_err(of_scene)?;
+        let mut changed = Scene::clone(scene);
+        // The work of adhesion stays where waves are left out.
+        if let Some((adhesion, work)) = scene.adhesion.zip(governing.work_of_adhesion) {
+            changed.adhesion = Some(adhesion.with_work(work));
+        }
+        changed.observe.clear();
+        let mut resolved = Resolved {
+            line: scene.clone(),
+            measured: None,
+            body: Body {
+                form: scene.form.clone(),
+                spectrum: None,
+                side: scene.length,
+                effective_modulus: governing.effective_modulus,
+                works: governing.adhesive_works(),
+            },
+            waves: None,
+            omitted: None,
+        };
+        let finest = cells as u64 / CELLS_PER_WAVE;
+        let points = |last: u64| (SPRINGS_PER_WAVE * last).next_power_of_two().max(LEAST_SPRINGS);
+        let mut keep = |first: u64, whole: u64| {
+            let last = whole.min(finest);
+            (resolved.waves, resolved.omitted) = (Some((first, last)), (last < whole).then_some(whole));
+            if first <= last { Ok(last) } else { Err(too_few(cells, first)) }
+        };
+        if let (Some(spectrum), Some(amplitude)) = (scene.spectrum(), governing.amplitude) {
+            let last = keep(spectrum.first, spectrum.last)?;
+            let kept = asperity_surface::SelfAffine { last, ..spectrum };
+            let first = amplitude.rms_height / spectrum.relative_rms();
+            let Some(Roughness::SelfAffine { rms_height, rms_gradient, modes, wavelengths, .. }) =
+                &mut changed.roughness
+            else {
+                unreachable!("a spectrum is that of self-affine roughness")
+            };
+            (*rms_height, *rms_gradient) = (Some(first * kept.relative_rms()), None);
+            (*modes, *wavelengths) = (Some((kept.first, kept.last)), None);
+            changed.numerics.points = points(last);
+            resolved.body.spectrum = Some(Spectrum::SelfAffine(kept, first));
+        } else if let Some(line) = simulation.equivalent_line() {
+            let (first, whole) = line.modes(scene.length, usize::MAX)?;
+            let last = keep(first, whole)?;
+            let line = line.up_to(TAU * last as f64 / scene.length);
+            changed.numerics.points = points(last);
+            resolved.measured = Some(Arc::new(MeasuredRoughness::Equivalent(line.clone())));
+            resolved.body.spectrum = Some(Spectrum::Measured(line));
+        }
+        resolved.line = changed.checked().map_err(|errors| of_scene(errors.into()))?;
+        Ok(resolved)
+    }
+
+    /// A simulation of the lines.
+    pub fn simulation(&self) -> Simulation {
+        let simulation = Simulation::default();
+        match &self.measured {
+            Some(measured) => simulation.with_measured(Arc::clone(measured)),
+            None => simulation,
+        }
+    }
+}
+
+/// Error of the scene itself.
+pub(super) fn of_scene(error: RunError) -> StudyError {
+    StudyError::Run { place: String::new(), error }
+}
+
+fn too_few(cells: usize, first: u64) -> StudyError {
+    StudyError::refused(
+        Some(&format!("{cells} cells")),
+        format!("the longest wave of the scene has {} cells", cells as u64 / first),
+        format!("at least {} cells along the side", (CELLS_PER_WAVE * first).next_power_of_two()),
+    )
+}

@@ -1,0 +1,72 @@
+//! Loops of random squares in three dimensions beside the line, as far as they are computed.
+
+use super::error::StudyError;
+use super::profiles::Stop;
+use super::reference::{Reference, ReferenceEvent, ReferenceOptions};
+use asperity_contact::CurvePoint;
+use asperity_scene::{CheckedScene, Simulation};
+
+/// Loops of random squares, as far as they are computed.
+#[derive(Clone, Debug, Default)]
+pub struct SquareLoops {
+    /// Number of squares in all.
+    pub maps: u64,
+    /// Indentation and force from first touch on, of each square that is done.
+    pub curves: Vec<Vec<CurvePoint>>,
+    /// Adhesion forces of these squares, N, with adhesion.
+    pub adhesion_forces: Vec<f64>,
+    /// The comparison with the line, once all squares are done.
+    pub reference: Option<Reference>,
+}
+
+impl SquareLoops {
+    /// Computes the loops of a scene, and reports the loops so far after each of them.
+    ///
+    /// # Errors
+    /// Those of [`Reference::of`].
+    pub fn of(
+        scene: &CheckedScene,
+        simulation: (Simulation, usize),
+        stop: &Stop<'_>,
+        report: &mut dyn FnMut(&SquareLoops),
+    ) -> Result<SquareLoops, StudyError> {
+        let options = ReferenceOptions::of(scene, None);
+        let mut loops = SquareLoops::default();
+        let mut take_in = |event| {
+            match event {
+                ReferenceEvent::Begins { maps, .. } => loops.maps = maps,
+                ReferenceEvent::Square { curve, adhesion_force } => {
+                    let point =
+                        |(indentation, force)| CurvePoint { indentation, force, ..CurvePoint::default() };
+                    loops.curves.push(curve.into_iter().map(point).collect());
+                    loops.adhesion_forces.extend(adhesion_force);
+                }
+            }
+            report(&loops);
+        };
+        let reference = Reference::of(scene, options, simulation, stop, &mut take_in)?;
+        Ok(SquareLoops { reference: Some(reference), ..loops })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_scene::open;
+
+    #[test]
+    fn loops_are_reported_one_by_one() {
+        let scene = open("kendall-punch").unwrap();
+        let mut counts = Vec::new();
+        let mut report = |loops: &SquareLoops| counts.push((loops.maps, loops.curves.len()));
+        let simulation = (Simulation::default(), 1);
+        let loops = SquareLoops::of(scene.scene(), simulation, &|| false, &mut report).unwrap();
+        assert_eq!(counts, [(1, 0), (1, 1)]);
+        let lowest = loops.curves[0].iter().map(|point| -point.force).fold(0.0, f64::max);
+        assert_eq!(vec![lowest], loops.adhesion_forces);
+        let ratio = loops.reference.unwrap().adhesion_force.unwrap().ratio;
+        assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
+        let stopped = SquareLoops::of(scene.scene(), (Simulation::default(), 1), &|| true, &mut |_| ());
+        assert!(stopped.is_err());
+    }
+}
