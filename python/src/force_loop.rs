@@ -60,7 +60,8 @@ impl Loop {
     ) -> PyResult<Loop> {
         let ((modulus, works, stiffness), (stages, is_grid, samples)) = (foundation, loading);
         computed(py, progress, |watch| {
-            let legs = read_loading(&stages).map_err(|error| Failure::explained("stages", &stages, &error))?;
+            let legs =
+                read_loading(&stages).map_err(|error| Failure::explained("stages", &stages, &error))?;
             let contact =
                 Contact::builder(&profile.profile, Modulus::effective(modulus)?).works_of_adhesion(works);
             let edges = if is_grid { Edges::Grid } else { Edges::SubCell };
@@ -92,20 +93,19 @@ impl Loop {
 
     /// Columns of the curve, and the released energy of each stage.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let columns = PyDict::new(py);
-        let numbered = self.stages().iter().zip(0_i64..);
-        let stage = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]).collect();
-        let displacement =
-            self.stages().iter().flat_map(|stage| displacements(stage, self.stiffness)).collect();
-        columns.set_item("stage", array::<i64>(py, stage))?;
+        let (columns, stages) = (PyDict::new(py), self.stages());
+        let numbered = stages.iter().zip(0_i64..);
+        let stage = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]);
+        let displacement = stages.iter().flat_map(|stage| displacements(stage, self.stiffness));
+        columns.set_item("stage", array::<i64>(py, stage.collect()))?;
         columns.set_item("d", array(py, self.column(|point| point.indentation)))?;
         columns.set_item("F", array(py, self.column(|point| point.force)))?;
-        columns.set_item("D", array::<f64>(py, displacement))?;
+        columns.set_item("D", array::<f64>(py, displacement.collect()))?;
         columns.set_item("length", array(py, self.column(|point| point.contact_length)))?;
         columns.set_item("patches", array(py, self.column(|point| point.fragments as i64)))?;
         columns.set_item("energy", array(py, self.column(|point| point.stored_energy)))?;
-        let released = self.stages().iter().map(|stage| stage.released_energy).collect();
-        columns.set_item("released", array::<f64>(py, released))?;
+        let released = stages.iter().map(|stage| stage.released_energy);
+        columns.set_item("released", array::<f64>(py, released.collect()))?;
         Ok(columns)
     }
 
