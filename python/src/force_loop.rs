@@ -60,7 +60,8 @@ impl Loop {
     ) -> PyResult<Loop> {
         let ((modulus, works, stiffness), (stages, is_grid, samples)) = (foundation, loading);
         computed(py, progress, |watch| {
-            let legs = read_loading(&stages).map_err(|error| Failure::explained("stages", &stages, &error))?;
+            let legs =
+                read_loading(&stages).map_err(|error| Failure::explained("stages", &stages, &error))?;
             let contact =
                 Contact::builder(&profile.profile, Modulus::effective(modulus)?).works_of_adhesion(works);
             let edges = if is_grid { Edges::Grid } else { Edges::SubCell };
