@@ -3,6 +3,7 @@
 #![doc = include_str!("../README.md")]
 
 mod axis_scale;
+mod cholesky;
 mod control;
 #[cfg(feature = "files")]
 mod hash;
@@ -14,6 +15,7 @@ mod numerics;
 #[cfg(feature = "files")]
 mod object;
 pub mod parallel;
+mod powers;
 mod quantity;
 #[cfg(feature = "files")]
 mod read;
@@ -24,6 +26,7 @@ mod text;
 mod write;
 
 pub use axis_scale::AxisScale;
+pub use cholesky::Cholesky;
 pub use control::Control;
 #[cfg(feature = "files")]
 pub use hash::{hexadecimal, sha256_of};
@@ -38,6 +41,7 @@ pub use numerics::{
 #[cfg(feature = "files")]
 pub use object::{Object, ObjectEntry, Optional};
 pub use parallel::{in_parallel, on_this_thread, on_threads};
+pub use powers::{integral_of_power, sum_of_powers};
 pub use quantity::{
     QuantityError, exact_quantity, format_quantity, format_range, format_rounded, format_within, in_unit,
     one_unit, parse_quantity, unit_of,

@@ -2,9 +2,10 @@
 
 use crate::metadata::Metadata;
 use crate::options::CurveOptions;
+use asperity_data::shown;
 use asperity_data::{format_quantity, parse_quantity};
 use asperity_surface::TextColumn;
-use asperity_surface::{Place, SurfaceError, refused, shortened};
+use asperity_surface::{Place, SurfaceError, refused};
 
 /// Term, SI unit and example unit of displacement and force, and the names of their columns as letters, preferred names
 /// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the
@@ -90,7 +91,7 @@ impl Choice {
         let units = if is_unnamed && !has_units { UNITS } else { "" };
         let wrong = |fault: String| refused(Place::File, fault, COLUMNS.to_owned() + units);
         let names = columns.iter().map(|column| &*column.name).filter(|name| !name.is_empty());
-        let all = match &*names.map(shortened).collect::<Vec<_>>().join(", ") {
+        let all = match &*names.map(shown).collect::<Vec<_>>().join(", ") {
             "" => format!("{count} columns without names"),
             names => format!("{count} columns {names}"),
         };
@@ -102,7 +103,7 @@ impl Choice {
             let found = columns.iter().position(is_it);
             let number = || wanted.parse().ok().filter(|number| (1..=count).contains(number));
             let place = found.or_else(|| Some(number()? - 1));
-            place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shortened(wanted))))
+            place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
         };
         let is_unknown = !named.iter().any(|one| QUANTITIES.iter().any(|row| is_one_of(&one.rest, row.3)));
         let ramp = options.ramp.or(stated.metadata.ramp).filter(|_| count == 1);
@@ -134,7 +135,7 @@ impl Choice {
         let mut statements = Vec::new();
         let name = |place: usize| match &*columns[place].name {
             "" => (place + 1).to_string(),
-            name => shortened(name),
+            name => shown(name),
         };
         if let (Ok(by_name), false) = (&known, options.columns.is_empty())
             && *by_name != places
@@ -196,7 +197,7 @@ fn of_one(
         && let Some(of_one) = of_deflection(text, file.metadata)
     {
         let (value, by) = of_one?;
-        return Ok((value, format!("{} by {by}", shortened(text))));
+        return Ok((value, format!("{} by {by}", shown(text))));
     }
     let is_multiple = text.starts_with(|first: char| first.is_ascii_digit());
     let value = if is_multiple && option.is_some() {
@@ -206,17 +207,17 @@ fn of_one(
     };
     let value = value.ok_or_else(|| {
         wrong(
-            format!("{:?} is not a unit of the {term}", shortened(text)),
+            format!("{:?} is not a unit of the {term}", shown(text)),
             &format!("{example} and the like, or the value of 1, such as --units nm,3.01nN"),
         )
     })?;
     let other = stated.or(file.is_si.then_some(si)).filter(|other| unit(other, si) != Some(value));
     if let Some((other, option)) = other.zip(option) {
-        let other = shortened(other);
+        let other = shown(other);
         statements
-            .push(format!("Unit of the {term} by --units: {}; the file states {other}.", shortened(option)));
+            .push(format!("Unit of the {term} by --units: {}; the file states {other}.", shown(option)));
     }
-    Ok((value, shortened(text)))
+    Ok((value, shown(text)))
 }
 
 /// SI value of 1 in a column of a deflection in this unit, a length or a voltage, and what makes it a force; `None` for
@@ -228,8 +229,7 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String)
     let deflection =
         of_length.or(of_voltage.zip(sensitivity).map(|(volts, sensitivity)| volts * sensitivity));
     let missing = |what: &str| {
-        let fault =
-            format!("the force is a deflection in {}, and the file states no {what}", shortened(text));
+        let fault = format!("the force is a deflection in {}, and the file states no {what}", shown(text));
         Err(refused(Place::File, fault, "the force of 1 in the column, such as --units nm,3.01nN"))
     };
     Some(match (of_length.or(of_voltage)?, deflection, stiffness) {

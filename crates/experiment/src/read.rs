@@ -8,9 +8,10 @@ use crate::metadata::Metadata;
 use crate::options::CurveOptions;
 use crate::segment::Label;
 use crate::text::{Above, Shape, beginning, is_comment, segment_of};
+use asperity_data::shown;
 use asperity_data::{PROVENANCE, grouped, npy};
 use asperity_surface::{Decimal, ONE_MARK, TextCell, TextColumn, each_text};
-use asperity_surface::{Place, SurfaceError, columns as npy_columns, refused, shortened, unpacked};
+use asperity_surface::{Place, SurfaceError, columns as npy_columns, refused, unpacked};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -348,7 +349,7 @@ fn number_in(
         TextCell::OtherMark => ("a number with another decimal mark than the numbers before", ONE_MARK),
         TextCell::NoNumber => ("not a number", "numbers of one decimal mark, NaN for a missing value"),
     };
-    Err(refused(place.clone(), format!("column {}: {:?} is {fault}", column + 1, shortened(cell)), allowed))
+    Err(refused(place.clone(), format!("column {}: {:?} is {fault}", column + 1, shown(cell)), allowed))
 }
 
 #[cfg(test)]

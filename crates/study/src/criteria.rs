@@ -25,10 +25,8 @@ const THIS_PROGRAM: Criterion =
 /// the criteria of roughness.
 ///
 /// ```
-/// use asperity_study::criteria;
-///
 /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
-/// let rows = criteria(scene.scene(), &asperity_scene::run(&scene)?, None);
+/// let rows = asperity_study::criteria(scene.scene(), &asperity_scene::run(&scene)?, None);
 /// assert_eq!(rows[0].name, "Tabor number");
 /// assert!(rows[1..].iter().all(|row| row.sticks == Some(true)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

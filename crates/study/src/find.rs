@@ -2,7 +2,7 @@
 //!
 //! Each profile is searched for itself. The adhesion force over the preload is a staircase that never falls, so two preloads
 //! bracket its only crossing; any other quantity is first scanned over the searched range. A bracket is then narrowed until
-//! its ends agree to [`WITHIN`]: at a step, one end lies before the step and one behind.
+//! its ends agree to [`WITHIN`](super::question::WITHIN): at a step, one end lies before the step and one behind.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_profiles};

@@ -84,8 +84,6 @@ impl MeasuredAdhesion {
     /// The scene has no equivalent line of a measured surface, a file cannot be read, or a profile fails: the first one.
     ///
     /// ```
-    /// use asperity_study::MeasuredAdhesion;
-    ///
     /// let folder = tempfile::tempdir()?;
     /// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
     /// let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
@@ -95,7 +93,7 @@ impl MeasuredAdhesion {
     ///     loading: [ToForce(1.0e-4), ToSeparation])"#;
     /// std::fs::write(folder.path().join("scene.ron"), text)?;
     /// let scene = asperity_scene::open(&folder.path().join("scene.ron").display().to_string())?;
-    /// let found = MeasuredAdhesion::of(&scene, 4, 2)?;
+    /// let found = asperity_study::MeasuredAdhesion::of(&scene, 4, 2)?;
     /// let (low, high) = found.fit_interval().ok_or("no force")?;
     /// assert!(found.adhesion_force().is_some_and(|all| low < all.quartiles[1] && all.quartiles[1] < high));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -53,9 +53,7 @@ pub fn parse_preloads(text: &str) -> Result<Axis, String> {
 /// What is wrong with the text, and what is allowed.
 ///
 /// ```
-/// use asperity_study::parse_range;
-///
-/// assert_eq!(parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
+/// assert_eq!(asperity_study::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
 /// ```
 pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
     let (from, to) = text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;

@@ -96,9 +96,7 @@ impl Statistics {
     /// Median, quartiles and range of several values in words, or the only value.
     ///
     /// ```
-    /// use asperity_study::Statistics;
-    ///
-    /// let all = Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
+    /// let all = asperity_study::Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
     /// assert_eq!(all.words("N"), "median 2 µN (quartiles 1.5 to 2.5 µN, range 1 to 3 µN)");
     /// ```
     pub fn words(&self, unit: &str) -> String {

@@ -1,12 +1,9 @@
 //! The error of this crate: the place, what was found there, and what is allowed.
 
-use asperity_data::{OutOfMemory, ReadError, printable};
+use asperity_data::{OutOfMemory, ReadError, shown};
 use std::fmt;
 use std::path::Path;
 use thiserror::Error;
-
-/// Number of characters from which on a text of a file is shortened in messages.
-const MOST_SHOWN: usize = 40;
 
 /// Place of a fault. Lines and points count from 1; bytes count from 0, after decompression.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -40,9 +37,9 @@ impl fmt::Display for Place {
             Place::Line(number) => write!(f, "line {number}: "),
             Place::Point(number) => write!(f, "point {number}: "),
             Place::Byte(offset) => write!(f, "byte {offset}: "),
-            Place::Part(name) => write!(f, "{}: ", shortened(name)),
+            Place::Part(name) => write!(f, "{}: ", shown(name)),
             Place::Field(name) => write!(f, "{name}: "),
-            Place::Measurement(name, place) => write!(f, "{}: {place}", shortened(name)),
+            Place::Measurement(name, place) => write!(f, "{}: {place}", shown(name)),
             Place::Surface(_, place) => place.fmt(f),
             Place::FileOf(field, file, place) => write!(f, "{field} = {file:?}: {place}"),
         }
@@ -65,12 +62,10 @@ impl Place {
 /// unless the place has it.
 ///
 /// ```
-/// use asperity_surface::{ReadOptions, SurfaceError, Unit, parse};
-///
-/// let metres = ReadOptions { unit: Some(Unit::METRE), ..ReadOptions::default() };
-/// let error = parse(b"0 1\n1 bad\n2 3\n", &metres).unwrap_err();
-/// assert_eq!(error.line(), Some(2));
-/// assert!(matches!(error, SurfaceError::Refused { allowed, .. } if allowed.contains("--interpolate")));
+/// let options = asperity_surface::ReadOptions { unit: Some("m".parse()?), ..Default::default() };
+/// let error = asperity_surface::parse(b"0 1\n1 bad\n2 3\n", &options).unwrap_err();
+/// assert!(error.line() == Some(2) && error.to_string().contains("allowed: --interpolate"));
+/// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
@@ -117,37 +112,34 @@ impl SurfaceError {
         }
     }
 
+    fn find<T>(&self, of: impl Fn(&Place) -> Option<T>) -> Option<T> {
+        self.place().all().find_map(of)
+    }
+
     /// Number of the line of the fault, from 1; `None` for a fault elsewhere.
     pub fn line(&self) -> Option<usize> {
-        self.place()
-            .all()
-            .find_map(|place| if let Place::Line(number) = place { Some(*number) } else { None })
+        self.find(|place| if let Place::Line(number) = place { Some(*number) } else { None })
     }
 
     /// Index of the surface with the fault, from 0; `None` if the fault lies in all surfaces together.
     pub fn surface(&self) -> Option<usize> {
-        self.place()
-            .all()
-            .find_map(|place| if let Place::Surface(index, _) = place { Some(*index) } else { None })
+        self.find(|place| if let Place::Surface(index, _) = place { Some(*index) } else { None })
     }
 
     /// Field of the scene with the fault, such as `roughness.file`; `None` for a surface that belongs to no scene.
     pub fn field(&self) -> Option<&'static str> {
-        self.place().all().find_map(|place| match place {
+        self.find(|place| match place {
             Place::Field(name) | Place::FileOf(name, ..) => Some(*name),
             _ => None,
         })
     }
 
     /// Path of the file that a scene names; `None` for a fault outside of such a file.
-    pub fn file(&self) -> Option<&str> {
-        self.place()
-            .all()
-            .find_map(|place| if let Place::FileOf(_, file, _) = place { Some(&**file) } else { None })
+    pub fn file(&self) -> Option<String> {
+        self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
     }
 
     /// The error, with a place around its place.
-    #[must_use]
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
@@ -159,7 +151,6 @@ impl SurfaceError {
     }
 
     /// The error of a file with a measured surface that a scene names.
-    #[must_use]
     pub fn in_measured(self, file: &Path) -> Self {
         self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
     }
@@ -185,13 +176,4 @@ impl From<ReadError> for SurfaceError {
 /// Creates the error of a place: what was found there and what is allowed.
 pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> SurfaceError {
     SurfaceError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
-}
-
-/// Text of a file, for a message: on one line and shortened.
-pub fn shortened(text: &str) -> String {
-    let short = match text.char_indices().nth(MOST_SHOWN) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    };
-    printable(&short).into_owned()
 }

@@ -7,7 +7,7 @@ mod line;
 mod spectrum;
 mod topography;
 
-pub use error::{Place, SurfaceError, refused, shortened};
+pub use error::{Place, SurfaceError, refused};
 pub use line::equivalent::{EquivalentLine, MeasuredRoughness};
 pub use line::form::{Form, power_law_factor, struve_0};
 pub use line::measured::{Face, MeasuredOptions, MeasuredProfile, read_faces};

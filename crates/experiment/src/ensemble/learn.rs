@@ -1,7 +1,7 @@
 //! The combinations of summaries that predict the parameters, by least squares over computed curves.
 
 use super::summary::{SUMMARIES, Summaries};
-use asperity_data::{mean, standard_deviation};
+use asperity_data::{Cholesky, mean, standard_deviation};
 
 /// Largest deviation of a summary from its mean that counts, in standard deviations.
 const LARGEST: f64 = 4.0;
@@ -51,19 +51,23 @@ impl Learned {
 
     fn coefficients(&self, curves: &[(u64, Described, [f64; 2])], half: u64) -> Vec<[f64; 2]> {
         let columns = self.terms(&curves[0].1).len();
-        let (mut products, mut right) = (vec![vec![0.0; columns]; columns], vec![[0.0; 2]; columns]);
+        let (mut products, mut right) = (vec![0.0; columns * columns], [0, 1].map(|_| vec![0.0; columns]));
         for (_, described, parameters) in curves.iter().filter(|curve| curve.0 % 2 == half) {
             let terms = self.terms(described);
             for (row, one) in terms.iter().enumerate() {
-                products[row][..=row].iter_mut().zip(&terms).for_each(|(sum, other)| *sum += one * other);
-                for (parameter, sum) in right[row].iter_mut().enumerate() {
-                    *sum += one * (parameters[parameter] - self.centre[parameter]);
+                let sums = products[row * columns..][..=row].iter_mut();
+                sums.zip(&terms).for_each(|(sum, other)| *sum += one * other);
+                for (parameter, sums) in right.iter_mut().enumerate() {
+                    sums[row] += one * (parameters[parameter] - self.centre[parameter]);
                 }
             }
         }
-        let trace: f64 = (0..columns).map(|index| products[index][index]).sum();
-        (0..columns).for_each(|index| products[index][index] += RIDGE * trace / columns as f64);
-        solved(products, right)
+        let on_diagonal = |index: usize| index * (columns + 1);
+        let trace: f64 = (0..columns).map(|index| products[on_diagonal(index)]).sum();
+        (0..columns).for_each(|index| products[on_diagonal(index)] += RIDGE * trace / columns as f64);
+        let Some(factor) = Cholesky::new(products, columns) else { return vec![[0.0; 2]; columns] };
+        let [work, modulus] = right.map(|right| factor.solve(right));
+        work.into_iter().zip(modulus).map(<[f64; 2]>::from).collect()
     }
 
     /// 1, the standardised summaries and all their products.
@@ -99,33 +103,6 @@ impl Learned {
         let [one, other] = [0, 1].map(|half| self.by_half(&terms, half));
         [0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])]
     }
-}
-
-/// Solution of symmetric equations, of which the lower triangle is given, for two right sides (Cholesky).
-fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    let count = matrix.len();
-    for row in 0..count {
-        for column in 0..=row {
-            let sum: f64 = (0..column).map(|at| matrix[row][at] * matrix[column][at]).sum();
-            let rest = matrix[row][column] - sum;
-            matrix[row][column] = if row == column {
-                rest.max(f64::MIN_POSITIVE).sqrt()
-            } else {
-                rest / matrix[column][column]
-            };
-        }
-    }
-    for side in [0, 1] {
-        for row in 0..count {
-            let sum: f64 = (0..row).map(|at| matrix[row][at] * right[at][side]).sum();
-            right[row][side] = (right[row][side] - sum) / matrix[row][row];
-        }
-        for row in (0..count).rev() {
-            let sum: f64 = (row + 1..count).map(|at| matrix[at][row] * right[at][side]).sum();
-            right[row][side] = (right[row][side] - sum) / matrix[row][row];
-        }
-    }
-    right
 }
 
 #[cfg(test)]

@@ -103,10 +103,8 @@ impl Form {
     /// half a cell.
     ///
     /// ```
-    /// use asperity_surface::Form;
-    ///
     /// // A punch of 4 µm on springs of 1 µm.
-    /// assert_eq!(Form::Punch { radius: 2e-6 }.springs_under(1e-5, 10), 3..7);
+    /// assert_eq!(asperity_surface::Form::Punch { radius: 2e-6 }.springs_under(1e-5, 10), 3..7);
     /// ```
     pub fn springs_under(&self, length: f64, points: u64) -> Range<u64> {
         let Some(radius) = self.flat_end() else { return 0..points };
@@ -168,10 +166,8 @@ impl Form {
     /// (π²A/λ)|x| H₀(2π|x|/λ) with a Struve function.
     ///
     /// ```
-    /// use asperity_surface::Form;
-    ///
     /// // A sphere f = r²/2R becomes g = x²/R.
-    /// let sphere = Form::Paraboloid { radius: 1e-4 };
+    /// let sphere = asperity_surface::Form::Paraboloid { radius: 1e-4 };
     /// assert!((sphere.mdr_profile(1e-5) / 1e-6 - 1.0).abs() < 1e-12);
     /// ```
     pub fn mdr_profile(&self, distance: f64) -> f64 {
@@ -193,9 +189,7 @@ impl Form {
     /// Depth f(r), m, of the body below its apex at a distance from the axis, m; `None` beside a punch, where there is no body.
     ///
     /// ```
-    /// use asperity_surface::Form;
-    ///
-    /// assert_eq!(Form::Paraboloid { radius: 2.0 }.depth(0.1), Some(0.1 * 0.1 / 4.0));
+    /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 2.0 }.depth(0.1), Some(0.1 * 0.1 / 4.0));
     /// ```
     pub fn depth(&self, radius: f64) -> Option<f64> {
         Some(match *self {
@@ -213,10 +207,8 @@ impl Form {
     /// Coefficient c, m^(1−n), and exponent n of a form with the profile g(x) = c |x|ⁿ; `None` for a punch, waves and tables.
     ///
     /// ```
-    /// use asperity_surface::Form;
-    ///
-    /// assert_eq!(Form::Paraboloid { radius: 0.5 }.power_law(), Some((2.0, 2.0)));
-    /// assert_eq!(Form::Punch { radius: 0.5 }.power_law(), None);
+    /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 0.5 }.power_law(), Some((2.0, 2.0)));
+    /// assert_eq!(asperity_surface::Form::Punch { radius: 0.5 }.power_law(), None);
     /// ```
     pub fn power_law(&self) -> Option<(f64, f64)> {
         match *self {

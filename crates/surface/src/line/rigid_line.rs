@@ -149,9 +149,7 @@ impl Histogram {
     /// omitted. For a range of zero width all heights are in the first bin.
     ///
     /// ```
-    /// use asperity_surface::Histogram;
-    ///
-    /// let histogram = Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
+    /// let histogram = asperity_surface::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
     /// assert_eq!(histogram.counts, [2, 1]);
     /// ```
     pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {

@@ -129,12 +129,9 @@ impl SelfAffine {
     /// the rounding of the transform.
     ///
     /// ```
-    /// use asperity_surface::SelfAffine;
-    ///
-    /// let spectrum = SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };
+    /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };
     /// let heights = spectrum.heights(7, 1024)?;
-    /// let mean_square = heights.iter().map(|z| z * z).sum::<f64>() / 1024.0;
-    /// assert!((mean_square - 1.0).abs() < 1e-9);
+    /// assert!((heights.iter().map(|z| z * z).sum::<f64>() / 1024.0 - 1.0).abs() < 1e-9);
     /// assert_eq!(heights, spectrum.heights(7, 1024)?, "the same seed gives the same profile");
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```

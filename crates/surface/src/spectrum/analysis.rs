@@ -4,13 +4,11 @@ use super::fit::{Model, SelfAffineFit, fit_power_law};
 use super::interlaced;
 use super::isotropic::{End, IsotropicSpectrum, LineMoments, Nodes, line_moments};
 use super::no_maximum;
-use super::observation;
-use super::observation::Observation;
+use super::observation::{self, Observation};
 use super::periodogram::{Along, Bin, MapPower, ProfilePower, bins, square};
 use super::statistics::{PointStatistics, Sums, reliability_cutoff};
 use crate::error::{Place, SurfaceError, refused};
-use crate::topography::surface::Detrend;
-use crate::topography::surface::Topography;
+use crate::topography::surface::{Detrend, Topography};
 use std::f64::consts::{PI, TAU};
 
 /// Smallest allowed number of points along a row and of rows of a map.
@@ -116,11 +114,12 @@ struct Powers {
 /// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
 /// let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
 /// let found = analyse(&[Topography::from_profile(&heights, 1e-6)?], &AnalysisOptions::default())?;
-/// let moment = found.line.rms_height;
-/// assert!(moment.value > 0.0 && moment.error > 0.0 && moment.error < moment.value);
-/// // The line has √2 times the gradient of the measured cut.
-/// let ratio = found.line.rms_gradient.value / found.statistics.rms_slope;
-/// assert!((1.3..2.3).contains(&ratio), "{ratio}");
+/// // κ² = E* h⟨∇z⟩/γ with its error, for E* = 1 MPa and γ = 50 mJ/m².
+/// let kappa = found.line.height_gradient.scaled(1e6 / 0.05).root();
+/// assert!(kappa.value > 0.0 && kappa.error > 0.0 && kappa.error < kappa.value);
+/// // The power of the equivalent line is q C2D/2.
+/// let [_, high] = found.isotropic.range();
+/// assert_eq!(found.isotropic.line(high), 0.5 * high * found.isotropic.c2d(high));
 /// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
 pub fn analyse(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Analysis, SurfaceError> {

@@ -6,8 +6,8 @@
 //! Also the self-affine fit: C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
 
 use super::isotropic::{End, IsotropicSpectrum, Nodes, Term, ValueWithError, cut};
-use super::linear::Cholesky;
 use super::observation::Observation;
+use asperity_data::Cholesky;
 use std::f64::consts::TAU;
 
 /// Weight λ of the squared second differences.

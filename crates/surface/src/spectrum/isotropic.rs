@@ -1,7 +1,7 @@
 //! Isotropic spectra C2D(q), given at nodes, and the equivalent lines of these spectra.
 
-use super::linear::Cholesky;
 use super::statistics::PointStatistics;
+use asperity_data::Cholesky;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
@@ -98,19 +98,6 @@ impl Moment {
     }
 
     /// Returns the square root of the moment, with its errors.
-    ///
-    /// ```
-    /// # use asperity_surface::{AnalysisOptions, Topography, analyse};
-    /// # let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
-    /// # let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
-    /// # let surface = Topography::from_profile(&heights, 1e-6)?;
-    /// // κ² = E* h⟨∇z⟩/γ with its error, for E* = 1 MPa and γ = 50 mJ/m².
-    /// let line = analyse(&[surface], &AnalysisOptions::default())?.line;
-    /// let kappa = line.height_gradient.scaled(1e6 / 0.05).root();
-    /// assert!((kappa.value.powi(2) / (2e7 * line.height_gradient.value) - 1.0).abs() < 1e-12);
-    /// assert!(kappa.error > 0.0);
-    /// # Ok::<(), asperity_surface::SurfaceError>(())
-    /// ```
     pub fn root(self) -> Self {
         let relative = |error: f64| 0.5 * error / self.value;
         let missing = (1.0 + self.missing_short_waves / self.value).sqrt() - 1.0;
@@ -238,19 +225,6 @@ pub struct IsotropicSpectrum {
 
 impl IsotropicSpectrum {
     /// C2D, m⁴, at a wave number, rad/m. Zero beyond the end; constant below the first node.
-    ///
-    /// ```
-    /// # use asperity_surface::{AnalysisOptions, Topography, analyse};
-    /// # let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
-    /// # let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
-    /// # let surface = Topography::from_profile(&heights, 1e-6)?;
-    /// let spectrum = analyse(&[surface], &AnalysisOptions::default())?.isotropic;
-    /// let [low, high] = spectrum.range();
-    /// // The power of the equivalent line is q C2D/2.
-    /// assert_eq!(spectrum.line(high), 0.5 * high * spectrum.c2d(high));
-    /// assert!(spectrum.c2d(low) > 0.0 && spectrum.c2d(1.01 * high) == 0.0);
-    /// # Ok::<(), asperity_surface::SurfaceError>(())
-    /// ```
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }

@@ -14,10 +14,10 @@
 //! h² = (1/2π) ∫₀^∞ q C2D dq. Steps are described in `docs/surface-estimate.md`.
 
 pub(crate) mod analysis;
+pub(crate) mod detrend;
 pub(crate) mod fit;
 pub(crate) mod interlaced;
 pub(crate) mod isotropic;
-pub(crate) mod linear;
 pub(crate) mod observation;
 pub(crate) mod periodogram;
 pub(crate) mod statistics;

@@ -1,9 +1,10 @@
 //! Bounded reading of binary files: numbers, decompression and ZIP archives in memory, each within limits.
 
 use super::reading::MOST_POINTS;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 use asperity_data::read_limited;
+use asperity_data::shown;
 use encoding_rs::WINDOWS_1252;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -217,8 +218,7 @@ impl<'a> Archive<'a> {
         if let [(depth, name, one), (other_depth, other_name, other), ..] = &found[..]
             && (depth, name) == (other_depth, other_name)
         {
-            let fault =
-                format!("{} in the folders {} and {}", names[*name], shortened(one), shortened(other));
+            let fault = format!("{} in the folders {} and {}", names[*name], shown(one), shown(other));
             return Err(refused(Place::File, fault, "an archive with one surface, or a container"));
         }
         Ok(found.into_iter().next().map(|(_, name, folder)| {
@@ -246,7 +246,7 @@ impl<'a> Archive<'a> {
             refused(Place::Part(name.to_owned()), fault, "a file stored or deflated")
         };
         let place = self.places.get(&plain_name(&format!("{}/{name}", self.folder))).ok_or_else(|| {
-            let fault = format!("no file {} in the archive", shortened(name));
+            let fault = format!("no file {} in the archive", shown(name));
             refused(Place::File, fault, "an archive with all files that it names")
         })?;
         let entry = self.archive.by_index(*place).map_err(|error| damaged(&error))?;

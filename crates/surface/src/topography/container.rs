@@ -3,7 +3,8 @@
 use super::Unit;
 use super::reading::{ReadOptions, Reading};
 use super::surface::Detrend;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
 use serde::Deserialize;
 
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
@@ -93,7 +94,7 @@ pub(super) fn measurements(
         serde_saphyr::from_slice(content).map_err(|error| error.to_string())
     };
     let mut surfaces = read.map_err(wrong)?.surfaces;
-    let names = surfaces.iter().map(|surface| format!("{:?}", shortened(&surface.name)));
+    let names = surfaces.iter().map(|surface| format!("{:?}", shown(&surface.name)));
     let names = names.collect::<Vec<_>>().join(", ");
     let which = |fault: String| {
         let allowed =
@@ -107,7 +108,7 @@ pub(super) fn measurements(
         (Some(name), None) => {
             let mut all = surfaces.into_iter().flat_map(|surface| surface.topographies);
             let one = all.find(|measurement| measurement.name == name);
-            vec![one.ok_or_else(|| which(format!("no surface {:?}", shortened(name))))?]
+            vec![one.ok_or_else(|| which(format!("no surface {:?}", shown(name))))?]
         }
     };
     if !(1..=MOST_MEASUREMENTS).contains(&found.len()) {

@@ -3,7 +3,8 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
@@ -39,7 +40,7 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
         (None, _, Some(channel)) => (format!("no channel {channel}; channels"), "a channel of heights"),
         (None, ..) => ("no channel in a unit of length; channels".to_owned(), "a channel of heights"),
     };
-    Err(refused(Place::File, format!("{fault}: {}", shortened(&names)), allowed))
+    Err(refused(Place::File, format!("{fault}: {}", shown(&names)), allowed))
 }
 
 /// Value of a component; types that are not needed are skipped.

@@ -23,7 +23,8 @@ pub(crate) mod surface;
 pub(crate) mod text;
 pub(crate) mod x3p;
 
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
 use std::fmt;
 use std::str::FromStr;
 
@@ -75,19 +76,16 @@ impl Unit {
         let found =
             UNITS.into_iter().find(|(name, others, _)| *name == text || others.split(' ').any(is_name));
         let unit = found.map(|(name, _, per_metre)| Unit { name, per_metre });
-        let refused =
-            || refused(place, format!("{:?} is not a unit of length", shortened(text)), Unit::ALLOWED);
+        let refused = || refused(place, format!("{:?} is not a unit of length", shown(text)), Unit::ALLOWED);
         unit.ok_or_else(refused)
     }
 
     /// Converts a value in this unit to m.
     ///
     /// ```
-    /// use asperity_surface::Unit;
-    ///
-    /// let micrometres: Unit = "um".parse()?;
+    /// let micrometres: asperity_surface::Unit = "um".parse()?;
     /// assert_eq!((micrometres.name(), micrometres.to_metres(5.0)), ("µm", 5e-6));
-    /// assert!("px".parse::<Unit>().is_err());
+    /// assert!("px".parse::<asperity_surface::Unit>().is_err());
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn to_metres(self, value: f64) -> f64 {

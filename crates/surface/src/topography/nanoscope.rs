@@ -4,8 +4,9 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::reading::Reading;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
+use asperity_data::shown;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 
@@ -59,9 +60,8 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
         ),
     };
     let describe = |(number, image): (usize, &&str)| {
-        let direction =
-            entry(image, "Line direction").map(|name| format!(" {}", shortened(name).to_lowercase()));
-        format!("{number} {:?}{}", shortened(title(image)), direction.unwrap_or_default())
+        let direction = entry(image, "Line direction").map(|name| format!(" {}", shown(name).to_lowercase()));
+        format!("{number} {:?}{}", shown(title(image)), direction.unwrap_or_default())
     };
     let names: Vec<String> = images.iter().enumerate().take(8).map(describe).collect();
     Err(refused(Place::File, format!("{fault}; channels: {}", names.join(", ")), allowed))
@@ -131,7 +131,7 @@ fn length_unit(text: &str) -> Option<Unit> {
 fn reading(bytes: &[u8], image: &str, sections: &[&str], number: usize) -> Result<Reading, SurfaceError> {
     let wrong = |key: &str, allowed: &str| {
         let found = entry(image, key).unwrap_or_default();
-        refused(Place::Part(format!("channel {number}")), format!("{key} = {:?}", shortened(found)), allowed)
+        refused(Place::Part(format!("channel {number}")), format!("{key} = {:?}", shown(found)), allowed)
     };
     let count = |key: &str| {
         let count = entry(image, key).and_then(|text| text.split_ascii_whitespace().next()?.parse().ok());

@@ -6,8 +6,9 @@
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::SIGNATURE;
+use asperity_data::shown;
 use asperity_data::{emptied, gathered};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
@@ -76,7 +77,7 @@ impl Header {
     fn parse(text: &str) -> Result<Self, SurfaceError> {
         let wrong = |what: &str| {
             let allowed = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), } and the like";
-            refused(Place::Byte(10), format!("{what} in the header {:?}", shortened(text)), allowed)
+            refused(Place::Byte(10), format!("{what} in the header {:?}", shown(text)), allowed)
         };
         let entry = |key: &str| {
             let (_, rest) =
@@ -103,7 +104,7 @@ impl Header {
             }
             order = order.or(of_field);
             let number = Number::named(name).ok_or_else(|| {
-                let fault = format!("numbers of type {:?}", shortened(descr));
+                let fault = format!("numbers of type {:?}", shown(descr));
                 refused(Place::Byte(10), fault, "real and whole numbers: f2 to f8, i1 to u8")
             })?;
             fields.push((field.to_owned(), number));

@@ -239,12 +239,9 @@ impl Topography {
     /// Fewer than two points, a height that is not finite, and a distance that is not above 0.
     ///
     /// ```
-    /// use asperity_surface::Topography;
-    ///
-    /// let waves: Vec<f64> = (0..64).map(|i| 1e-8 * (0.4 * f64::from(i)).sin()).collect(); // m
-    /// let profile = Topography::from_profile(&waves, 1e-7)?;
-    /// assert_eq!((profile.columns, profile.rows()), (64, 1));
-    /// let error = Topography::from_profile(&[0.0, f64::NAN], 1e-7).unwrap_err();
+    /// let profile = asperity_surface::Topography::from_profile(&[1e-8, 3e-8, 2e-8], 1e-7)?;
+    /// assert_eq!((profile.columns, profile.rows()), (3, 1));
+    /// let error = asperity_surface::Topography::from_profile(&[0.0, f64::NAN], 1e-7).unwrap_err();
     /// assert_eq!(error.to_string(), "point 2: a height of NaN m; allowed: finite heights");
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
@@ -259,11 +256,9 @@ impl Topography {
     /// As for [`Topography::from_profile`], and a number of heights that is no multiple of the columns.
     ///
     /// ```
-    /// use asperity_surface::Topography;
-    ///
-    /// let map = Topography::from_map(&[0.0, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9], 3, [1e-6, 2e-6])?;
+    /// let map = asperity_surface::Topography::from_map(&[0.0, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9], 3, [1e-6, 2e-6])?;
     /// assert_eq!((map.rows(), map.spacing()?), (2, [1e-6, 2e-6]));
-    /// assert!(Topography::from_map(&[0.0; 5], 3, [1e-6; 2]).is_err());
+    /// assert!(asperity_surface::Topography::from_map(&[0.0; 5], 3, [1e-6; 2]).is_err());
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn from_map(heights: &[f64], columns: usize, spacing: [f64; 2]) -> Result<Self, SurfaceError> {

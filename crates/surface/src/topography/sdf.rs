@@ -4,7 +4,8 @@
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
 use std::ops::RangeInclusive;
 
 /// Types of heights, indexed by their number in the header: name in BCR, type, and the smallest and largest value, for real
@@ -48,7 +49,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
         Some(b"ISO-2.0") => Version::Iso2,
         _ => {
             let found = String::from_utf8_lossy(&bytes[1..bytes.len().min(8)]);
-            let fault = format!("version {:?} of SDF", shortened(&found));
+            let fault = format!("version {:?} of SDF", shown(&found));
             return Err(refused(Place::Byte(1), fault, "BCR-1.0, ISO-1.0 and ISO-2.0"));
         }
     };
@@ -78,7 +79,7 @@ fn data_type(
     let is_it = |place: usize, of: &str| name == place.to_string() || name.eq_ignore_ascii_case(of);
     let Some((_, (_, number, [smallest, largest]))) = types.find(|(place, (of, ..))| is_it(*place, of))
     else {
-        return Err(refused(place, format!("DataType = {}", shortened(name)), "from 0 to 7"));
+        return Err(refused(place, format!("DataType = {}", shown(name)), "from 0 to 7"));
     };
     // Texts round the largest and the smallest real number to few digits.
     let reach = if matches!(number, Number::F32 | Number::F64) { f64::INFINITY } else { 0.0 };
@@ -117,7 +118,7 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
             let height = match word.parse::<f64>() {
                 Ok(height) => height,
                 Err(_) if word.eq_ignore_ascii_case("BAD") => f64::NAN,
-                Err(_) => return Err(refused(place, format!("{:?}", shortened(word)), "a number or BAD")),
+                Err(_) => return Err(refused(place, format!("{:?}", shown(word)), "a number or BAD")),
             };
             if heights.len() == points {
                 let fault = format!("more than {points} heights");
@@ -178,7 +179,7 @@ impl Entries {
     /// Reads one line of the header; `allowed` is for the message of an error.
     pub fn take(&mut self, number: usize, line: &str, allowed: &str) -> Result<(), SurfaceError> {
         let Some((key, value)) = line.split_once('=') else {
-            return Err(refused(Place::Line(number), format!("{:?}", shortened(line)), allowed));
+            return Err(refused(Place::Line(number), format!("{:?}", shown(line)), allowed));
         };
         self.entries.push((key.trim().to_ascii_lowercase(), value.trim().to_owned(), number));
         Ok(())
@@ -193,7 +194,7 @@ impl Entries {
         let Some((value, place)) = self.text(key) else { return Ok(None) };
         match value.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(Some(number)),
-            _ => Err(refused(place, format!("{key} = {}", shortened(value)), "a number")),
+            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a number")),
         }
     }
 
@@ -204,7 +205,7 @@ impl Entries {
             Ok(count) if count >= 1.0 && count < usize::MAX as f64 && count.fract() == 0.0 => {
                 Ok(count as usize)
             }
-            _ => Err(refused(place, format!("{key} = {}", shortened(value)), "a whole number above 0")),
+            _ => Err(refused(place, format!("{key} = {}", shown(value)), "a whole number above 0")),
         }
     }
 }

@@ -4,7 +4,8 @@ use super::Unit;
 use super::bytes::{Archive, Bytes, Number, Order, unpacked_size};
 use super::grid::{Digits, map_of};
 use super::reading::Reading;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
 use asperity_data::{emptied, gathered, push};
 use encoding_rs::{Encoding, UTF_8};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -27,7 +28,7 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     check_index(&index)?;
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&index, options)
-        .map_err(|error| wrong(shortened(&error.to_string()), "XML without a document type"))?;
+        .map_err(|error| wrong(shown(&error.to_string()), "XML without a document type"))?;
     let root = document.root_element();
     let axis = |name: &str| find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"));
     let [x, y, z] = [axis("CX")?, axis("CY")?, axis("CZ")?];
@@ -78,7 +79,7 @@ impl<'a> Axis<'a> {
             "A" => true,
             "I" => false,
             _ => {
-                let fault = format!("the axis {name} is of type {:?}", shortened(kind));
+                let fault = format!("the axis {name} is of type {:?}", shown(kind));
                 return Err(wrong(fault, "\"I\", even distances, or \"A\", a position of each point"));
             }
         };
@@ -176,7 +177,7 @@ fn linked(
 ) -> Result<[Vec<f64>; 3], SurfaceError> {
     let of_axis = |axis: &Axis<'_>| {
         let found = TYPES.into_iter().find(|(letter, _)| *letter == axis.data_type);
-        let fault = || wrong(format!("coordinates of type {:?}", shortened(axis.data_type)), "I, L, F or D");
+        let fault = || wrong(format!("coordinates of type {:?}", shown(axis.data_type)), "I, L, F or D");
         found.map(|(_, number)| number).ok_or_else(fault)
     };
     let absolute = axes.iter().enumerate().filter(|(_, axis)| axis.is_absolute);
@@ -229,7 +230,7 @@ fn listed(root: Node<'_, '_>, points: usize, axes: &[Axis<'_>; 3]) -> Result<[Ve
             let is_missing = cell.is_empty() && (place == 2 || text.is_empty());
             let value = if is_missing { Ok(f64::NAN) } else { cell.parse::<f64>() };
             let number = found[place].len() + 1;
-            let fault = |_| wrong(format!("Datum {number} = {:?}", shortened(text)), "numbers");
+            let fault = |_| wrong(format!("Datum {number} = {:?}", shown(text)), "numbers");
             push(&mut found[place], value.map_err(fault)?)?;
         }
     }
@@ -258,14 +259,14 @@ fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, SurfaceError> {
     let Some(text) = find(axis, name).map(trimmed).filter(|text| !text.is_empty()) else { return Ok(None) };
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-    let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shortened(text));
+    let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shown(text));
     number.map(Some).ok_or_else(|| wrong(fault(), "a number"))
 }
 
 fn count(root: Node<'_, '_>, name: &str) -> Result<usize, SurfaceError> {
     let text = text(root, name);
     let count = text.parse().ok().filter(|count| *count > 0);
-    count.ok_or_else(|| wrong(format!("{name} = {:?}", shortened(text)), "a whole number above 0"))
+    count.ok_or_else(|| wrong(format!("{name} = {:?}", shown(text)), "a whole number above 0"))
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Meaning of the columns of a table: heights alone, a profile, points of a map, or rows of a map.
 
 use super::names::{Role, TextColumn};
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
 
 /// Limit of the number of columns of positions and heights; more columns are rows of a map, unless their names say otherwise.
 const MOST_NAMED: usize = 3;
@@ -59,7 +60,7 @@ pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceErr
         _ => {}
     }
     let names: Vec<String> =
-        columns.iter().take(8).map(|column| format!("{:?}", shortened(&column.name))).collect();
+        columns.iter().take(8).map(|column| format!("{:?}", shown(&column.name))).collect();
     let fault = format!("{} columns {}", columns.len(), names.join(", "));
     let allowed =
         "a height, x and a height, or x, y and a height, beside a number of the point and a column valid";

@@ -16,9 +16,10 @@ use header::TextHeader;
 use super::Unit;
 use super::foreign::FORMATS;
 use super::reading::Reading;
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
 use asperity_data::PROVENANCE;
 use asperity_data::check_room;
+use asperity_data::shown;
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use layout::COMMENT;
 use std::borrow::Cow;
@@ -118,9 +119,9 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
     }
     let describe = |(number, (part, rows)): (usize, &(usize, Range<usize>))| {
         let Part { header, table } = &parts[*part];
-        let name = header.channel.as_ref().map(|name| format!(" {:?}", shortened(name))).unwrap_or_default();
+        let name = header.channel.as_ref().map(|name| format!(" {:?}", shown(name))).unwrap_or_default();
         let unit = header.unit(2, None).map(Unit::name).or(header.other_unit.as_deref());
-        let unit = unit.map(|unit| format!(" in {}", shortened(unit))).unwrap_or_default();
+        let unit = unit.map(|unit| format!(" in {}", shown(unit))).unwrap_or_default();
         let line = table.as_ref().map_or(0, |table| table.line(rows.start));
         format!("{number}{name}{unit} from line {line}")
     };

@@ -9,7 +9,8 @@ use super::header::TextHeader;
 use super::layout::{Decimal, ONE_MARK, Separator, TextCell};
 use super::names::{Role, TextColumn};
 use super::{matrix, warnings};
-use crate::error::{Place, SurfaceError, refused, shortened};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
 use asperity_data::{gathered, push, reserve};
 use std::ops::Range;
 
@@ -203,7 +204,7 @@ impl Table {
     }
 
     fn value(&mut self, number: usize, cell: &str) -> Result<f64, SurfaceError> {
-        let quoted = || format!("{:?}", shortened(cell));
+        let quoted = || format!("{:?}", shown(cell));
         let (fault, allowed) = match self.decimal.read(cell, self.separator) {
             TextCell::Number(value) if value.abs() <= LARGEST * 1e12 => return Ok(value),
             TextCell::Missing => return Ok(f64::NAN),
@@ -261,7 +262,7 @@ impl Table {
                     1.0 => {}
                     0.0 => *height = f64::NAN,
                     other => {
-                        let fault = format!("{other:e} in the column {:?}", shortened(&columns[valid].name));
+                        let fault = format!("{other:e} in the column {:?}", shown(&columns[valid].name));
                         return Err(refused(place(row), fault, "1 for a measured point, or 0"));
                     }
                 }

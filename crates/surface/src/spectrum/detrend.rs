@@ -1,66 +1,7 @@
-//! Least squares: straight lines, small symmetric systems of equations, and the removal of offset, tilt and curvature.
+//! Removal of offset, tilt and curvature by least squares.
 
 use crate::topography::surface::Detrend;
-
-/// Cholesky factor L of a symmetric positive definite matrix M = L Lᵀ.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Cholesky {
-    size: usize,
-    /// Lower triangle L, stored row by row of the full matrix.
-    factor: Vec<f64>,
-}
-
-impl Cholesky {
-    /// Factorises a matrix of `size` rows, of which only the lower triangle is used. `None` unless it is positive definite.
-    pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
-        for row in 0..size {
-            for column in 0..=row {
-                let sum: f64 = (0..column).map(|k| matrix[row * size + k] * matrix[column * size + k]).sum();
-                let rest = matrix[row * size + column] - sum;
-                matrix[row * size + column] = if row > column {
-                    rest / matrix[column * size + column]
-                } else if rest > 0.0 && rest.is_finite() {
-                    rest.sqrt()
-                } else {
-                    return None;
-                };
-            }
-        }
-        Some(Cholesky { size, factor: matrix })
-    }
-
-    pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
-        let at = |row: usize, column: usize| self.factor[row * self.size + column];
-        for row in 0..self.size {
-            let sum: f64 = (0..row).map(|k| at(row, k) * right[k]).sum();
-            right[row] = (right[row] - sum) / at(row, row);
-        }
-        self.solve_transposed(right)
-    }
-
-    /// Solution x of Lᵀ x = b. For independent normal b of variance 1, x has the covariance M⁻¹.
-    pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
-        let at = |row: usize, column: usize| self.factor[row * self.size + column];
-        for row in (0..self.size).rev() {
-            let sum: f64 = (row + 1..self.size).map(|k| at(k, row) * right[k]).sum();
-            right[row] = (right[row] - sum) / at(row, row);
-        }
-        right
-    }
-
-    /// √(M⁻¹)ᵢᵢ: the standard error of parameter i, if M is an information matrix.
-    pub fn standard_error(&self, index: usize) -> f64 {
-        let mut gradient = vec![0.0; self.size];
-        gradient[index] = 1.0;
-        self.variance(&gradient).sqrt()
-    }
-
-    /// vᵀ M⁻¹ v for a vector v: the variance of a quantity with the gradient v, if M is an information matrix.
-    pub fn variance(&self, gradient: &[f64]) -> f64 {
-        let solved = self.solve(gradient.to_vec());
-        gradient.iter().zip(solved).map(|(a, b)| a * b).sum()
-    }
-}
+use asperity_data::Cholesky;
 
 impl Detrend {
     /// Exponents of x and y of the monomials that are removed from a profile or a map.

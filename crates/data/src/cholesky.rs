@@ -1,0 +1,70 @@
+//! Small symmetric systems of equations.
+
+/// Cholesky factor L of a symmetric positive definite matrix M = L Lᵀ.
+///
+/// ```
+/// use asperity_data::Cholesky;
+///
+/// let factor = Cholesky::new(vec![4.0, 0.0, 2.0, 5.0], 2).expect("a positive definite matrix");
+/// assert_eq!(factor.solve(vec![8.0, 12.0]), [1.0, 2.0]);
+/// assert_eq!(Cholesky::new(vec![1.0, 0.0, 2.0, 1.0], 2), None);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cholesky {
+    size: usize,
+    /// Lower triangle L, stored row by row of the full matrix.
+    factor: Vec<f64>,
+}
+
+impl Cholesky {
+    /// Factorises a matrix of `size` rows, of which only the lower triangle is used. `None` unless it is positive definite.
+    pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
+        for row in 0..size {
+            for column in 0..=row {
+                let sum: f64 = (0..column).map(|k| matrix[row * size + k] * matrix[column * size + k]).sum();
+                let rest = matrix[row * size + column] - sum;
+                matrix[row * size + column] = if row > column {
+                    rest / matrix[column * size + column]
+                } else if rest > 0.0 && rest.is_finite() {
+                    rest.sqrt()
+                } else {
+                    return None;
+                };
+            }
+        }
+        Some(Cholesky { size, factor: matrix })
+    }
+
+    /// Solution x of M x = b.
+    pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
+        let at = |row: usize, column: usize| self.factor[row * self.size + column];
+        for row in 0..self.size {
+            let sum: f64 = (0..row).map(|k| at(row, k) * right[k]).sum();
+            right[row] = (right[row] - sum) / at(row, row);
+        }
+        self.solve_transposed(right)
+    }
+
+    /// Solution x of Lᵀ x = b. For independent normal b of variance 1, x has the covariance M⁻¹.
+    pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
+        let at = |row: usize, column: usize| self.factor[row * self.size + column];
+        for row in (0..self.size).rev() {
+            let sum: f64 = (row + 1..self.size).map(|k| at(k, row) * right[k]).sum();
+            right[row] = (right[row] - sum) / at(row, row);
+        }
+        right
+    }
+
+    /// √(M⁻¹)ᵢᵢ: the standard error of parameter i, if M is an information matrix.
+    pub fn standard_error(&self, index: usize) -> f64 {
+        let mut gradient = vec![0.0; self.size];
+        gradient[index] = 1.0;
+        self.variance(&gradient).sqrt()
+    }
+
+    /// vᵀ M⁻¹ v for a vector v: the variance of a quantity with the gradient v, if M is an information matrix.
+    pub fn variance(&self, gradient: &[f64]) -> f64 {
+        let solved = self.solve(gradient.to_vec());
+        gradient.iter().zip(solved).map(|(a, b)| a * b).sum()
+    }
+}

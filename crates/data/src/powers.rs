@@ -1,0 +1,94 @@
+//! Sums and integrals of powers.
+
+use crate::numerics::CompensatedSum;
+
+/// Number of terms of a sum of powers that are added directly; the Euler-Maclaurin formula yields the rest.
+const DIRECT_TERMS: u64 = 64;
+
+/// B₂/2!, B₄/4!, … of the Euler-Maclaurin formula: after 64 direct terms the first omitted one is below 1e-18 of the sum.
+const EULER_MACLAURIN: [f64; 5] =
+    [1.0 / 12.0, -1.0 / 720.0, 1.0 / 30_240.0, -1.0 / 1_209_600.0, 1.0 / 47_900_160.0];
+
+/// Σ k^exponent for k = `first` … `last`, 0 without terms, with a relative error of a few units in the last place, in a
+/// time that does not depend on the number of terms.
+///
+/// ```
+/// let exact: f64 = (1..=100_000).rev().map(|k| f64::from(k).powi(-2)).sum();
+/// assert!((asperity_data::sum_of_powers(-2.0, 1, 100_000) / exact - 1.0).abs() < 1e-14);
+/// ```
+pub fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
+    let end = last.min(first.saturating_add(DIRECT_TERMS - 1));
+    let mut sum = CompensatedSum::default();
+    (first..=end).for_each(|k| sum.add((k as f64).powf(exponent)));
+    if end == last {
+        return sum.total();
+    }
+    // Σ_{k=m}^{n} f(k) = ∫ f dk + (f(m) + f(n))/2 + Σ B_2j/(2j)! (f^(2j−1)(n) − f^(2j−1)(m)).
+    let (low, high) = ((end + 1) as f64, last as f64);
+    let (mut at_low, mut at_high) = (low.powf(exponent), high.powf(exponent));
+    sum.add(integral_of_power(exponent, low, high));
+    sum.add(0.5 * at_low);
+    sum.add(0.5 * at_high);
+    let mut falling = exponent;
+    let mut differentiate = || {
+        at_low *= falling / low;
+        at_high *= falling / high;
+        falling -= 1.0;
+        at_high - at_low
+    };
+    for (index, coefficient) in EULER_MACLAURIN.into_iter().enumerate() {
+        if index > 0 {
+            differentiate();
+        }
+        sum.add(coefficient * differentiate());
+    }
+    sum.total()
+}
+
+/// ∫ q^power dq from `low` to `high`, accurate also where power → −1.
+///
+/// With s = power + 1 it is (high^s − low^s)/s, or low^s (e^(s ln(high/low)) − 1)/s: the difference where the powers
+/// differ much and `expm1` where they do not, with the logarithm as the limit at s = 0.
+pub fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
+    let s = power + 1.0;
+    // For neighbouring ends their quotient would lose significant digits.
+    let ratio = ((high - low) / low).ln_1p();
+    if (s * ratio).abs() > 1.0 {
+        return (high.powf(s) - low.powf(s)) / s;
+    }
+    let growth = if s == 0.0 { ratio } else { (s * ratio).exp_m1() / s };
+    low.powf(s) * growth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_are_those_of_their_terms() {
+        let direct = |exponent: f64, first: u64, last: u64| {
+            let mut sum = CompensatedSum::default();
+            (first..=last).rev().for_each(|k| sum.add((k as f64).powf(exponent)));
+            sum.total()
+        };
+        let ranges = [
+            (1, 1),
+            (1, 64),
+            (1, 65),
+            (1, 66),
+            (1, 1000),
+            (7, 70_001),
+            (64, 129),
+            (1000, 1064),
+            (1_000_000, 1_000_065),
+            (1, 1 << 20),
+        ];
+        for exponent in [-3.0, -2.4, -1.0 - 1e-300, -1.0, -1.0 + 1e-12, -0.4, 0.0, 0.8, 1.0] {
+            for (first, last) in ranges {
+                let (found, expected) = (sum_of_powers(exponent, first, last), direct(exponent, first, last));
+                let error = (found / expected - 1.0).abs();
+                assert!(error <= 9e-16, "Σ k^{exponent} from {first} to {last}: error {error:e}");
+            }
+        }
+    }
+}
