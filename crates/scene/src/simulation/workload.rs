@@ -61,7 +61,7 @@ pub enum Stage {
 impl Stage {
     const NAMES: [&str; 11] = [
         "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
-        "unloading passes", "stepwise relaxation", "adhesion without a preload, regime", "contact patches",
+        "unloading passes", "stepwise relaxation", "adhesion without preload", "contact patches",
         "height histogram",
     ];
 
