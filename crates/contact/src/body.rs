@@ -436,7 +436,7 @@ pub struct Reversal {
     pub separation: f64,
     /// Energy dissipated from separation to separation, J.
     pub dissipated_energy: f64,
-    /// Forces, N, at the indentations given to [`Body::reversals`] that are not above the turning point.
+    /// Forces, N, at the given indentations that are not above the turning point, in their order; 0 below the separation.
     pub forces: Vec<f64>,
 }
 

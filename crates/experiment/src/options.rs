@@ -74,13 +74,6 @@ fn positive_length(text: &str) -> Result<f64, String> {
 }
 
 /// Options of reading and preparing a curve; what they do not state is determined from the curve.
-///
-/// ```
-/// use asperity_experiment::{CurveOptions, Tilt};
-///
-/// let options = CurveOptions { segments: vec![2], tilt: Tilt::Remove, ..CurveOptions::default() };
-/// assert_eq!(options.to_string(), " --segments=2 --tilt=remove");
-/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
@@ -148,6 +141,12 @@ pub struct CurveOptions {
     pub free_points: Option<usize>,
 }
 
+/// ```
+/// use asperity_experiment::{CurveOptions, Tilt};
+///
+/// let options = CurveOptions { segments: vec![2], tilt: Tilt::Remove, ..CurveOptions::default() };
+/// assert_eq!(options.to_string(), " --segments=2 --tilt=remove");
+/// ```
 impl fmt::Display for CurveOptions {
     /// Writes the options as arguments of the command line, with a blank before each.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {

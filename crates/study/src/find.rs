@@ -95,7 +95,9 @@ impl Found {
         let range = format!("from {}", format_range(*searched, 4, axis.unit));
         let refused = |found, allowed| Err(StudyError::refused(Some(&axis.path), found, allowed));
         if let Some(why) = self.refused.as_ref().filter(|_| self.question.is_of_preload()) {
-            return refused(why.clone(), "a smaller range: --range A..B");
+            let (found, allowed) =
+                why.split_once("; allowed: ").unwrap_or((why.as_str(), "a smaller range: --range A..B"));
+            return refused(found.to_owned(), allowed);
         }
         let Some((least, most)) = self.reachable() else {
             let why = self.refused.as_ref().map_or_else(String::new, |reason| format!(": {reason}"));

@@ -39,7 +39,7 @@ impl What {
 /// The program's own way from a scene to its outcome.
 pub fn program(document: &Document) -> Outcome {
     let mut simulation = Simulation::default();
-    let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(()));
+    let outcome = simulation.compute(document.scene());
     outcome.expect("a scene that can be computed")
 }
 

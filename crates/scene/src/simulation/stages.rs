@@ -40,7 +40,7 @@ const SMALL: u64 = 32 << 20;
 /// let (mut simulation, sphere) = (Simulation::default(), open("jkr-sphere")?);
 /// let mut force = |points: u64| {
 ///     let scene = sphere.scene().with(|scene| scene.numerics.points = points)?;
-///     Ok::<_, asperity_scene::Error>(simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()))?.figures.adhesion_force)
+///     Ok::<_, asperity_scene::Error>(simulation.compute(&scene)?.figures.adhesion_force)
 /// };
 /// assert!((force(512)?.unwrap() / force(4096)?.unwrap() - 1.0).abs() < 1e-3);
 /// # Ok::<(), asperity_scene::Error>(())
@@ -308,8 +308,16 @@ impl Simulation {
         Ok((made.contact, made.governing))
     }
 
-    /// Runs a checked scene: only the computing stages that it needs. `stop` is polled now and then; `after` receives each
-    /// stage of the scene's own loading.
+    /// Computes a checked scene; see [`Self::run`], which can be stopped.
+    ///
+    /// # Errors
+    /// A computing stage fails; earlier results are kept for the next run.
+    pub fn compute(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {
+        self.run(scene, &|| false, &mut |_, _, _| Ok(()))
+    }
+
+    /// Runs a checked scene: only the computing stages that it needs. `stop` is asked between stages; `after` receives each
+    /// loading stage of the scene.
     ///
     /// # Errors
     /// A computing stage fails or `stop` returns true; earlier results are kept for the next run.
@@ -378,7 +386,7 @@ impl Simulation {
 /// The profile of a contact on the springs under a line.
 pub(crate) fn profile_of(line: &Line) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
-    Ok(profile.on_foundation(line.length, line.first)?.with_summit(line.summit))
+    profile.on_foundation(line.length, line.first)?.with_summit(line.summit)
 }
 
 /// Loads a contact with the solver of the scene; with `without_preload` also with turns at first touch and at zero force. Returns

@@ -26,7 +26,7 @@ fn scene(overrides: Overrides) -> CheckedScene {
 }
 
 fn outcome(simulation: &mut Simulation, scene: &CheckedScene) -> Outcome {
-    let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let outcome = simulation.compute(scene).unwrap();
     let mut outcome = outcome;
     outcome.timings = Timings::default();
     outcome
