@@ -217,7 +217,7 @@ fn the_figure_of_the_regimes_shows_them() {
     let (_, commands) = readme.split_once("<!-- regimes command -->\n```sh\n").unwrap();
     commands.split("```").next().unwrap().lines().for_each(|command| drop(succeeded(folder, command)));
     compare("docs/regimes.svg", &std::fs::read_to_string(folder.join("docs/regimes.svg")).unwrap());
-    // The three sentences below the figure, and the sentence of docs/model.md.
+    // The three sentences below the figure.
     let summary = std::fs::read_to_string(folder.join("regimes/summary.csv")).unwrap();
     let columns: Vec<&str> = summary.lines().next().unwrap().split(',').collect();
     let column = |name: &str| columns.iter().position(|one| *one == name).unwrap();

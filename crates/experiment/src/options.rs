@@ -79,9 +79,9 @@ fn positive_length(text: &str) -> Result<f64, String> {
 pub struct CurveOptions {
     /// Columns of displacement, force and segment: names or numbers
     ///
-    /// Default: by the names in the header; of two columns the first is the displacement. Four are
-    /// displacement and force of the approach, then displacement and force of a retraction beside
-    /// it. Without a column of segments these end where the displacement turns.
+    /// Default: by the names in the header; of two columns the first is the displacement. Four
+    /// are displacement and force of the approach, then displacement and force of a retraction
+    /// beside it. Without a column of segments these end where the displacement turns.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "D,F[,SEGMENT]", value_delimiter = ',', verbatim_doc_comment)

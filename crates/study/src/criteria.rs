@@ -61,7 +61,7 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
     Criterion { value: tabor_number, reason: Some(reason.to_owned()), ..TABOR }
 }
 
-/// Adhesion without a preload by both protocols as a share of the adhesion force of the smooth body: below
+/// F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body: below
 /// [`VANISHING_SHARE`] adhesion has vanished, as in the definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);

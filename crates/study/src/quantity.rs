@@ -188,7 +188,7 @@ impl Quantity {
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
-    /// The regimes by both protocols.
+    /// The regimes turned at first touch and at zero force.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
     /// The protocol, in words, of the regime that a map of this quantity shows.

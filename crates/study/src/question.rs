@@ -28,7 +28,7 @@ const MARGIN: f64 = 0.01;
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
 
-/// The question at which value of a number of a scene a quantity has a value.
+/// The inverse question: at which value of one number of a scene does a quantity have a given value?
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// The number that is sought, without values; `preload` is in N.

@@ -18,7 +18,7 @@ const MOST_NAMED: usize = 12;
 pub struct Selection {
     /// Quantity of each panel; default: F_a(d=0) and F_a/F_n
     ///
-    /// Where no F_a/F_n was recorded: F_a(d=0) by both protocols; where neither was: the first one.
+    /// Without F_a/F_n: F_a(d=0) and F_a(F=0); without either: the first one.
     #[cfg_attr(feature = "clap", arg(long = "quantity", value_name = "NAME"))]
     pub quantities: Vec<String>,
     /// Axis across

@@ -35,10 +35,10 @@ const MOST_ERROR: f64 = 0.5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
-/// Finds the work of adhesion, and on request the effective modulus, of a rough body from curves of different places, each
-/// with its name, by comparison with random profiles of the roughness of the scene. Its stiffness of the instrument, its form
-/// and its ratio of the works of adhesion are taken as they are; each computed curve has the preload, the points and the
-/// noise of one of the curves. The progress is the number of curves computed so far.
+/// Finds the work of adhesion, and on request the effective modulus, of a rough body from curves of different places,
+/// each with its name, by comparison with random profiles of the roughness of the scene. The scene gives the
+/// stiffness of the instrument, the form and the ratio of the works of adhesion. Each computed curve has the preload,
+/// the points and the noise of one of the measured curves. The progress is the number of curves computed so far.
 ///
 /// # Errors
 /// The profile of the scene is not random, a curve lacks an approach or a retraction to the loss of contact, a computation

@@ -61,7 +61,7 @@ pub enum Stage {
 impl Stage {
     const NAMES: [&str; 11] = [
         "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
-        "unloading passes", "stepwise relaxation", "adhesion without a preload, regime", "contact patches",
+        "unloading passes", "stepwise relaxation", "adhesion without preload", "contact patches",
         "height histogram",
     ];
 
@@ -105,8 +105,8 @@ pub struct Workload {
     /// Approximate peak memory of a run besides the program itself, bytes: all arrays and the resulting curves. Not included,
     /// because unknown here: the content of a measured file, 16 bytes for each of its points, and lists of contact patches.
     pub peak_bytes: u64,
-    /// Approximate largest resident memory of `asperity run`, bytes: with the program itself, and without the heights of
-    /// the roughness, whose memory the gaps of a single scene reuse.
+    /// Approximate largest resident memory of `asperity run`, bytes, with the program itself. The heights of the
+    /// roughness do not count: the gaps of a single scene reuse their memory.
     pub resident_bytes: u64,
     /// All computing stages, including skipped ones.
     pub stages: Vec<PlannedStage>,
