@@ -252,7 +252,7 @@ class Program(unittest.TestCase):
         self.assertIn("# command: asperity run jkr-sphere\n", table)
 
     def test_an_interrupt_ends_a_command(self):
-        command = [sys.executable, "-m", "asperity", "run", SCENE, "--lines", "20000"]
+        command = [sys.executable, "-m", "asperity", "run", SCENE, "--profiles", "20000"]
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(1)
         child.send_signal(signal.SIGINT)

@@ -93,7 +93,15 @@ fn lines_of_python_read_tables() {
     );
     // Words, and missing values.
     write(
-        &["rough-sphere", "--set", "roughness.modes=(1, 64)", "--set", "loading=[ToTouch]", "--lines", "3"],
+        &[
+            "rough-sphere",
+            "--set",
+            "roughness.modes=(1, 64)",
+            "--set",
+            "loading=[ToTouch]",
+            "--profiles",
+            "3",
+        ],
         "lines",
     );
     passes(

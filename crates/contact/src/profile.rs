@@ -33,8 +33,8 @@ pub struct Profile {
     summit: f64,
 }
 
-/// The gaps under a profile, and the contact trees, which depend on the gaps and the edge model alone. A tree is built when
-/// a contact first needs it.
+/// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge model. A tree is built
+/// when a contact first needs it.
 #[derive(Debug)]
 pub struct Springs {
     pub gaps: Arc<Vec<f64>>,

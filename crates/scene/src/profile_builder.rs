@@ -12,7 +12,7 @@ use asperity_contact::{ContactError, Modulus, Move, Profile};
 use asperity_surface::{Form, Line, MeasuredRoughness};
 use std::sync::Arc;
 
-/// Builder of the equivalent profile of a form and a roughness: the same profile, to the bit, as that of a scene with these
+/// Builder of the equivalent profile of a form and a roughness: the same profile, to the bit, as a scene with these
 /// values. By default nominally flat and smooth.
 ///
 /// ```

@@ -59,8 +59,8 @@ pub fn find(
 }
 
 impl Found {
-    /// Finds the numbers on all profiles. `jobs` threads share the profiles, the first with this simulation; no bit depends on
-    /// their number. `report` receives the number of profiles done after each.
+    /// Finds the numbers on all profiles. `jobs` threads share the profiles, the first with this simulation; no bit
+    /// depends on their number. After each profile `report` receives the number of finished profiles.
     ///
     /// # Errors
     /// The scene does not have the quantity, the number does not act on the quantity, a profile fails, or `stop` returned true.
