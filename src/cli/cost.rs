@@ -34,7 +34,7 @@ pub struct CostArguments {
     /// Time limit of all measurements together: 500ms, 30s, 2min
     #[arg(long, value_name = "TIME", default_value = "10s", value_parser = budget)]
     pub budget: Duration,
-    /// Compute the error of the model too, by random squares in three dimensions, in addition to the time limit
+    /// Compute the error of the model too, by random squares in three dimensions; not in the budget
     #[arg(long)]
     pub model: bool,
     #[command(flatten)]

@@ -3,10 +3,7 @@
 use super::app::App;
 use super::request::Drive;
 use asperity_contact::Branch;
-use asperity_contact::{CurvePoint, Direction, LegRecord};
-
-/// Share of the indentation range of a branch within which a state counts as its end or its smallest force.
-const NEAR: f64 = 0.01;
+use asperity_report::event;
 
 /// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and while
 /// the body does not move.
@@ -20,90 +17,5 @@ pub fn caption(app: &App) -> Option<&'static str> {
             let rests = app.legs()[index].curve.len() == 1;
             event(app.legs(), branch, snapshot.point).filter(|_| !rests)
         }
-    }
-}
-
-/// Event at a point of a branch of a history.
-fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
-    let stages = &legs[branch.stages.clone()];
-    let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);
-    let in_contact = |point: &&CurvePoint| point.springs > 0;
-    let smallest = branch.smallest(legs).map_or(*last, |(_, point)| point);
-    let range = (last.indentation - first.indentation).abs();
-    let is_near = |other: &CurvePoint| (point.indentation - other.indentation).abs() <= NEAR * range;
-    match branch.direction {
-        _ if range == 0.0 => None,
-        Direction::Loading => Some(match point {
-            CurvePoint { springs: 0, .. } => "approach",
-            _ if is_near(last) => "turning point",
-            _ if stages.iter().flat_map(|stage| &stage.curve).find(in_contact).is_some_and(is_near) => {
-                "jump-in"
-            }
-            CurvePoint { force, .. } if force < 0.0 => "spreads under tension",
-            _ => "contact spreads",
-        }),
-        Direction::Unloading => Some(match point {
-            CurvePoint { springs: 0, .. } => "separated",
-            _ if is_near(first) => "turning point",
-            _ if is_near(&smallest) => "pull-off",
-            _ if point.indentation < smallest.indentation => "detachment",
-            CurvePoint { force, .. } if force < 0.0 => "under tension",
-            _ => "contact shrinks",
-        }),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use asperity_contact::History;
-    use asperity_scene::Simulation;
-    use asperity_scene::open;
-
-    fn history(name: &str, loading: Option<&str>) -> History {
-        let mut document = open(name).unwrap();
-        if let Some(loading) = loading {
-            document = document.set("loading", loading).unwrap();
-        }
-        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap().history
-    }
-
-    /// Events along a branch in the order of their first occurrence; on a rough profile some recur.
-    fn events(legs: &[LegRecord], branch: &Branch) -> Vec<&'static str> {
-        let mut events = Vec::new();
-        let points = legs[branch.stages.clone()].iter().flat_map(|leg| &leg.curve);
-        for event in points.filter_map(|&point| event(legs, branch, point)) {
-            if !events.contains(&event) {
-                events.push(event);
-            }
-        }
-        events
-    }
-
-    #[test]
-    fn a_loop_passes_its_events_in_order() {
-        let cut = "[ToTouch, ToForce(1.0e-5), ToForce(5.0e-6), ToForce(-1.0e-5), ToSeparation]";
-        for loading in [None, Some(cut)] {
-            let legs = history("pressure-sensitive", loading).legs;
-            let [loading, unloading] = &Branch::all(&legs)[..] else { panic!("two branches") };
-            assert_eq!(
-                events(&legs, loading),
-                ["approach", "jump-in", "spreads under tension", "contact spreads", "turning point"]
-            );
-            assert_eq!(
-                events(&legs, unloading),
-                ["turning point", "contact shrinks", "under tension", "pull-off", "detachment", "separated"]
-            );
-        }
-    }
-
-    #[test]
-    fn the_smallest_force_is_the_pull_off() {
-        let legs = history("jkr-sphere", None).legs;
-        let unloading = Branch::last_unloading(&legs).unwrap();
-        let smallest = legs[1].smallest;
-        assert_eq!(event(&legs, &unloading, smallest), Some("pull-off"));
-        let still = [LegRecord { curve: vec![smallest; 2], ..legs[1].clone() }];
-        assert_eq!(event(&still, &Branch { stages: 0..1, ..unloading }, smallest), None);
     }
 }

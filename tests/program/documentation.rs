@@ -39,6 +39,7 @@ const PAGES: [(&str, &str); 16] = [
     ("model.md", "equations, regimes, other theories, validity"),
     ("findings.md", "claims of the paper, boundary of adhesion, stiffness: citable results"),
     ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of profiles"),
+    ("line-and-three-dimensions.md", "how far to trust the line: the same contact in three dimensions"),
     ("performance.md", "times, latency of the explorer, memory"),
     ("terms.md", "symbols, units, signs, words"),
     ("errors.md", "exit codes, remedies"),

@@ -1,7 +1,7 @@
 //! Convolutions and times of contacts without adhesion, over areas from 1 to 60 %: eight cells for the shortest wave, each load from
 //! the start, one thread, residual 1e-8 rms heights. Times are those of the processor where the system states them.
 
-use asperity_half_space::{Boundary, HalfSpace, Load, Square, random_map};
+use asperity_half_space::{AdhesiveSquare, Boundary, HalfSpace, Load, Square, random_map};
 use std::time::Instant;
 
 fn main() {
@@ -18,6 +18,38 @@ fn main() {
             measure(cells, boundary, hurst);
         }
     }
+    println!("adhesive loops of 40 steps, e_el/γ = 1   s, convolutions");
+    for (cells, hurst) in [(64, 0.3), (64, 0.8), (128, 0.3), (128, 0.8)] {
+        measure_loop(cells, hurst);
+    }
+}
+
+/// A rough square, pressed to a force of 0.3 E* h L in 20 steps, and pulled off.
+fn measure_loop(cells: usize, hurst: f64) {
+    let (last, rms_height) = (cells as f64 / 8.0, 0.01);
+    let power = |k: f64| if k <= last { k.powf(-2.0 * hurst - 2.0) } else { 0.0 };
+    let mut heights = random_map(cells, power, 1).expect("memory");
+    let rms = (heights.iter().map(|height| height * height).sum::<f64>() / heights.len() as f64).sqrt();
+    heights.iter_mut().for_each(|height| *height *= rms_height / rms);
+    let waves = (-64..=64_i32).flat_map(|x| (-64..=64_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
+    let (energy, squares) = waves.filter(|k| *k > 0.0).fold((0.0, 0.0), |(energy, squares), k| {
+        (energy + 0.25 * std::f64::consts::TAU * k * power(k), squares + power(k))
+    });
+    let work = rms_height * rms_height * energy / squares;
+    let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+    let (start, used) = (Instant::now(), used());
+    let mut body = AdhesiveSquare::new(&square, (work, work)).expect("a square");
+    let mut to = |depth: f64| body.move_to(depth, &|| false).expect("a state");
+    let (mut depth, mut steps, step) = (0.0, 1, 2.5 * rms_height / 20.0);
+    while to(depth).force < 0.3 * rms_height && steps < 40 {
+        (depth, steps) = (depth + step, steps + 1);
+    }
+    while to(depth).area > 0.0 && steps < 200 {
+        (depth, steps) = (depth - step, steps + 1);
+    }
+    let elapsed = start.elapsed().as_secs_f64();
+    let seconds = used.and_then(|before| Some(self::used()? - before)).unwrap_or(elapsed);
+    println!("{cells:>5}  {hurst}  {steps} steps   {seconds:.3}   {}", body.convolutions());
 }
 
 /// Time, s, for which this thread has had a processor, as Linux counts it.

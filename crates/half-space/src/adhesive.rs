@@ -222,15 +222,44 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// A sphere of radius 1 m on a square of 1 m, whose summit is off the middle of the grid by shares of a cell, and whose
-    /// contact radius at pull-off, a³ = (9/8)πγR²/E*, has `critical` cells; with its work of adhesion, J/m².
-    fn sphere(cells: usize, critical: f64, (x, y): (f64, f64), closing: f64) -> (AdhesiveSquare, f64) {
+    /// An ellipsoid on a square of 1 m, with radii of curvature of 1 m times and over `ratio` in directions turned by `angle`,
+    /// whose summit is off the middle of the grid by shares of a cell. A sphere with its mean radius has a contact radius at
+    /// pull-off, a³ = (9/8)πγR²/E*, of `critical` cells. With its work of adhesion, J/m².
+    fn ellipsoid(
+        cells: usize,
+        critical: f64,
+        ((x, y), (ratio, angle)): ((f64, f64), (f64, f64)),
+        closing: f64,
+    ) -> (AdhesiveSquare, f64) {
         let at = |index: usize, off: f64| (index as f64 + off) / cells as f64 - 0.5;
-        let height = |index: usize| -0.5 * (at(index % cells, x).powi(2) + at(index / cells, y).powi(2));
+        let (sine, cosine) = angle.sin_cos();
+        let height = |index: usize| {
+            let (x, y) = (at(index % cells, x), at(index / cells, y));
+            let (along, across) = (x * cosine + y * sine, y * cosine - x * sine);
+            -0.5 * (along * along / ratio + across * across * ratio)
+        };
         let heights: Vec<f64> = (0..cells * cells).map(height).collect();
         let work = (critical / cells as f64).powi(3) * 8.0 / (9.0 * PI);
         let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
         (AdhesiveSquare::new(&square, (work, closing * work)).unwrap(), work)
+    }
+
+    fn sphere(cells: usize, critical: f64, place: (f64, f64), closing: f64) -> (AdhesiveSquare, f64) {
+        ellipsoid(cells, critical, (place, (1.0, 0.0)), closing)
+    }
+
+    /// Force at first touch and pull-off force, in units of (3/2)πγR, of a body that is pressed by `pressed` steps of a fifth of
+    /// a²/R.
+    fn pulled((mut body, work): (AdhesiveSquare, f64), unit: f64, pressed: i32) -> [f64; 2] {
+        let touch = moved(&mut body, 0.0).force;
+        for step in 1..=pressed {
+            moved(&mut body, 0.2 * f64::from(step) * unit);
+        }
+        let steps = (-32..4 * pressed).rev().map(|step| 0.05 * f64::from(step) * unit);
+        let states: Vec<AdhesiveState> = steps.map(|indentation| moved(&mut body, indentation)).collect();
+        assert_eq!(states.last().map(|state| (state.area, state.force)), Some((0.0, 0.0)));
+        let pull_off = states.iter().map(|state| -state.force).fold(0.0, f64::max);
+        [-touch, pull_off].map(|force| force / (1.5 * PI * work))
     }
 
     fn moved(body: &mut AdhesiveSquare, indentation: f64) -> AdhesiveState {
@@ -241,33 +270,102 @@ mod tests {
     /// corner and whole rings detach at once; their mean is the force of Johnson, Kendall and Roberts.
     #[test]
     fn a_sphere_pulls_off_as_johnson_kendall_and_roberts_say() {
+        check_spheres(&[(32, 6.0, 4, 0.04, 0.08), (64, 13.0, 4, 0.02, 0.03)]);
+    }
+
+    #[test]
+    #[ignore = "takes minutes"]
+    fn large_spheres_pull_off_as_johnson_kendall_and_roberts_say() {
+        check_spheres(&[(128, 26.0, 1, 0.02, 0.02), (128, 38.0, 1, 0.02, 0.02)]);
+    }
+
+    /// Cells, cells of the contact radius at pull-off, number of places, and the allowed errors of the mean and of one.
+    fn check_spheres(sizes: &[(usize, f64, usize, f64, f64)]) {
         let places = [(0.3, 0.2), (0.1, 0.4), (0.15, 0.35), (0.45, 0.05)];
-        for (cells, critical, of_mean, of_one) in [(32, 6.0, 0.04, 0.08), (64, 13.0, 0.02, 0.03)] {
+        for &(cells, critical, count, of_mean, of_one) in sizes {
+            let unit = (critical / cells as f64).powi(2);
             for closing in [1.0, 0.0] {
-                let found = places.map(|place| {
-                    let (mut body, work) = sphere(cells, critical, place, closing);
-                    // Indentations in units of a²/R.
-                    let unit = (critical / cells as f64).powi(2);
-                    let touch = moved(&mut body, 0.0).force / (1.5 * PI * work);
-                    for step in 1..=8 {
-                        moved(&mut body, 0.2 * f64::from(step) * unit);
-                    }
-                    let states = (0..=60).map(|step| moved(&mut body, (1.5 - 0.05 * f64::from(step)) * unit));
-                    let states: Vec<AdhesiveState> = states.collect();
-                    let pull_off = states.iter().map(|state| -state.force).fold(0.0, f64::max);
-                    assert_eq!(states.last().map(|state| (state.area, state.force)), Some((0.0, 0.0)));
-                    // The trap of a front that closes a whole ring at once: at first touch JKR has 8/9 of the pull-off.
-                    if closing == 1.0 && critical > 10.0 {
-                        assert!((-touch * 9.0 / 8.0 - 1.0).abs() < 0.1, "{critical}: {touch}");
-                    }
-                    pull_off / (1.5 * PI * work)
-                });
-                let mean = found.iter().sum::<f64>() / found.len() as f64;
-                println!("{critical} cells, closing {closing}: {mean:.4} of {found:.4?}");
+                let of = |place| pulled(sphere(cells, critical, place, closing), unit, 8);
+                let found: Vec<[f64; 2]> = places[..count].iter().map(|place| of(*place)).collect();
+                println!("{critical} cells, closing {closing}: {found:.4?}");
+                // The trap of a front that closes a whole ring at once: at first touch JKR has 8/9 of the pull-off.
+                if closing == 1.0 && critical > 10.0 {
+                    let touch = found.iter().map(|[touch, _]| touch * 9.0 / 8.0);
+                    touch.for_each(|touch| assert!((touch - 1.0).abs() < 0.1, "{critical}: {touch}"));
+                }
+                let mean = found.iter().map(|[_, force]| force).sum::<f64>() / count as f64;
                 assert!((mean - 1.0).abs() < of_mean, "{critical}: {mean} of {found:?}");
-                assert!(found.iter().all(|one| (one - 1.0).abs() < of_one), "{critical}: {found:?}");
+                assert!(found.iter().all(|[_, one]| (one - 1.0).abs() < of_one), "{critical}: {found:?}");
             }
         }
+    }
+
+    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other directions on the grid at each angle, pulls off
+    /// at the same force whatever its angle, and at little less than the sphere with its mean radius (Johnson and Greenwood
+    /// 2005).
+    #[test]
+    fn an_ellipsoid_pulls_off_at_the_same_force_at_all_angles() {
+        let (cells, critical) = (64, 13.0);
+        let unit = (critical / cells as f64).powi(2);
+        let forces = [0.0_f64, 18.4, 26.6, 45.0, 63.4].map(|angle| {
+            let body = ((0.3, 0.2), (1.5, angle.to_radians()));
+            pulled(ellipsoid(cells, critical, body, 1.0), unit, 4)[1]
+        });
+        println!("ellipsoid at five angles: {forces:.4?}");
+        let mean = forces.iter().sum::<f64>() / forces.len() as f64;
+        assert!((0.93..1.02).contains(&mean), "{forces:?}");
+        assert!(forces.iter().all(|force| (force / mean - 1.0).abs() < 0.03), "{forces:?}");
+    }
+
+    /// Kendall (1971): a round flat punch pulls off at √(8πE*γa³). The stairs of cells along its
+    /// edge concentrate the stress, so that it pulls off somewhat earlier.
+    #[test]
+    fn a_round_punch_pulls_off_as_kendall_says() {
+        let (cells, radius) = (64, 0.35);
+        let at = |index: usize| (index as f64 + 0.5) / cells as f64 - 0.5;
+        let heights: Vec<f64> = (0..cells * cells)
+            .map(|index| if at(index % cells).hypot(at(index / cells)) <= radius { 0.0 } else { -1.0 })
+            .collect();
+        let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+        let work = 1e-6;
+        let mut body = AdhesiveSquare::new(&square, (work, work)).unwrap();
+        let exact = (8.0 * PI * work * radius.powi(3)).sqrt();
+        let mut largest = 0.0_f64;
+        for step in 0..200 {
+            let state = moved(&mut body, -0.01 * f64::from(step) * exact / (2.0 * radius));
+            largest = largest.max(-state.force);
+        }
+        println!("round punch: {:.4}", largest / exact);
+        assert!((0.9..1.0).contains(&(largest / exact)), "{}", largest / exact);
+    }
+
+    /// At every step the work of the force less the change of the elastic energy and of γA is dissipated, which is never
+    /// negative but for the error of the trapezoidal rule at jumps and for the lattice.
+    #[test]
+    fn no_step_gains_energy() {
+        let (mut body, work) = sphere(64, 13.0, (0.3, 0.2), 1.0);
+        let unit = (13.0_f64 / 64.0).powi(2);
+        let steps = (0..=10).chain((-30..10).rev()).map(|step| 0.05 * f64::from(step) * unit);
+        let states: Vec<AdhesiveState> = steps.map(|indentation| moved(&mut body, indentation)).collect();
+        let mut dissipated = 0.0;
+        for pair in states.windows(2) {
+            let [one, other] = pair else { unreachable!() };
+            let step = other.indentation - one.indentation;
+            let stored = |state: &AdhesiveState| state.elastic_energy - work * state.area;
+            let lost = 0.5 * (one.force + other.force) * step - (stored(other) - stored(one));
+            let rule = 0.5 * ((other.force - one.force) * step).abs();
+            let lattice = 0.12 * work * (other.area - one.area).abs();
+            assert!(lost >= -(rule + lattice), "{lost} {rule} {lattice}");
+            dissipated += lost;
+        }
+        let all: f64 = states
+            .windows(2)
+            .map(|pair| 0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation))
+            .sum();
+        // The loop begins in contact.
+        let begun = states[0].elastic_energy - work * states[0].area;
+        assert!((dissipated - (all + begun)).abs() < 1e-9 * all.abs(), "{dissipated} {all} {begun}");
+        assert!(dissipated > 0.0);
     }
 
     /// The energy that a loop of a sphere dissipates is that of the line, which has it exactly, and a share for the lattice.
@@ -292,9 +390,19 @@ mod tests {
     /// separated, and dissipates energy.
     #[test]
     fn loops_of_rough_squares_end() {
-        let (cells, rms_height) = (64, 0.01);
         let effort: u64 = std::env::var("TEST_EFFORT").map_or(1, |of| of.parse().unwrap());
-        for seed in 0..effort {
+        check_rough_loops(0..effort);
+    }
+
+    #[test]
+    #[ignore = "takes minutes"]
+    fn seven_hundred_loops_of_rough_squares_end() {
+        check_rough_loops(1000..1175);
+    }
+
+    fn check_rough_loops(seeds: std::ops::Range<u64>) {
+        let (cells, rms_height) = (64, 0.01);
+        for seed in seeds {
             for (hurst, ratio, closing) in
                 [(0.3, 0.3, 1.0), (0.8, 0.3, 0.0), (0.8, 1.0, 1.0), (0.3, 3.0, 0.5)]
             {

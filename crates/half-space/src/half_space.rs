@@ -284,6 +284,33 @@ mod tests {
         }
     }
 
+    /// At light loads the area of contact is about 2F/(E*h′), h′ the rms gradient, once the part of the cells at the edge that is
+    /// out of contact is taken off: a tenth of a cell for each side of a cell along the edge.
+    #[test]
+    fn the_area_at_light_loads_is_proportional_to_the_force() {
+        let (cells, last) = (128, 8.0);
+        let mut slopes = Vec::new();
+        for seed in 1..=4 {
+            let heights =
+                random_map(cells, |k| if k <= last { 1e-5 * k.powf(-3.6) } else { 0.0 }, seed).unwrap();
+            let near = |at: usize| [at / cells * cells + (at + 1) % cells, (at + cells) % (cells * cells)];
+            let slope =
+                |at: usize| near(at).map(|next| (heights[next] - heights[at]).powi(2)).iter().sum::<f64>();
+            let gradient = (0..cells * cells).map(slope).sum::<f64>().sqrt();
+            let square = Square { heights: &heights, side: 1.0, effective_modulus: 1.0 };
+            let mut half_space = HalfSpace::new(cells, Boundary::Periodic).unwrap();
+            let force = 0.04 * gradient;
+            let found = half_space.press(&square, Load::Force(force), 1e-8, &|| false).unwrap();
+            let is_edge =
+                |at: usize| near(at).map(|next| (found.pressure[next] > 0.0) != (found.pressure[at] > 0.0));
+            let edges = (0..cells * cells).flat_map(is_edge).filter(|is_edge| *is_edge).count() as f64;
+            slopes.push((found.area - 0.1 * edges / (cells * cells) as f64) * gradient / force);
+        }
+        println!("slopes of the area: {slopes:.3?}");
+        let mean = slopes.iter().sum::<f64>() / slopes.len() as f64;
+        assert!((1.7..2.3).contains(&mean), "{slopes:?}");
+    }
+
     /// A quarter turn and a mirror of the surface turn and mirror the pressures.
     #[test]
     fn turned_squares_have_turned_pressures() {

@@ -323,11 +323,11 @@ impl Grid {
 const LANES: usize = 4;
 
 /// The numbers in groups; those of a grid, whose side is even, without a rest.
-fn groups<T>(of: &Vec<T>) -> &[[T; LANES]] {
+fn groups<T>(of: &[T]) -> &[[T; LANES]] {
     of.as_chunks().0
 }
 
-fn groups_of<T>(of: &mut Vec<T>) -> impl Iterator<Item = &mut [T; LANES]> {
+fn groups_of<T>(of: &mut [T]) -> impl Iterator<Item = &mut [T; LANES]> {
     of.as_chunks_mut().0.iter_mut()
 }
 
@@ -337,7 +337,7 @@ fn sums<const D: usize, const S: usize, const N: usize>(
     single: [&Vec<f32>; S],
     each: impl Fn([f64; D], [f32; S]) -> [f64; N],
 ) -> [f64; N] {
-    let (double, single) = (double.map(groups), single.map(groups));
+    let (double, single) = (double.map(|of| groups(of)), single.map(|of| groups(of)));
     let count = double.iter().map(|of| of.len()).chain(single.iter().map(|of| of.len())).min().unwrap_or(0);
     let (double, single) = (double.map(|of| &of[..count]), single.map(|of| &of[..count]));
     let mut totals = [[0.0; LANES]; N];

@@ -7,6 +7,7 @@ mod check;
 mod cost;
 mod ensemble;
 mod ensemble_fit;
+mod event;
 mod find;
 mod fit;
 mod fits;
@@ -37,6 +38,7 @@ mod work_precision;
 
 pub use cost::CostReport;
 pub use ensemble_fit::EnsembleFitReport;
+pub use event::event;
 pub use find::{FindReport, found_in_words};
 pub use fit::FitReport;
 pub use fits::{CurveRow, FitsReport};

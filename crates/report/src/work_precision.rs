@@ -5,7 +5,7 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use asperity_scene::{CostTable, ErrorFigure, Knob};
 use asperity_study::Reference;
 
-/// Figure of relative errors over the shortest time of a run, one curve for each setting: errors of the adhesion force, or
+/// Figure of relative errors over the shortest time of a run, one curve for each setting, with its observed order of convergence: errors of the adhesion force, or
 /// of the force curve if there is no adhesion force. Beside squares in three dimensions the curves end at the error of the
 /// model, below which no number of springs leads; the sign of the squares is their difference from a coarser grid.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
@@ -31,7 +31,9 @@ pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Referen
         let (ink, sign) = (Ink::Series(number), Sign::of_series(number));
         let line = points.iter().map(|&(seconds, figure)| (seconds, figure.error)).collect();
         layers.push(Layer::unnamed(ink, Shape::line(line, Stroke::Solid)));
-        layers.push(Layer::new(Label::plain(knob.name()), ink, Shape::signs(of(true).collect(), sign)));
+        let order = table.order(*knob).map_or_else(String::new, |order| format!(", order {order:.1}"));
+        let name = Label::plain(&format!("{}{order}", knob.name()));
+        layers.push(Layer::new(name, ink, Shape::signs(of(true).collect(), sign)));
         if of(false).next().is_some() {
             let rings = Shape::signs(of(false).collect(), Sign::Ring);
             layers.push(Layer::new("error below the error of the reference".into(), ink, rings));

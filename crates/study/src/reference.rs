@@ -23,8 +23,8 @@ const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
 const STEPS: f64 = 40.0;
 /// Fewest cells of a square, and of the coarser one that is compared with it.
 const LEAST_CELLS: usize = 32;
-/// Time, s, from which on a smaller square tells the time of larger ones.
-const TELLING: f64 = 0.2;
+/// Time, s, of a smaller square from which the time of larger ones follows.
+const LEAST_TIMED: f64 = 0.2;
 /// Growth of the time of a square with twice the cells along a side, without and with adhesion.
 const GROWTH: [f64; 2] = [6.5, 8.5];
 
@@ -324,7 +324,7 @@ fn seconds_of_square(
         let begun = Instant::now();
         body.load((smaller, seed), loads, stop)?;
         let seconds = begun.elapsed().as_secs_f64();
-        if 2 * smaller >= cells || seconds > TELLING {
+        if 2 * smaller >= cells || seconds > LEAST_TIMED {
             return Ok(seconds * growth.powi((cells / smaller).ilog2() as i32) * (1.0 + growth.recip()));
         }
         smaller *= 2;

@@ -8,14 +8,12 @@ use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled, wrapped};
 use crate::explorer::theme::Meaning;
-use asperity_contact::Edges;
 use asperity_data::format_rounded;
 use asperity_data::{grouped, per_cent};
 use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
 use asperity_report::work_precision;
 use asperity_report::{CostReport, error_rows, theory_rows, without_jkr};
 use asperity_scene::{CostTable, Estimate, Knob, Progress, measure};
-use asperity_scene::{Numerics, Solver};
 use asperity_study::{Budget, Ensemble, MeasuredAdhesion, Reference, SquareLoops};
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -100,7 +98,7 @@ fn panel(app: &App, size: Size) -> Panel {
     let Some((table, chart)) = chart.filter(|(_, chart)| !chart.layers.is_empty()) else {
         return Panel { head, foot, ..Panel::of_text(title, &nothing_yet(app)) };
     };
-    Panel { head, foot, ..Panel::of_chart(title, with_scene(with_orders(chart, table), app, table)) }
+    Panel { head, foot, ..Panel::of_chart(title, with_scene(chart, app, table)) }
 }
 
 /// Errors of the adhesion force by their sources, the largest of them first, and the criteria of other theories.
@@ -158,53 +156,10 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     }
     let targets = TARGETS.map(|target| Layer::unnamed(Ink::Quiet, Shape::Level(target)));
     chart.layers.splice(0..0, targets);
-    if let Some((seconds, error)) = present(&app.edit.document.scene().numerics, table) {
+    if let Some((seconds, error)) = table.between_rows(&app.edit.document.scene().numerics) {
         let points = vec![(seconds, error.max(lowest))];
         let shape = Shape::signs(points, Sign::Diamond);
         chart.layers.push(Layer::unnamed(Ink::Cursor, shape));
-    }
-    chart
-}
-
-fn setting_of(numerics: &Numerics) -> (Knob, f64) {
-    match (numerics.solver, numerics.edges) {
-        (Solver::Stepwise { step }, _) => (Knob::Step, step),
-        (Solver::Exact, Edges::Grid) => (Knob::GridSprings, numerics.points as f64),
-        (Solver::Exact, Edges::SubCell) => (Knob::SubCellSprings, numerics.points as f64),
-    }
-}
-
-/// Time and error of the scene itself: of the row with its setting, or between neighbouring rows. `None` for a setting that
-/// was not tried, and for steps that were tried with other numbers of springs only.
-fn present(numerics: &Numerics, table: &CostTable) -> Option<(f64, f64)> {
-    let (knob, setting) = setting_of(numerics);
-    let mut rows: Vec<(f64, (f64, f64))> = table
-        .rows_of(knob)
-        .filter(|row| knob != Knob::Step || row.springs == numerics.points)
-        .filter_map(|row| {
-            table.point(row).map(|(seconds, figure)| (row.setting.ln(), (seconds, figure.error)))
-        })
-        .collect();
-    rows.sort_by(|one, other| one.0.total_cmp(&other.0));
-    let at = setting.ln();
-    let above = rows.iter().position(|(setting, _)| *setting >= at)?;
-    let (right, there) = &rows[above];
-    if *right == at {
-        return Some(*there);
-    }
-    let (left, before) = rows.get(above.checked_sub(1)?)?;
-    let share = (at - left) / (right - left);
-    let between = |one: f64, other: f64| one * (other / one).powf(share);
-    Some((between(before.0, there.0), between(before.1, there.1)))
-}
-
-/// The chart with the observed order of convergence in the name of each kind of setting.
-fn with_orders(mut chart: Chart, table: &CostTable) -> Chart {
-    for layer in &mut chart.layers {
-        let knob = Knob::ALL.iter().find(|knob| layer.name.to_string() == knob.name());
-        if let Some(order) = knob.and_then(|knob| table.order(*knob)) {
-            layer.name = layer.name.clone().then(&format!(", order {order:.1}"));
-        }
     }
     chart
 }
@@ -220,7 +175,7 @@ fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
             Some(Estimate { near_step: true, .. }) => "near a step of F_a(F_n)".to_owned(),
             Some(estimate) => format!("error {}", per_cent(estimate.error)),
         };
-        let present = table.and_then(|table| present(&app.edit.document.scene().numerics, table));
+        let present = table.and_then(|table| table.between_rows(&app.edit.document.scene().numerics));
         let time = present.map_or_else(String::new, |(seconds, _)| format!(" in {}", time_of(seconds)));
         let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
         parts.push(vec![sign, Text::raw(format!("{error}{time}"))]);

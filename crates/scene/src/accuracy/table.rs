@@ -1,5 +1,7 @@
 //! The table of the cost of accuracy.
 
+use crate::scene::model::{Numerics, Solver};
+use asperity_contact::Edges;
 use asperity_data::format_rounded;
 use asperity_data::grouped;
 use asperity_data::slope;
@@ -151,6 +153,31 @@ impl CostTable {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         first_within(errors, bound).map(|index| rows[index])
+    }
+
+    /// Time, s, and main error of a scene with these numerics: of the row with its setting, or between neighbouring rows.
+    /// `None` for a setting that was not tried, and for steps that were tried with other numbers of springs only.
+    pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
+        let (knob, setting) = match (numerics.solver, numerics.edges) {
+            (Solver::Stepwise { step }, _) => (Knob::Step, step),
+            (Solver::Exact, Edges::Grid) => (Knob::GridSprings, numerics.points as f64),
+            (Solver::Exact, Edges::SubCell) => (Knob::SubCellSprings, numerics.points as f64),
+        };
+        let rows = self.rows_of(knob).filter(|row| knob != Knob::Step || row.springs == numerics.points);
+        let point =
+            |row: &Row| self.point(row).map(|(seconds, figure)| (row.setting.ln(), (seconds, figure.error)));
+        let mut rows: Vec<_> = rows.filter_map(point).collect();
+        rows.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let at = setting.ln();
+        let above = rows.iter().position(|(setting, _)| *setting >= at)?;
+        let (right, there) = rows[above];
+        if right == at {
+            return Some(there);
+        }
+        let (left, before) = *rows.get(above.checked_sub(1)?)?;
+        let share = (at - left) / (right - left);
+        let between = |one: f64, other: f64| one * (other / one).powf(share);
+        Some((between(before.0, there.0), between(before.1, there.1)))
     }
 
     /// Order of convergence of a knob by least squares over all rows with resolved errors; `None` for fewer than three such
