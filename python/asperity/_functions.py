@@ -331,7 +331,7 @@ def fit(
         raise refusal("curves", given, "a curve, or a list of at least one curve")
     all_curves = [_curve(number, curve) for number, curve in enumerate(given, 1)]
     named = [name if ends is None else f"{name}={_range(ends)}" for name, ends in _ranges(free)]
-    words = [f"--free={one}" for one in named] + in_words({"lines": profiles, **(options or {})})
+    words = [f"--free={one}" for one in named] + in_words({"profiles": profiles, **(options or {})})
     report = _native.fit(
         all_curves, _scene(scene, fields), [*words, "curves", "scene"], is_single, *_call(None, jobs, progress)[1:]
     )

@@ -17,7 +17,7 @@ class Loop:
 
     Compression is positive, and the indentation is 0 at first touch. A figure that the loop does not have is None. `kappa`,
     `tabor`, `regime`, `share` and `pull_off_error` need the form and the roughness of the body, which a profile of heights does
-    not tell apart: for such a profile they are None.
+    not state: for such a profile they are None.
     """
 
     #: Index of the loading stage, from 0.

@@ -23,15 +23,15 @@ pub struct Loop {
 }
 
 enum Source {
-    Heights(Cycle),
-    Scene(Document, Arc<Outcome>),
+    Heights(Box<Cycle>),
+    Scene(Box<Document>, Arc<Outcome>),
 }
 
 impl Loop {
     /// The loop of a computed scene.
     pub fn of_scene(document: Document, outcome: Arc<Outcome>) -> Loop {
         let stiffness = document.scene().loading_stiffness.unwrap_or(f64::INFINITY);
-        Loop { source: Source::Scene(document, outcome), stiffness }
+        Loop { source: Source::Scene(Box::new(document), outcome), stiffness }
     }
 
     fn stages(&self) -> &[LegRecord] {
@@ -71,7 +71,7 @@ impl Loop {
                 !watch.stop()
             };
             let options = LoadOptions::default().samples(samples).before_stage(&mut proceed);
-            Ok(Loop { source: Source::Heights(contact.load_with(&legs, options)?), stiffness })
+            Ok(Loop { source: Source::Heights(Box::new(contact.load_with(&legs, options)?)), stiffness })
         })
     }
 
