@@ -415,7 +415,7 @@ impl Measured {
                 timed.print_outcome(rough, one.kappa);
             }
         }
-        println!("  edits: the whole outcome with F_a(0) and histogram, legs copied");
+        println!("  edits: the whole outcome with F_a(d=0) and histogram, legs copied");
         for (index, kappa) in rough.kappas.into_iter().enumerate() {
             row(&format!("of kappa, to {kappa}"), self.edits.kappa[index]);
             row(&format!("of the seed, kappa = {kappa}"), self.edits.seed[index]);

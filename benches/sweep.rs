@@ -116,7 +116,7 @@ fn figure(size: &Size) -> Plan {
         "(version: 1, base: \"ideal-adhesion\", set: {{\"numerics.points\": \"{}\", \"roughness.modes\": \"(1, {})\"}},
          axes: [Linear(path: \"roughness.hurst\", from: 0.1, to: 0.9, count: {}),
                 Linear(path: \"adhesion.kappa\", from: 1.25, to: 41.25, count: {})],
-         preloads: [0.01, 0.1, 1.0], lines: {},
+         preloads: [0.01, 0.1, 1.0], profiles: {},
          record: [adhesion_coefficient, adhesion_force, first_touch_adhesion_share, regime])",
         size.points,
         size.points / 8,

@@ -49,11 +49,11 @@ outputs() {
         "$asperity" plan "$scene" | without_times >"$scene.plan.txt"
         "$asperity" plan "$scene" --format json | without_seconds >"$scene.plan.json"
     done
-    "$asperity" run pressure-sensitive --lines 8 --format csv >lines.csv
-    "$asperity" run pressure-sensitive --lines 8 --format json | without_seconds >lines.json
+    "$asperity" run pressure-sensitive --profiles 8 --format csv >lines.csv
+    "$asperity" run pressure-sensitive --profiles 8 --format json | without_seconds >lines.json
     "$asperity" run pressure-sensitive --tolerance 1% --format json 2>/dev/null | without_seconds >tolerance.json
     for plan in figure-5b stiffness-exponent equation-15; do
-        "$asperity" sweep "$plan" -o "$plan" --lines 1 --set numerics.points=4096 \
+        "$asperity" sweep "$plan" -o "$plan" --profiles 1 --set numerics.points=4096 \
             --set 'roughness.modes=(1, 512)' >/dev/null 2>&1
         rm -rf "$plan"/shards
         "$asperity" sweep plot "$plan" 2>/dev/null | cat >"$plan.plot.txt" || true

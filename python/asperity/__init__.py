@@ -10,6 +10,7 @@ A quantity is a number in SI units or a text with its unit. Compressive forces a
 touch. Long calls run without the lock of Python and stop at Ctrl-C.
 """
 
+from ._errors import FieldError, LoadingError
 from ._functions import (
     cone,
     criteria,
@@ -35,8 +36,9 @@ from ._functions import (
     wavy_sphere,
 )
 from ._loop import Loop
-from ._native import FieldError, LoadingError, Profile, Scene, __version__, quantity
-from ._notation import Form
+from ._native import Scene, __version__
+from ._notation import Form, quantity
+from ._profile import Profile
 from ._results import (
     Drawn,
     Ensemble,

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from . import _native
 from ._loop import Loop
-from ._native import Profile, Scene, quantity, whole
-from ._notation import Form, Quantity, in_fields, in_scene, in_words, refusal
+from ._native import Scene
+from ._notation import Form, Quantity, in_fields, in_scene, in_words, numbers, quantity, refusal, whole
+from ._profile import Profile
 from ._results import Ensemble, EnsembleFit, Fit, Fits, Found, Outcome, Preloads, Reference, Reversals, Study, Surface, Values
 
 #: Path of a file.
@@ -113,7 +114,8 @@ def profile(
     if roughness is not None:
         roughness = Form(roughness.kind, **{**roughness.values, "seed": seed})
     fields = {"length": length, "numerics.points": points, "form": form, "roughness": roughness}
-    return Profile.of_scene(Scene.parse(_PLAIN).set(in_fields(fields)))
+    scene = Scene.parse(_PLAIN).set(in_fields(fields))
+    return Profile._of(_native.Profile.of_scene(scene), scene)
 
 
 def load(
@@ -150,7 +152,7 @@ def load(
         works = [work if closing_work is None else closing_work, work]
         stiffness = float("inf") if loading_stiffness is None else loading_stiffness
         foundation = (modulus, works, stiffness)
-        return Loop(_native.Loop.of_heights(profile, foundation, (stages, edges == "grid", samples), progress))
+        return Loop(_native.Loop.of_heights(profile._native, foundation, (stages, edges == "grid", samples), progress))
     adhesion = {"work": work} if closing_work is None else {"work": work, "closing_work": closing_work}
     fields = {
         "material": {"effective_modulus": modulus},
@@ -171,7 +173,8 @@ def run(
     `jobs` threads share the profiles, by default one for each core; no result depends on their number. `progress` is called
     with the number of profiles that are done and of all.
     """
-    return Outcome(*_native.run(_scene(scene, fields), _call(profiles, jobs, progress)))
+    opened = _scene(scene, fields)
+    return Outcome(opened, *_native.run(opened, _call(profiles, jobs, progress)))
 
 
 def ensemble(
@@ -299,8 +302,8 @@ def surface(
         raise refusal("spacing", None, "the distance between the points of the array, m")
     distances = spacing if isinstance(spacing, tuple) else (spacing, spacing)
     along, across = (quantity(distance, "m", "spacing") for distance in distances)
-    heights: Any = files
-    return Surface(_native.Surface.of_heights(heights, [along, across], [*words, "array"]))
+    heights = numbers(cast("npt.ArrayLike", files), "heights", (1, 2))
+    return Surface(_native.Surface.of_heights(heights.reshape(-1, heights.shape[-1]), [along, across], [*words, "array"]))
 
 
 def fit(
@@ -323,9 +326,10 @@ def fit(
     reading curves: `{"units": ["nm", "nN"], "noise": "2 nN", "tilt": "remove"}` and others.
     """
     is_single = isinstance(curves, (str, os.PathLike, tuple))
-    all_curves = [curves] if is_single else list(curves)  # type: ignore[arg-type]
-    if not all_curves:
-        raise refusal("curves", all_curves, "a curve, or a list of at least one curve")
+    given: list[Any] = [curves] if is_single else list(cast("Sequence[_Curve]", curves))
+    if not given:
+        raise refusal("curves", given, "a curve, or a list of at least one curve")
+    all_curves = [_curve(number, curve) for number, curve in enumerate(given, 1)]
     named = [name if ends is None else f"{name}={_range(ends)}" for name, ends in _ranges(free)]
     words = [f"--free={one}" for one in named] + in_words({"lines": profiles, **(options or {})})
     report = _native.fit(
@@ -334,6 +338,15 @@ def fit(
     if profiles is not None:
         return EnsembleFit(report)
     return Fit(report) if is_single else Fits(report)
+
+
+def _curve(number: int, curve: Any) -> tuple[str, Any]:
+    if isinstance(curve, tuple) and len(curve) == 2:
+        columns = numbers(curve[0], "displacement"), numbers(curve[1], "force")
+        return f"curve {number}", columns
+    if isinstance(curve, (str, os.PathLike)):
+        return os.fspath(curve), os.fspath(curve)
+    raise refusal("curves", curve, "a file, or a pair of arrays with displacements and forces")
 
 
 def _ranges(
@@ -358,14 +371,17 @@ def press(
     `pressure` (Pa) and `gap` (m) of the result are maps; the solution has violations of at most `residual` rms heights.
     """
     load = (quantity(side, "m", "side"), quantity(modulus, "Pa", "modulus"), quantity(force, "N", "force"))
-    found = Values(_native.press(heights, load, periodic, quantity(residual, "1", "residual")))
-    cells = round(len(found.gap) ** 0.5)
+    square = numbers(heights, "heights", (2,))
+    cells = len(square)
+    if square.shape != (cells, cells):
+        raise refusal("heights", f"an array of the shape {square.shape}", "a square map")
+    found = Values(_native.press(square, load, periodic, quantity(residual, "1", "residual")))
     return Values(found, pressure=found.pressure.reshape(cells, cells), gap=found.gap.reshape(cells, cells))
 
 
-def presets() -> dict[str, str]:
-    """Names and titles of the built-in scenes."""
-    return dict(_native.presets())
+def presets() -> list[str]:
+    """Names of the built-in scenes."""
+    return _native.presets()
 
 
 def _scene(name: AnyScene, fields: Mapping[str, Any]) -> Scene:

@@ -1,13 +1,10 @@
 from collections.abc import Callable
-from typing import Any, SupportsFloat, TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
-import pandas as pd
 
 __all__ = [
-    "FieldError",
-    "LoadingError",
     "Loop",
     "Profile",
     "Report",
@@ -17,16 +14,15 @@ __all__ = [
     "find",
     "fit",
     "in_words",
+    "parsed",
     "preloads",
-    "press",
     "presets",
+    "press",
     "program",
-    "quantity",
     "reference",
     "reversals",
     "run",
     "study",
-    "whole",
     "__version__",
 ]
 
@@ -35,42 +31,15 @@ __version__: str
 # Number of profiles, number of threads, and the callback of the progress.
 _Call: TypeAlias = tuple[int | None, int | None, Callable[[int, int], object] | None]
 
-class FieldError(ValueError):
-    """A value is out of its range: `field`, `value` and `allowed` state which value, and what is allowed."""
-
-    field: str
-    value: str
-    allowed: str
-
-class LoadingError(ValueError):
-    """The contact does not reach a loading stage.
-
-    `stage` is its number from 1, `smallest_force` the smallest force within reach in N, or None.
-    """
-
-    stage: int
-    smallest_force: float | None
-
 @final
 class Profile:
-    """Profile of a rigid body: heights in m at equal distances, positive towards the half-space."""
+    """The profile of heights or of a scene; `asperity.Profile` gives its parts their names."""
 
-    def __new__(cls, heights: npt.ArrayLike, spacing: SupportsFloat | str) -> Profile: ...
+    def __new__(cls, heights: npt.NDArray[np.float64], spacing: float) -> Profile: ...
     @staticmethod
     def of_scene(scene: Scene) -> Profile: ...
-    @property
-    def scene(self) -> Scene | None: ...
-    @property
-    def x(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def heights(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def gaps(self) -> npt.NDArray[np.float64]: ...
-    @property
-    def spacing(self) -> float: ...
-    @property
-    def length(self) -> float: ...
-    def __len__(self) -> int: ...
+    def columns(self) -> dict[str, npt.NDArray[np.float64]]: ...
+    def size(self) -> tuple[int, float, float]: ...
 
 @final
 class Loop:
@@ -109,7 +78,7 @@ class Surface:
     @staticmethod
     def of_files(words: list[str]) -> Surface: ...
     @staticmethod
-    def of_heights(heights: npt.ArrayLike, spacing: list[float], words: list[str]) -> Surface: ...
+    def of_heights(heights: npt.NDArray[np.float64], spacing: list[float], words: list[str]) -> Surface: ...
     @property
     def report(self) -> Report: ...
     def profile(self, length: float, points: int, seed: int) -> Profile: ...
@@ -122,10 +91,9 @@ class Report:
     def write(self, format: str) -> bytes: ...
 
 def program(arguments: list[str]) -> int: ...
-def quantity(value: SupportsFloat | str, unit: str, field: str) -> float: ...
-def whole(value: Any, field: str, least: int, most: int) -> int: ...
+def parsed(text: str, unit: str, field: str) -> float: ...
 def in_words(value: float, unit: str) -> str: ...
-def presets() -> list[tuple[str, str]]: ...
+def presets() -> list[str]: ...
 def run(scene: Scene, call: _Call) -> tuple[Report, Profile, Loop]: ...
 def ensemble(scene: Scene, call: _Call) -> Report: ...
 def find(scene: Scene, field: str, condition: str, range: str | None, call: _Call) -> Report: ...
@@ -134,7 +102,7 @@ def reversals(scene: Scene, range: str | None, count: int, call: _Call) -> Repor
 def reference(scene: Scene, cells: int, maps: int, call: _Call) -> Report: ...
 def study(scene: Scene, axes: list[tuple[str, list[float]]], record: list[str], call: _Call) -> Report: ...
 def fit(
-    curves: list[Any],
+    curves: list[tuple[str, Any]],
     scene: Scene,
     words: list[str],
     is_single: bool,
@@ -142,5 +110,5 @@ def fit(
     progress: Callable[[int, int], object] | None,
 ) -> Report: ...
 def press(
-    heights: npt.ArrayLike, load: tuple[float, float, float], is_periodic: bool, residual: float
+    heights: npt.NDArray[np.float64], load: tuple[float, float, float], is_periodic: bool, residual: float
 ) -> dict[str, Any]: ...

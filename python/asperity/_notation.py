@@ -6,9 +6,14 @@ import json
 import operator
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, SupportsFloat, TypeAlias
+from typing import TYPE_CHECKING, Any, SupportsFloat, TypeAlias
 
-from ._native import FieldError
+from ._errors import FieldError
+from ._native import parsed
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 #: A number in SI units, or a text with its unit.
 Quantity: TypeAlias = SupportsFloat | str
@@ -53,9 +58,51 @@ def in_scene(value: Any) -> str:
 
 def refusal(field: str, value: object, allowed: str) -> FieldError:
     """The exception for a value that is not allowed."""
-    error = FieldError(f"{field} = {value!r}; allowed: {allowed}")
-    error.field, error.value, error.allowed = field, str(value), allowed
-    return error
+    return FieldError(f"{field} = {value}; allowed: {allowed}", field, str(value), allowed)
+
+
+def quantity(value: Quantity, unit: str, field: str) -> float:
+    """The number of a quantity in SI units: a number, or a text such as `"2.7 MPa"` for a field of the unit `"Pa"`."""
+    if isinstance(value, str):
+        return parsed(value, unit, field)
+    try:
+        if not isinstance(value, bool):
+            return float(value)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{field}: {type(value).__name__}; allowed: a number in {unit}, or a text with its unit")
+
+
+def whole(value: Any, field: str, least: int, most: int) -> int:
+    """A whole number from `least` to `most`."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if least <= number <= most:
+        return number
+    raise refusal(field, value, f"a whole number from {least} to {most}")
+
+
+def numbers(values: npt.ArrayLike, field: str, dimensions: tuple[int, ...] = (1,)) -> npt.NDArray[np.float64]:
+    """The finite numbers of an array with one of these numbers of dimensions, copied only if they do not lie in a row as float64."""
+    import numpy as np
+
+    words = " or ".join({1: "one-dimensional", 2: "two-dimensional"}[count] for count in dimensions)
+    allowed = f"a {words} array of finite real numbers, with at least one"
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise refusal(field, str(error), allowed) from None
+    if array.ndim not in dimensions or array.size == 0:
+        raise refusal(field, f"an array of the shape {array.shape}", allowed)
+    if array.dtype.kind not in "fiu":
+        raise refusal(field, f"an array of the type {array.dtype}", allowed)
+    found = np.ascontiguousarray(array, np.float64)
+    if not np.isfinite(found).all():
+        index = np.argwhere(~np.isfinite(found))[0]
+        raise refusal(field, f"{found[tuple(index)]} with the index {', '.join(map(str, index))}", allowed)
+    return found
 
 
 def in_fields(fields: Mapping[str, Any]) -> list[tuple[str, str]]:

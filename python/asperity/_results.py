@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._loop import Loop
-from ._notation import Quantity, in_fields
+from ._notation import Quantity, in_fields, quantity, whole
+from ._profile import Profile
 
 if TYPE_CHECKING:
     import numpy as np
@@ -102,13 +103,15 @@ class Outcome(Drawn):
     _shown = (("adhesion_force", "N"), ("regime", ""))
 
     #: Profile of the scene.
-    profile: _native.Profile
+    profile: Profile
     #: Force loop on that profile.
     loop: Loop
 
-    def __init__(self, report: _native.Report, profile: _native.Profile, loop: _native.Loop) -> None:
+    def __init__(
+        self, scene: _native.Scene, report: _native.Report, profile: _native.Profile, loop: _native.Loop
+    ) -> None:
         super().__init__(report)
-        self.profile = profile
+        self.profile = Profile._of(profile, scene)
         self.loop = Loop(loop)
 
 
@@ -191,13 +194,15 @@ class Surface(Drawn):
         super().__init__(surface.report)
         self._surface = surface
 
-    def profile(self, length: Quantity, points: int = 16384, *, seed: int = 1) -> _native.Profile:
+    def profile(self, length: Quantity, points: int = 16384, *, seed: int = 1) -> Profile:
         """A random profile of the equivalent line, on `points` springs along a length, m."""
-        length = _native.quantity(length, "m", "length")
-        return self._surface.profile(length, _native.whole(points, "points", 1, 2**28), _native.whole(seed, "seed", 0, 2**64 - 1))
+        count, number = whole(points, "points", 1, 2**28), whole(seed, "seed", 0, 2**64 - 1)
+        return Profile._of(self._surface.profile(quantity(length, "m", "length"), count, number), None)
 
     def scene(self, *, modulus: Quantity, work: Quantity | None = None, **fields: Any) -> _native.Scene:
         """A scene of the equivalent line over the length of the scan, with the effective modulus in Pa and the work of adhesion
         in J/m². It names the files of the surface."""
-        work = None if work is None else _native.quantity(work, "J/m²", "work")
-        return self._surface.scene(_native.quantity(modulus, "Pa", "modulus"), work).set(in_fields(fields))
+        if self.files[0].file == "array":
+            raise ValueError("a surface of an array has no file that a scene could name; allowed: files, or profile()")
+        adhesion = None if work is None else quantity(work, "J/m²", "work")
+        return self._surface.scene(quantity(modulus, "Pa", "modulus"), adhesion).set(in_fields(fields))

@@ -72,7 +72,7 @@ pub fn computed<R: Send>(
         return Err(error);
     }
     match done {
-        Ok(Ok(result)) => result.map_err(|failure| failure.exception(py)),
+        Ok(Ok(result)) => Ok(result?),
         Ok(Err(_)) => Err(PyRuntimeError::new_err("internal error, please report it")),
         Err(error) => Err(PyRuntimeError::new_err(format!("could not start a thread: {error}"))),
     }

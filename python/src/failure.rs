@@ -5,26 +5,12 @@ use asperity::experiment::ExperimentError;
 use asperity::scene::{Error, Origin, RunError, SceneError, SceneErrors};
 use asperity::study::StudyError;
 use asperity::surface::SurfaceError;
-use pyo3::create_exception;
+use asperity_half_space::HalfSpaceError;
 use pyo3::exceptions::{PyMemoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use std::fmt::Display;
 use std::fs::File;
 use std::path::PathBuf;
-
-create_exception!(
-    asperity,
-    FieldError,
-    PyValueError,
-    "A value is out of its range: `field`, `value` and `allowed` state which value, and what is allowed."
-);
-create_exception!(
-    asperity,
-    LoadingError,
-    PyValueError,
-    "The contact does not reach a loading stage: `stage` is its number from 1, `smallest_force` the smallest force \
-     within reach in N, or None."
-);
 
 /// Reason why a computation has no result, each with its sentence.
 pub enum Failure {
@@ -40,12 +26,6 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A value that is not allowed.
-    pub fn field(field: &str, value: impl Display, allowed: impl Display) -> Failure {
-        let message = format!("{field} = {value}; allowed: {allowed}");
-        Failure::Field(message, [field.to_owned(), value.to_string(), allowed.to_string()])
-    }
-
     /// A text that is not understood, for this reason.
     pub fn explained(field: &str, value: &str, reason: &impl Display) -> Failure {
         let message = format!("{field} = {value:?}: {reason}");
@@ -66,27 +46,26 @@ impl Failure {
             Failure::File(message) | Failure::Memory(message) | Failure::Value(message) => message,
         }
     }
+}
 
-    /// The exception of Python. An exception of a class of its own takes any attribute.
-    pub fn exception(self, py: Python<'_>) -> PyErr {
-        match self {
-            Failure::Field(message, values) => {
-                let error = FieldError::new_err(message);
-                for (name, value) in ["field", "value", "allowed"].into_iter().zip(values) {
-                    let _ = error.value(py).setattr(name, value);
+/// The exception of Python; those with values are classes of the package.
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> PyErr {
+        Python::attach(|py| {
+            let class = |name| py.import("asperity._errors").and_then(|errors| errors.getattr(name));
+            let made = match failure {
+                Failure::Field(message, [field, value, allowed]) => {
+                    class("FieldError").and_then(|class| class.call1((message, field, value, allowed)))
                 }
-                error
-            }
-            Failure::Loading(message, (stage, smallest_force)) => {
-                let error = LoadingError::new_err(message);
-                let _ = error.value(py).setattr("stage", stage);
-                let _ = error.value(py).setattr("smallest_force", smallest_force);
-                error
-            }
-            Failure::File(message) => PyOSError::new_err(message),
-            Failure::Memory(message) => PyMemoryError::new_err(message),
-            Failure::Value(message) => PyValueError::new_err(message),
-        }
+                Failure::Loading(message, (stage, smallest)) => {
+                    class("LoadingError").and_then(|class| class.call1((message, stage, smallest)))
+                }
+                Failure::File(message) => return PyOSError::new_err(message),
+                Failure::Memory(message) => return PyMemoryError::new_err(message),
+                Failure::Value(message) => return PyValueError::new_err(message),
+            };
+            made.map_or_else(|error| error, PyErr::from_value)
+        })
     }
 }
 
@@ -128,37 +107,28 @@ impl From<ContactError> for Failure {
     }
 }
 
-impl From<SurfaceError> for Failure {
-    fn from(error: SurfaceError) -> Failure {
-        match error {
-            SurfaceError::OutOfMemory { .. } => Failure::Memory(error.to_string()),
-            SurfaceError::Unreadable { .. } => Failure::File(error.to_string()),
-            _ => Failure::Value(error.to_string()),
+/// Failures of errors by their variants: those that hold another error, lack of memory, unreadable files; all others are values.
+macro_rules! failures {
+    ($($error:ident: $($inner:ident)*, memory $($memory:ident)*, file $($file:ident)*;)*) => {$(
+        impl From<$error> for Failure {
+            fn from(error: $error) -> Failure {
+                match error {
+                    $($error::$inner(inner) => inner.into(),)*
+                    $($error::$memory { .. } => Failure::Memory(error.to_string()),)*
+                    $($error::$file { .. } => Failure::File(error.to_string()),)*
+                    _ => Failure::Value(error.to_string()),
+                }
+            }
         }
-    }
+    )*};
 }
 
-impl From<RunError> for Failure {
-    fn from(error: RunError) -> Failure {
-        match error {
-            RunError::Values(errors) => errors.into(),
-            RunError::Surface(error) => error.into(),
-            RunError::Contact(error) => error.into(),
-            RunError::OutOfMemory { .. } => Failure::Memory(error.to_string()),
-            error => Failure::Value(error.to_string()),
-        }
-    }
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Failure {
-        match error {
-            Error::Values(errors) => errors.into(),
-            Error::Contact(error) => error.into(),
-            Error::Run(error) => error.into(),
-            error => Failure::Value(error.to_string()),
-        }
-    }
+failures! {
+    Error: Values Contact Run, memory, file;
+    ExperimentError: File Run, memory, file;
+    HalfSpaceError: , memory OutOfMemory, file;
+    RunError: Values Surface Contact, memory OutOfMemory, file;
+    SurfaceError: , memory OutOfMemory, file Unreadable;
 }
 
 impl From<StudyError> for Failure {
@@ -167,16 +137,6 @@ impl From<StudyError> for Failure {
             StudyError::Measured(error) => error.into(),
             StudyError::Run { place, error } if place.is_empty() => error.into(),
             StudyError::TooManyRecords(_) | StudyError::Memory { .. } => Failure::Memory(error.to_string()),
-            error => Failure::Value(error.to_string()),
-        }
-    }
-}
-
-impl From<ExperimentError> for Failure {
-    fn from(error: ExperimentError) -> Failure {
-        match error {
-            ExperimentError::File(error) => error.into(),
-            ExperimentError::Run(error) => error.into(),
             error => Failure::Value(error.to_string()),
         }
     }

@@ -2,7 +2,6 @@
 
 use crate::computing::{Watch, computed};
 use crate::failure::Failure;
-use crate::quantity::with_numbers;
 use crate::report::{Report, of_scene};
 use crate::scene::Scene;
 use asperity::cli::arguments::{Arguments, Command};
@@ -12,7 +11,6 @@ use asperity::scene::Document;
 use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
 use clap::Parser;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -31,25 +29,14 @@ pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failur
 }
 
 /// A measured curve as it is given.
-enum Curve {
+#[derive(FromPyObject)]
+pub enum Curve {
     File(PathBuf),
     /// Displacements, m, and forces, N.
     Columns(Vec<f64>, Vec<f64>),
 }
 
 impl Curve {
-    fn of(index: usize, given: &Bound<'_, PyAny>) -> PyResult<(String, Curve)> {
-        let Ok(columns) = given.cast::<PyTuple>() else {
-            let file: PathBuf = given.extract()?;
-            return Ok((path_name(&file), Curve::File(file)));
-        };
-        let column = |place: usize, name: &str| {
-            with_numbers(&columns.get_item(place)?, (name, 1), |numbers, _| Ok(numbers.to_vec()))
-        };
-        let columns = Curve::Columns(column(0, "displacement")?, column(1, "force")?);
-        Ok((format!("curve {}", index + 1), columns))
-    }
-
     fn read(&self, options: &CurveOptions) -> Result<MeasuredCurve, Failure> {
         let (displacement, force) = match self {
             Curve::Columns(displacement, force) => (displacement, force),
@@ -78,18 +65,15 @@ fn fitted(
 /// Fits a scene to one curve, to each of several curves, or on random profiles to all curves together. The words are options of
 /// `asperity fit`.
 #[pyfunction]
-#[pyo3(signature = (curves, scene, words, is_single, jobs, progress))]
 pub fn fit(
     py: Python<'_>,
-    curves: Vec<Bound<'_, PyAny>>,
+    curves: Vec<(String, Curve)>,
     scene: &Scene,
     words: Vec<String>,
     is_single: bool,
     jobs: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Report> {
-    let curves = curves.iter().enumerate().map(|(index, curve)| Curve::of(index, curve));
-    let curves = curves.collect::<PyResult<Vec<_>>>()?;
     let (document, jobs) = (scene.document.clone(), jobs.unwrap_or_else(parallel::threads));
     computed(py, progress, move |watch| {
         let Some(Command::Fit(arguments)) = command("fit", words)? else {

@@ -93,20 +93,19 @@ impl Loop {
 
     /// Columns of the curve, and the released energy of each stage.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let columns = PyDict::new(py);
-        let numbered = self.stages().iter().zip(0_i64..);
-        let stage = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]).collect();
-        let displacement =
-            self.stages().iter().flat_map(|stage| displacements(stage, self.stiffness)).collect();
-        columns.set_item("stage", array::<i64>(py, stage))?;
+        let (columns, stages) = (PyDict::new(py), self.stages());
+        let numbered = stages.iter().zip(0_i64..);
+        let stage = numbered.flat_map(|(stage, number)| vec![number; stage.curve.len()]);
+        let displacement = stages.iter().flat_map(|stage| displacements(stage, self.stiffness));
+        columns.set_item("stage", array::<i64>(py, stage.collect()))?;
         columns.set_item("d", array(py, self.column(|point| point.indentation)))?;
         columns.set_item("F", array(py, self.column(|point| point.force)))?;
-        columns.set_item("D", array::<f64>(py, displacement))?;
+        columns.set_item("D", array::<f64>(py, displacement.collect()))?;
         columns.set_item("length", array(py, self.column(|point| point.contact_length)))?;
         columns.set_item("patches", array(py, self.column(|point| point.fragments as i64)))?;
         columns.set_item("energy", array(py, self.column(|point| point.stored_energy)))?;
-        let released = self.stages().iter().map(|stage| stage.released_energy).collect();
-        columns.set_item("released", array::<f64>(py, released))?;
+        let released = stages.iter().map(|stage| stage.released_energy);
+        columns.set_item("released", array::<f64>(py, released.collect()))?;
         Ok(columns)
     }
 

@@ -22,12 +22,11 @@ mod _native {
 
     #[pymodule_export]
     use super::{
-        failure::{FieldError, LoadingError},
         fit::fit,
         force_loop::Loop,
         press::press,
         profile::Profile,
-        quantity::{in_words, quantity, whole},
+        quantity::{in_words, parsed},
         report::Report,
         results::{ensemble, find, preloads, reference, reversals, run, study},
         scene::{Scene, presets},

@@ -9,13 +9,12 @@ use crate::scene::Scene;
 use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Simulation, estimate};
 use asperity::study::{
-    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceOptions, Results,
-    Staircase, compute, parse_condition, parse_preloads, parse_range,
+    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceEvent, ReferenceOptions,
+    Results, Staircase, compute, parse_condition, parse_preloads, parse_range,
 };
 use asperity_report::{FindReport, PreloadReport, ReferenceReport, ReversalReport, RunReport};
 use pyo3::prelude::*;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Largest number of springs for which the error by the spectrum of a measured surface is computed unasked.
 const MOST_SPRINGS: u64 = 1 << 17;
@@ -30,6 +29,17 @@ impl Call {
         let profiles = self.0.unwrap_or_else(|| Ensemble::profiles_of(scene.document.scene()));
         (profiles, self.1.unwrap_or_else(parallel::threads), self.2)
     }
+}
+
+/// Computes a report of a scene on a number of profiles and threads.
+fn reported(
+    py: Python<'_>,
+    scene: &Scene,
+    call: Call,
+    work: impl FnOnce(Document, (u64, usize), &Watch) -> Result<Report, Failure> + Send,
+) -> PyResult<Report> {
+    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
+    computed(py, progress, move |watch| work(document, (profiles, jobs), watch))
 }
 
 /// The results of a scene on its random profiles.
@@ -70,16 +80,14 @@ pub fn run(py: Python<'_>, scene: &Scene, call: Call) -> PyResult<(Report, Profi
             let report = RunReport { title, scene, outcome, choice: None, estimate, ensemble, deviation };
             of_scene(&kept, &report, format)
         });
-        let profile = Profile { profile, document: Some(document.clone()) };
-        Ok((report, profile, Loop::of_scene(document, outcome)))
+        Ok((report, Profile { profile }, Loop::of_scene(document, outcome)))
     })
 }
 
 /// Computes a scene on random profiles.
 #[pyfunction]
 pub fn ensemble(py: Python<'_>, scene: &Scene, call: Call) -> PyResult<Report> {
-    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
-    computed(py, progress, move |watch| {
+    reported(py, scene, call, move |document, (profiles, jobs), watch| {
         let ensemble = on_profiles(&document, (profiles, true), jobs, watch)?;
         Ok(Report::new(move |format| of_scene(&document, &ensemble, format)))
     })
@@ -87,7 +95,6 @@ pub fn ensemble(py: Python<'_>, scene: &Scene, call: Call) -> PyResult<Report> {
 
 /// Finds the number of a scene at which a quantity has a value.
 #[pyfunction]
-#[pyo3(signature = (scene, field, condition, range, call))]
 pub fn find(
     py: Python<'_>,
     scene: &Scene,
@@ -96,8 +103,7 @@ pub fn find(
     range: Option<&str>,
     call: Call,
 ) -> PyResult<Report> {
-    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
-    computed(py, progress, move |watch| {
+    reported(py, scene, call, move |document, (profiles, jobs), watch| {
         let (scene, condition) = (document.scene(), parse_condition(condition)?);
         let mut simulation = Simulation::new(document.resolve(""));
         let mut question = Question::new(scene, field, condition, profiles, &mut simulation)?;
@@ -116,8 +122,7 @@ pub fn find(
 /// Computes the adhesion force of a scene over preloads, as `asperity run --preloads` takes them.
 #[pyfunction]
 pub fn preloads(py: Python<'_>, scene: &Scene, preloads: &str, call: Call) -> PyResult<Report> {
-    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
-    computed(py, progress, move |watch| {
+    reported(py, scene, call, move |document, (profiles, jobs), watch| {
         let (stop, axis) = (|| watch.stop(), parse_preloads(preloads)?);
         let mut simulation = Simulation::new(document.resolve(""));
         let staircase = Staircase::find(document.scene(), &axis, &mut simulation, &stop, &mut |_| ())?;
@@ -137,7 +142,6 @@ pub fn preloads(py: Python<'_>, scene: &Scene, preloads: &str, call: Call) -> Py
 
 /// Computes the unloading of a scene from each of many turning points.
 #[pyfunction]
-#[pyo3(signature = (scene, range, count, call))]
 pub fn reversals(
     py: Python<'_>,
     scene: &Scene,
@@ -145,8 +149,7 @@ pub fn reversals(
     count: usize,
     call: Call,
 ) -> PyResult<Report> {
-    let document = scene.document.clone();
-    computed(py, call.2, move |watch| {
+    reported(py, scene, call, move |document, _, watch| {
         let ends = range.map(|range| parse_range(range, "N")).transpose()?;
         let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
         let map = simulation.reversal_map(document.scene(), ends, count, &|| watch.stop())?;
@@ -161,13 +164,17 @@ pub fn reversals(
 /// Computes a scene as a line and in three dimensions, on squares of `cells` along a side.
 #[pyfunction]
 pub fn reference(py: Python<'_>, scene: &Scene, cells: usize, maps: u64, call: Call) -> PyResult<Report> {
-    let (document, lines) = (scene.document.clone(), call.0.unwrap_or(16 * maps));
-    let (_, jobs, progress) = call.of(scene);
-    computed(py, progress, move |watch| {
-        let done = AtomicU64::new(0);
-        let report = || watch.report(1 + done.fetch_add(1, Ordering::Relaxed), maps);
-        let options = ReferenceOptions { cells, maps, lines };
-        let found = Reference::of(document.scene(), options, jobs, &|| watch.stop(), &report)?;
+    let lines = call.0.unwrap_or(16 * maps);
+    reported(py, scene, call, move |document, (_, jobs), watch| {
+        let (options, mut done) = (ReferenceOptions { cells, maps, lines }, 0);
+        let mut report = |event| {
+            if let ReferenceEvent::Square { .. } = event {
+                done += 1;
+                watch.report(done, maps);
+            }
+        };
+        let simulation = (Simulation::new(document.resolve("")), jobs);
+        let found = Reference::of(document.scene(), options, simulation, &|| watch.stop(), &mut report)?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (document.title(), document.scene(), &found);
             of_scene(&document, &ReferenceReport { title, scene, reference }, format)
@@ -184,8 +191,7 @@ pub fn study(
     record: Vec<String>,
     call: Call,
 ) -> PyResult<Report> {
-    let (document, (profiles, jobs, progress)) = (scene.document.clone(), call.of(scene));
-    computed(py, progress, move |watch| {
+    reported(py, scene, call, move |document, (profiles, jobs), watch| {
         let record = record.iter().map(|name| Quantity::named(name)).collect::<Result<Vec<_>, _>>()?;
         let axes: Vec<_> = axes.iter().map(|(path, values)| (path.as_str(), values.as_slice())).collect();
         let plan = Plan::new(&document, &axes, profiles, &record)?;

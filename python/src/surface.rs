@@ -4,7 +4,6 @@ use crate::computing::computed;
 use crate::failure::Failure;
 use crate::fit::command;
 use crate::profile::Profile;
-use crate::quantity::with_numbers;
 use crate::report::{Report, bytes};
 use crate::scene::Scene;
 use asperity::cli::arguments::Command;
@@ -12,6 +11,7 @@ use asperity::cli::surface::SurfaceArguments;
 use asperity::scene::{Adhesion, Document};
 use asperity::surface::{EquivalentLine, Topography, analyse};
 use asperity_report::{MeasuredFace, SurfaceFile, SurfaceReport};
+use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,7 +21,6 @@ use std::sync::Arc;
 pub struct Surface {
     arguments: Arc<SurfaceArguments>,
     report: Arc<SurfaceReport>,
-    is_array: bool,
 }
 
 /// Options of `asperity surface` as words of its command line.
@@ -33,12 +32,12 @@ fn parsed(words: Vec<String>) -> Result<SurfaceArguments, Failure> {
 }
 
 impl Surface {
-    fn of(arguments: SurfaceArguments, faces: Vec<MeasuredFace>, is_array: bool) -> Surface {
+    fn of(arguments: SurfaceArguments, faces: Vec<MeasuredFace>) -> Surface {
         let spectra = faces.iter().map(|face| face.analysis.isotropic.clone());
         let line = EquivalentLine { faces: spectra.collect() };
         let (modulus, work) = (arguments.modulus, arguments.work);
         let report = SurfaceReport { faces, line, modulus, work, adhesion: None };
-        Surface { arguments: Arc::new(arguments), report: Arc::new(report), is_array }
+        Surface { arguments: Arc::new(arguments), report: Arc::new(report) }
     }
 }
 
@@ -50,27 +49,25 @@ impl Surface {
         computed(py, None, |_| {
             let arguments = parsed(words)?;
             let faces = arguments.faces().map_err(|error| Failure::of_files(&arguments.files, error))?;
-            Ok(Surface::of(arguments, faces, false))
+            Ok(Surface::of(arguments, faces))
         })
     }
 
-    /// Analyses a profile or a map of heights in m, with the distances between points and between rows, m.
+    /// Analyses a map of heights in m, with the distances between points and between rows, m.
     #[staticmethod]
     fn of_heights(
         py: Python<'_>,
-        heights: &Bound<'_, PyAny>,
+        heights: PyReadonlyArray2<'_, f64>,
         spacing: [f64; 2],
         words: Vec<String>,
     ) -> PyResult<Surface> {
-        let surface = with_numbers(heights, ("heights", 2), |heights, shape| {
-            Ok(Topography::from_map(heights, shape[shape.len() - 1], spacing)?)
-        })?;
+        let (heights, columns) = (heights.as_slice()?, heights.shape()[1]);
         computed(py, None, |_| {
-            let arguments = parsed(words)?;
+            let (arguments, surface) = (parsed(words)?, Topography::from_map(heights, columns, spacing)?);
             let options = arguments.options().map_err(|error| error.to_string())?;
             let files = vec![SurfaceFile::new(PathBuf::from("array"), &surface)];
             let analysis = analyse(&[surface], &options.spectrum)?;
-            Ok(Surface::of(arguments, vec![MeasuredFace { files, analysis }], true))
+            Ok(Surface::of(arguments, vec![MeasuredFace { files, analysis }]))
         })
     }
 
@@ -86,18 +83,13 @@ impl Surface {
         computed(py, None, |_| {
             let heights = self.report.line.heights(length, points, seed)?;
             let profile = asperity::Profile::from_heights(heights, length / points as f64)?;
-            Ok(Profile { profile, document: None })
+            Ok(Profile { profile })
         })
     }
 
     /// A scene of the equivalent line over the length of the scan, on a body of this effective modulus, Pa.
     fn scene(&self, py: Python<'_>, modulus: f64, work: Option<f64>) -> PyResult<Scene> {
         computed(py, None, |_| {
-            if self.is_array {
-                let reason =
-                    "a surface of an array has no file that a scene could name; allowed: files, or profile()";
-                return Err(reason.to_owned().into());
-            }
             let SurfaceReport { faces, line, .. } = &*self.report;
             let scene = self.arguments.scene_of(modulus, faces, line);
             let mut scene = scene.map_err(|error| error.to_string())?;

@@ -70,9 +70,9 @@ class Loops(unittest.TestCase):
 
 
 class Refusals(unittest.TestCase):
-    def refused(self, error, sentence, work, *arguments, **named):
+    def refused(self, error, sentence, function, /, *arguments, **named):
         with self.assertRaises(error) as raised:
-            work(*arguments, **named)
+            function(*arguments, **named)
         self.assertRegex(str(raised.exception), sentence)
         self.assertIs(type(raised.exception), error)
         return raised.exception
@@ -80,7 +80,7 @@ class Refusals(unittest.TestCase):
     def test_arrays(self):
         for heights, found in [
             ([], r"the shape \(0,\)"),
-            ([1, np.nan], "NaN with the index 1"),
+            ([1, np.nan], "nan with the index 1"),
             ([-np.inf], "-inf with the index 0"),
             (np.zeros((2, 2)), r"the shape \(2, 2\)"),
             (None, r"the shape \(\)"),
@@ -148,6 +148,33 @@ class Computations(unittest.TestCase):
         loop = asp.load(again, modulus=outcome.effective_modulus, work=outcome.work_of_adhesion, stages="10 µN, separation")
         self.assertAlmostEqual(loop.pull_off / outcome.adhesion_force, 1, delta=1e-9)
 
+    def test_a_sphere_in_three_dimensions_is_that_of_hertz(self):
+        at = (np.arange(128) + 0.5) / 128 - 0.5
+        heights = -(at[:, None] ** 2 + at**2) / 2
+        found = asp.press(heights, side=1, modulus=1, force=4 / 3 * 0.2**3, residual=1e-6)
+        self.assertAlmostEqual(found.indentation / 0.2**2, 1, delta=2e-3)
+        self.assertAlmostEqual(found.pressure.sum() / 128**2 / found.force, 1, delta=1e-9)
+        self.assertEqual(found.gap.shape, (128, 128))
+
+    def test_what_cannot_be_measured_is_refused(self):
+        for wrong, sentence in [
+            (lambda: asp.surface("no.txt"), "no.txt: cannot be read"),
+            (lambda: asp.surface([1, 2, np.nan], spacing=1), "heights = nan with the index 2"),
+            (lambda: asp.surface([1, 2, 3]), "spacing = None; allowed: the distance between the points"),
+            (lambda: asp.surface([[1, 2], [3]], spacing=1), "heights = .*inhomogeneous"),
+            (lambda: asp.surface("no.txt", nosuch=1), "unexpected argument '--nosuch' found"),
+            (lambda: asp.fit("no.csv", SCENE, ["work"]), "no.csv: cannot be read"),
+            (lambda: asp.fit([], SCENE, ["work"]), r"curves = \[\]; allowed"),
+            (lambda: asp.fit(([1], [1, 2]), SCENE, ["work"]), "1 displacements and 2 forces"),
+            (lambda: asp.fit(([1], [1]), SCENE, ["wrk"]), "did you mean work"),
+            (lambda: asp.fit(([1], [1]), SCENE, ["work"], options={"noise": "-5 nN"}), "allowed: a standard deviation above 0"),
+            (lambda: asp.study(SCENE, {"adhesion.kappa": []}), "no values; allowed: at least one"),
+            (lambda: asp.press(np.zeros((32, 33)), side=1, modulus=1, force=1), "a square map"),
+            (lambda: asp.press(np.zeros((31, 31)), side=1, modulus=1, force=1), "31"),
+        ]:
+            with self.assertRaisesRegex((ValueError, OSError), sentence):
+                wrong()
+
     def test_progress_is_reported(self):
         seen = []
         asp.ensemble(SCENE, profiles=5, jobs=1, progress=lambda done, of: seen.append((done, of)))
@@ -190,6 +217,7 @@ class Computations(unittest.TestCase):
                     work()
                 except KeyboardInterrupt:
                     print("stopped", flush=True)
+            time.sleep(0.5)
             print(len(os.listdir("/proc/self/task")))
             """
         child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
@@ -224,7 +252,7 @@ class Program(unittest.TestCase):
         self.assertIn("# command: asperity run jkr-sphere\n", table)
 
     def test_an_interrupt_ends_a_command(self):
-        command = [sys.executable, "-m", "asperity", "run", SCENE, "--lines", "20000"]
+        command = [sys.executable, "-m", "asperity", "run", SCENE, "--profiles", "20000"]
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(1)
         child.send_signal(signal.SIGINT)
@@ -245,6 +273,12 @@ class Documentation(unittest.TestCase):
                 os.chdir(here)
         self.assertGreater(len(test.examples), 10)
         self.assertEqual(failed, 0)
+
+    def test_the_code_of_the_root_readme_runs(self):
+        text = (HERE.parent / "README.md").read_text(encoding="utf-8")
+        code = re.search(r"```python\n(.*?)```", text, re.DOTALL)
+        done = subprocess.run([sys.executable, "-c", code[1]], capture_output=True, text=True)
+        self.assertRegex(done.stdout, r"^2\.356\d+e-05 N \{'pressure-sensitive': \d+")
 
     def test_examples_run(self):
         scripts = sorted((HERE / "examples").glob("*.py"))

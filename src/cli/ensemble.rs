@@ -1,4 +1,4 @@
-//! `asperity fit … --lines`: the work of adhesion of a rough body by comparison with random profiles.
+//! `asperity fit … --profiles`: the work of adhesion of a rough body by comparison with random profiles.
 
 use super::error::CliError;
 use super::fits::{Curves, files_of};
@@ -23,7 +23,7 @@ pub struct EnsembleArguments {
     /// One work of adhesion for all curves of a rough body of unknown profile, each at a place of
     /// its own. --free work, or work,modulus; the displacement at first touch does not matter.
     #[arg(
-        long,
+        long = "profiles",
         verbatim_doc_comment,
         value_name = "COUNT",
         num_args = 0..=1,
@@ -53,7 +53,7 @@ impl EnsembleArguments {
     /// Parameters that random profiles do not determine.
     pub fn options(&self, free: &[Free], lines: u32) -> Result<EnsembleOptions, CliError> {
         use Parameter::{Modulus, Offset, Work};
-        let allowed = "allowed with --lines: work, modulus, offset, each without a range";
+        let allowed = "allowed with --profiles: work, modulus, offset, each without a range";
         for one in free {
             if ![Work, Modulus, Offset].contains(&one.parameter) || one.range().is_some() {
                 return Err(CliError::named("--free", format!("{}; {allowed}", one.parameter.name())));
@@ -79,7 +79,7 @@ pub(super) fn ensemble(
     let options = compared.options(arguments.free, lines)?;
     if arguments.reading.noise.is_some() {
         let refused =
-            "not with --lines, whose computed curves have the noise before contact; allowed: without it";
+            "not with --profiles, whose computed curves have the noise before contact; allowed: without it";
         return Err(CliError::named("--noise", refused));
     }
     let document = arguments.overrides.apply(open_scene(arguments.scene)?)?;

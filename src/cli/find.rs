@@ -13,7 +13,7 @@ use std::io::Write;
 const EXAMPLES: &str = "\
 Examples:
   asperity find preload pressure-sensitive --where 'F_a/F_a,max = 20 %'
-  asperity find adhesion.work rough-sphere --where 'F_a = 2 uN' --lines 32
+  asperity find adhesion.work rough-sphere --where 'F_a = 2 uN' --profiles 32
   asperity find roughness.rms_height my-scene.ron --where 'F_a/F_n = 0.1' --range 10nm..1um
   asperity find preload my-scene.ron --where 'dissipated energy = 2 pJ' --format json | jq .median
 

@@ -23,7 +23,7 @@ Examples:
   asperity fit curve.txt my-scene.ron --free work,modulus,offset --units nm,nN --tilt remove
   asperity fit curve.csv my-scene.ron --free work,modulus,offset --segments 2
   asperity fit curve.csv my-scene.ron --free work=1mJ/m^2..1J/m^2,offset -o fit.json
-  asperity fit places/*.csv rough.ron --free work,modulus --lines 128 --height-error 5%
+  asperity fit places/*.csv rough.ron --free work,modulus --profiles 128 --height-error 5%
   asperity fit curve.csv my-scene.ron --free work,offset --scene found.ron -o fit.svg
   asperity fit map/*.txt my-scene.ron --free work,modulus,offset -o table.csv
 

@@ -28,6 +28,7 @@ const REMOVED: &[(&str, &str)] = &[
     ("--fragments", "--draw patches"),
     ("--panels", "--draw panels"),
     ("--surface-name", "--channel takes the name of a surface"),
+    ("--lines", "--profiles is the number of random profiles"),
     ("--level", "--where names the share of F_a,max"),
     ("--over", "--x names the parameter"),
     (FIGURE_OF_SENSITIVITY, "its table has the same changes, and the explorer draws them as bars (Y)"),

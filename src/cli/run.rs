@@ -28,8 +28,8 @@ Examples:
   asperity run jkr-sphere --set numerics.points=65536 -o jkr.csv
   asperity run jkr.csv --set adhesion.work=0.1 -o other.npy
   asperity run jkr-sphere --tolerance 0.1%
-  asperity run pressure-sensitive --lines 32 --format csv     A row for each profile
-  asperity run pressure-sensitive --preloads 0..20uN --lines 16
+  asperity run pressure-sensitive --profiles 32 --format csv     A row for each profile
+  asperity run pressure-sensitive --preloads 0..20uN --profiles 16
   asperity run pressure-sensitive -o loop.svg
   asperity run pressure-sensitive --draw profile -o profile.svg
   asperity run before.ron after.ron                  Differences, results, curves
@@ -83,7 +83,7 @@ pub struct RunArguments {
     ///
     /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128; with :log at
     /// equal ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload; with
-    /// --lines, median, quartiles, range and mean over the profiles. A preload below 0 N turns
+    /// --profiles, median, quartiles, range and mean over the profiles. A preload below 0 N turns
     /// while the bodies are still drawn together, and is at least the force at first touch.
     #[arg(long, value_name = "A..B", allow_hyphen_values = true, value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
@@ -129,7 +129,7 @@ impl RunArguments {
         let format = self.output.format(formats, usual)?;
         if several && format.is_picture() && self.profiles.lines.is_some() && self.preloads.is_none() {
             let allowed = "allowed: one scene, text, or --preloads";
-            return Err(CliError::named("--lines", format!("a figure of several scenes; {allowed}")));
+            return Err(CliError::named("--profiles", format!("a figure of several scenes; {allowed}")));
         }
         Ok(format)
     }

@@ -32,7 +32,7 @@ pub struct ProfileArguments {
     /// Compute COUNT random profiles; default: 16, or 1 for a fixed profile
     ///
     /// Their seeds begin with the seed of the scene.
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=MOST_LINES), verbatim_doc_comment)]
+    #[arg(long = "profiles", value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Threads that share the profiles; default: one for each core
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]

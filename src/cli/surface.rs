@@ -26,7 +26,7 @@ const EXAMPLES: &str = "\
 Examples:
   asperity surface stylus.txt --unit um
   asperity surface stylus.txt --unit um --modulus 2.7MPa --work 50mJ/m^2
-  asperity surface afm.gwy --modulus 2.7MPa --work 50mJ/m^2 --preload 1mN --lines 100
+  asperity surface afm.gwy --modulus 2.7MPa --work 50mJ/m^2 --preload 1mN --profiles 100
   asperity surface a.x3p b.x3p c.x3p --format json -o surface.json
   asperity surface one.sdf --opposite other.sdf --modulus 2.7MPa --work 50mJ/m^2
   asperity surface profile.csv --unit um -o spectra.csv
@@ -90,8 +90,9 @@ pub struct SurfaceArguments {
     /// Random profiles of the adhesion force; needs --work
     ///
     /// Each is solved on the fitted spectrum and on one moved within its uncertainty, for the
-    /// spread over profiles and the spread by the fit. Default: 16 up to 131 072 springs, else none.
-    #[arg(long, value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
+    /// spread over profiles and the spread by the fit. Default: 16 up to 131 072 springs, else
+    /// none.
+    #[arg(long = "profiles", value_name = "COUNT", requires = "work", value_parser = clap::value_parser!(u32).range(2..=MOST_LINES), verbatim_doc_comment)]
     pub lines: Option<u32>,
     /// Output file.
     #[command(flatten)]

@@ -19,7 +19,7 @@ pub const PLAN: &str = r#"(
         Logarithmic(path: "adhesion.kappa", from: 0.25, to: 16, count: 13),
     ],
     preloads: [0.01, 0.1, 1.0],
-    lines: 12,
+    profiles: 12,
     record: [first_touch_adhesion_share, adhesion_coefficient, adhesion_force, regime],
 )"#;
 

@@ -296,7 +296,7 @@ fn whatever_happens_it_draws_and_its_scene_is_sound() {
     let plan = PLAN
         .replace("count: 9", "count: 2")
         .replace("count: 13", "count: 3")
-        .replace("lines: 12", "lines: 2");
+        .replace("profiles: 12", "profiles: 2");
     merged(folder.path(), &plan);
     let scenes = scenes(folder.path());
     let drawn = (0..scenes.len(), size(), prop::collection::vec(event(), 1..=LONGEST));

@@ -132,7 +132,7 @@ fn skewness(exponent: u32) -> f64 {
     let run = [
         "run",
         "profile-hurst-075",
-        "--lines",
+        "--profiles",
         "32",
         "--format",
         "json",
@@ -149,7 +149,7 @@ fn skewness(exponent: u32) -> f64 {
 /// Largest over smallest ratio of the mean adhesion force to the preload, from 0.5 to 40 µN.
 fn variation_of_the_coefficient(kappa: u32) -> f64 {
     let set = format!("adhesion.kappa={kappa}");
-    let preloads = ["--preloads", "0.5uN..40uN:80", "--lines", "128", "--format", "json"];
+    let preloads = ["--preloads", "0.5uN..40uN:80", "--profiles", "128", "--format", "json"];
     let run = json(&[&["run", "pressure-sensitive", "--set", &set], &preloads[..]].concat());
     let ratio = |row: &serde_json::Value| {
         row["adhesion_force"]["mean"].as_f64().unwrap() / row["preload"].as_f64().unwrap()
@@ -258,7 +258,7 @@ fn check_claims(folder: &Path) {
             "in part",
             format!(
                 "F_a/F_n of the mean varies by a factor of {} at κ = 6, {} at 8, {} at 10: `asperity run \
-                 pressure-sensitive --set adhesion.kappa=6 --preloads 0.5uN..40uN:80 --lines 128`",
+                 pressure-sensitive --set adhesion.kappa=6 --preloads 0.5uN..40uN:80 --profiles 128`",
                 factors[0], factors[1], factors[2]
             ),
         ),

@@ -22,13 +22,17 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 200;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 16] = [
+const PAGES: [(&str, &str); 17] = [
     ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
     ("scene-file.md", "fields of a scene, waves, loading, forms, built-in scenes"),
     ("results.md", "summary, JSON, tables, figures"),
     ("keys.md", "panes and keys of the explorer, typed values, configuration"),
     ("studies.md", "inverse questions, parameter studies, statistics, clusters"),
     ("reversals.md", "adhesion against preload, Everett function"),
+    (
+        "particles.md",
+        "force laws for particle solvers: loop with reversals, reference curves, JKR force without iteration",
+    ),
     ("surfaces.md", "measured surfaces: use, formats, fields"),
     ("surface-estimate.md", "how a measured spectrum is estimated, and its errors"),
     ("experiment.md", "measured force curves: reading, fit of the work of adhesion, errors"),
@@ -165,7 +169,7 @@ fn errors_of_a_sphere_are_those_of_the_program() {
 #[test]
 fn pictures_are_those_of_their_commands() {
     let folder = tempfile::tempdir().unwrap();
-    for inside in ["docs/learn", "docs/examples"] {
+    for inside in ["docs/learn", "docs/examples", "docs/particles"] {
         std::fs::create_dir_all(folder.path().join(inside)).unwrap();
     }
     for file in ["docs/examples/five-springs.ron", "docs/examples/five-springs.txt"] {
@@ -173,6 +177,8 @@ fn pictures_are_those_of_their_commands() {
     }
     let protocols = "asperity run pressure-sensitive --set \
                      \"loading=[ToTouch,ToSeparation,ToZeroForce,ToSeparation]\" -o docs/learn/protocols.svg";
+    let of_particles =
+        |scene, file| format!("asperity run {scene} --set numerics.samples=64 -o docs/particles/{file}.csv");
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
                      -o docs/learn/five-springs.svg";
     for (page, command) in [
@@ -182,6 +188,9 @@ fn pictures_are_those_of_their_commands() {
         ("docs/learn.md", protocols),
         ("README.md", "asperity demo pressure-sensitive --at 13 --size 120x36 -o docs/explorer.svg"),
         ("docs/reversals.md", "asperity reversals pressure-sensitive -o docs/reversals.svg"),
+        ("docs/particles.md", &of_particles("jkr-sphere", "sphere")),
+        ("docs/particles.md", &of_particles("rough-sphere", "rough-sphere")),
+        ("docs/particles.md", &of_particles("two-works", "two-works")),
     ] {
         assert!(read(page).contains(command), "{page} lacks: {command}");
         succeeded(folder.path(), command);

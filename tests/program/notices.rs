@@ -50,7 +50,7 @@ fn three_regimes_depend_on_the_preload_as_stated() {
     let ideal = scene("ideal-adhesion", &["the pull-off force is the same for every preload"]);
     let outcome = run(&ideal);
     assert_eq!(outcome.regime, Some(Regime::PressureInsensitive));
-    assert_eq!(outcome.zero_load_adhesion_force, Some(force(&outcome)));
+    assert_eq!(outcome.first_touch_adhesion_force, Some(force(&outcome)));
     assert!([1e-7, 2e-6, 1e-4, 1e-2].iter().all(|load| pressed(&ideal, *load) == force(&outcome)));
 
     let growth = "to 5, 10 and 20 µN: the pull-off force grows from 2.6 to 17 and 66 µN";
@@ -61,7 +61,7 @@ fn three_regimes_depend_on_the_preload_as_stated() {
     );
     let outcome = run(&sensitive);
     assert_eq!(outcome.regime, Some(Regime::PressureSensitive));
-    assert!(outcome.zero_load_adhesion_force.unwrap() < 1e-3 * force(&outcome));
+    assert!(outcome.first_touch_adhesion_force.unwrap() < 1e-3 * force(&outcome));
 
     let none = "less than 0.1 % of the preload, and a higher preload does not change it";
     let none = scene("non-adhesive", &[none]);

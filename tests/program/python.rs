@@ -34,13 +34,26 @@ fn can_import(folder: &Path, packages: &str) -> bool {
     can
 }
 
+/// The contact radius by the closed solution gives its overlap back, and the force is that of the unloading in the table.
 #[test]
-fn the_example_of_the_readme_runs() {
+fn the_force_without_iteration_is_that_of_the_theory() {
     let folder = tempfile::tempdir().unwrap();
-    if can_import(folder.path(), "import json, subprocess") {
-        let printed = passes(folder.path(), &block("README.md", "python"));
-        let regimes: Vec<_> = printed.lines().filter_map(|line| line.split(' ').next_back()).collect();
-        assert_eq!(regimes, ["pressure-insensitive", "pressure-sensitive", "non-adhesive"]);
+    if can_import(folder.path(), "import math") {
+        let code = block("docs/particles.md", "python")
+            + r#"
+for exponent in range(-400, 401):
+    smallest = (pi * 0.05 * 1e-4**2 / (8 * 1e6)) ** (1 / 3)
+    a = smallest * (1 + 10 ** (exponent / 100))
+    d = a**2 / 1e-4 - sqrt(2 * pi * 0.05 * a / 1e6)
+    found, force = jkr(d, 1e-4, 1e6, 0.05)
+    expected = 4e6 * a**3 / 3e-4 - sqrt(8 * pi * 1e6 * 0.05 * a**3)
+    assert abs(found / a - 1) < 1e-10, (exponent, found, a)
+    assert abs(force - expected) < 1e-9 * (abs(expected) + 1.5 * pi * 0.05 * 1e-4), (exponent, force, expected)
+assert jkr(-1e-6, 1e-4, 1e6, 0.05) is None
+print(jkr(2.2120067601286665e-6, 1e-4, 2e6 / 0.75, 0.05)[1])
+"#;
+        let force: f64 = passes(folder.path(), &code).trim().parse().unwrap();
+        assert!((force / 1e-4 - 1.0).abs() < 1e-6, "{force}");
     }
 }
 
@@ -80,7 +93,15 @@ fn lines_of_python_read_tables() {
     );
     // Words, and missing values.
     write(
-        &["rough-sphere", "--set", "roughness.modes=(1, 64)", "--set", "loading=[ToTouch]", "--lines", "3"],
+        &[
+            "rough-sphere",
+            "--set",
+            "roughness.modes=(1, 64)",
+            "--set",
+            "loading=[ToTouch]",
+            "--profiles",
+            "3",
+        ],
         "lines",
     );
     passes(

@@ -71,7 +71,7 @@ fn assert_plan(plan: &Value, run: &Value, scene: &str) {
     let runs = |name: &str| stage(name)["runs"].as_bool().unwrap();
     let work = |key: &str| run["work"][key].as_u64();
     assert_eq!(plan["springs"].as_u64(), work("springs"), "{scene}");
-    for (name, passes) in [("zero-load-adhesion", "zero_load_passes"), ("synthesis", "transforms")] {
+    for (name, passes) in [("without-preload", "passes_without_preload"), ("synthesis", "transforms")] {
         assert_eq!(stage(name)["passes"].as_u64().unwrap_or(0), work(passes).unwrap(), "{scene}: {name}");
     }
     for (name, done) in [
@@ -176,7 +176,7 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
         assert_eq!(number(&one[key]), of_preload[column], "{key}");
     }
     let object: Value =
-        serde_json::from_str(&many(&["--lines", "6", "--set", "roughness.seed=5", "--format", "json"]))
+        serde_json::from_str(&many(&["--profiles", "6", "--set", "roughness.seed=5", "--format", "json"]))
             .unwrap();
     let ensemble = &object["ensemble"];
     let lines = array(&ensemble["lines"]);
@@ -191,7 +191,7 @@ fn preloads_and_profiles_are_those_of_runs_of_their_own() {
     for (found, expected) in [(&statistics["mean"], mean), (&statistics["standard_deviation"], deviation)] {
         assert!((number(found) / expected - 1.0).abs() < 1e-8, "{found} for {expected}");
     }
-    let of_preloads = many(&["--preloads", "0..20uN:5", "--lines", "3", "--format", "json"]);
+    let of_preloads = many(&["--preloads", "0..20uN:5", "--profiles", "3", "--format", "json"]);
     let of_preloads: Value = serde_json::from_str(&of_preloads).unwrap();
     assert_eq!(
         (array(&of_preloads["lines"]).len(), &of_preloads["mean"][4]["adhesion_force"]["count"]),

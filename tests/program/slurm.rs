@@ -16,7 +16,7 @@ const PLAN: &str = r#"(
     base: "rough-sphere",
     set: {"numerics.points": "1024", "roughness.modes": "(1, 64)"},
     axes: [Linear(path: "roughness.hurst", from: 0.2, to: 0.9, count: 8)],
-    lines: 3,
+    profiles: 3,
     record: [adhesion_force, dissipated_energy],
 )"#;
 

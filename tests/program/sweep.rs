@@ -41,7 +41,7 @@ const SMALL: &str = r#"(
         List(path: "material.effective_modulus", values: [1.0e6, 2.0e6]),
     ],
     preloads: [0.01, 0.3],
-    lines: 3,
+    profiles: 3,
     seed: 18446744073709551614,
     record: [
         first_touch_adhesion_force, zero_force_adhesion_force, preload_force, adhesion_force, adhesion_coefficient,
@@ -120,7 +120,7 @@ fn cells_are_what_single_runs_give() {
                 let figures = pressed.figures;
                 let number = |regime: Option<Regime>| Some(f64::from(regime? as u8));
                 for (quantity, expected) in [
-                    (Quantity::ZeroLoadAdhesionForce, touched.figures.adhesion_force),
+                    (Quantity::FirstTouchAdhesionForce, touched.figures.adhesion_force),
                     (Quantity::ZeroForceAdhesionForce, balanced.figures.adhesion_force),
                     (Quantity::PreloadForce, figures.preload),
                     (Quantity::AdhesionForce, figures.adhesion_force),
@@ -171,7 +171,7 @@ fn cells_that_cannot_be_computed_have_a_reason() {
     ], scene: (version: 1, material: (effective_modulus: 2.0e6), length: 1.0e-4,
         roughness: SelfAffine(hurst: 0.5, rms_height: 2.0e-7, modes: (1, 64), seed: 1), adhesion: (kappa: 1.0),
         loading: [ToForce(1.0e-5), ToForce(0.0), ToSeparation], numerics: (points: 256),
-    ), lines: 2, record: [adhesion_force, regime])"#;
+    ), profiles: 2, record: [adhesion_force, regime])"#;
     let mut plan = plan(text);
     // As in the folder of a plan that was not checked: more modes than springs.
     plan.axes[1].values[1] = 512.0;
@@ -301,7 +301,7 @@ proptest! {
 
     #[test]
     fn damage_anywhere_never_makes_a_wrong_number(place in any::<prop::sample::Index>(), bit in 0..8_u8) {
-        let text = SMALL.replace("lines: 3", "lines: 1").replace("count: 4", "count: 2");
+        let text = SMALL.replace("profiles: 3", "profiles: 1").replace("count: 4", "count: 2");
         let plan = plan(&text);
         let (_place, folder) = computed(&plan);
         let whole = tables(&folder);

@@ -11,7 +11,7 @@ const PLAN: &str = r#"(
         List(path: "roughness.hurst", values: [0.4, 0.8]),
         Linear(path: "adhesion.kappa", from: 0.5, to: 6.0, count: 12),
     ],
-    lines: 8,
+    profiles: 8,
     record: [first_touch_adhesion_share, zero_force_adhesion_share],
 )"#;
 

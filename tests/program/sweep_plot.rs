@@ -21,7 +21,7 @@ const PLAN: &str = r#"(
         Logarithmic(path: "adhesion.kappa", from: 0.25, to: 16, count: 7),
     ],
     preloads: [0.01, 0.1, 1.0],
-    lines: 4,
+    profiles: 4,
     record: [first_touch_adhesion_share, adhesion_coefficient, adhesion_force, regime],
 )"#;
 

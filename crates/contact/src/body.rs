@@ -295,7 +295,7 @@ impl Body {
 
     /// Returns the adhesion forces, N, after a turn at first touch and after a turn where the force is back at zero, both
     /// from separation; `None` where the contact does not pull or never reaches zero force. The body stays in place.
-    pub fn zero_load_adhesion(&mut self) -> Result<[Option<f64>; 2], ContactError> {
+    pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
         loading.count(&mut self.work);
@@ -309,10 +309,10 @@ impl Body {
             Err(ContactError::OutOfReach) => None,
             at => adhesion(at?.0)?,
         };
-        // The passes for F_a(0) count separately.
+        // The passes for F_a(d=0) count separately.
         let work = &mut self.work;
         (work.loading_passes, work.unloading_passes) = (before.loading_passes, before.unloading_passes);
-        work.zero_load_passes += 2;
+        work.passes_without_preload += 2;
         Ok([at_touch, at_zero_force])
     }
 
@@ -436,7 +436,7 @@ pub struct Reversal {
     pub separation: f64,
     /// Energy dissipated from separation to separation, J.
     pub dissipated_energy: f64,
-    /// Forces, N, at the indentations given to [`Body::reversals`] that are not above the turning point.
+    /// Forces, N, at the given indentations that are not above the turning point, in their order; 0 below the separation.
     pub forces: Vec<f64>,
 }
 

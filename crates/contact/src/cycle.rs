@@ -42,8 +42,7 @@ impl<'a> LoadOptions<'a> {
         LoadOptions { samples: Some(samples), ..self }
     }
 
-    /// Sets ascending indentations, m, at which each stage that passes them has points besides its curve; see
-    /// [`Cycle::at`].
+    /// Sets ascending indentations, m. Each stage has a point at every one of them that it passes: [`Cycle::at`].
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions { indentations, ..self }
@@ -107,7 +106,7 @@ pub struct Curve {
     pub indentation: Vec<f64>,
     /// Forces F, N; compression positive.
     pub force: Vec<f64>,
-    /// Displacements of the instrument D = d + F/k, m; of a rigid instrument the indentations.
+    /// Displacements of the instrument D = d + F/k, m; for a rigid instrument they equal the indentations.
     pub displacement: Vec<f64>,
     /// Lengths in contact, m.
     pub contact_length: Vec<f64>,
@@ -166,12 +165,12 @@ impl Contact {
         Ok(Cycle { figures: Figures::of(&history), history, at, leg: body.leg() })
     }
 
-    /// Loads the separated body once, and unloads it from the end of each of these stages, every one of which begins at
-    /// separation. The results equal [`Contact::load`] of each stage followed by [`Move::ToSeparation`], at the cost of a
-    /// few loads. A tensile force is reached where the loading first has it, at touch or while adhesion draws the bodies
-    /// together.
+    /// Finds the pull-off after each of several turning points from one loading, at the cost of a few loads. The body loads
+    /// from separation to each of these `ends` and unloads to separation: each result equals [`Contact::load`] of its end
+    /// and [`Move::ToSeparation`]. A tensile force is reached where the loading first has it, at touch or while adhesion
+    /// draws the bodies together.
     ///
-    /// Each result has the forces at the ascending `indentations`, m, that are not above its turning point.
+    /// [`Reversal::forces`] are the forces at those of the ascending `indentations`, m, that are not above the turning point.
     ///
     /// ```
     /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};

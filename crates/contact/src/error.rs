@@ -56,7 +56,7 @@ pub enum ContactError {
     /// A tensile force is the target of a separated body.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
-    /// A turning point lies in separation.
+    /// A turning point has no contact.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
     /// The contact detaches before it falls to the force of the target.

@@ -21,18 +21,20 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n: largest force while loading, since the last separation and before the last unloading, N.
+    /// Preload F_n: largest force while loading, since the last separation and before the last unloading, N; `None` if no
+    /// stage loads the body in contact.
     pub preload: Option<f64>,
-    /// Indentation at the preload, m.
+    /// Indentation at the preload, m; `None` without a preload.
     pub preload_indentation: Option<f64>,
     /// Adhesion force F_a, N: minus the smallest force of the last unloading, in any number of stages; `None` if that force
     /// is above zero, or if the unloading ends in contact while the force still falls.
     pub adhesion_force: Option<f64>,
-    /// Adhesion coefficient F_a/F_n; `None` without a compressive preload.
+    /// Adhesion coefficient F_a/F_n; `None` without an adhesion force or a compressive preload.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation at the smallest force of the last unloading, m.
+    /// Indentation at the smallest force of the last unloading, m; `None` without an adhesion force. Its relative error is
+    /// larger than the error of the force, which hardly changes near its minimum.
     pub pull_off_indentation: Option<f64>,
-    /// Dissipated energy of a history that ends separated, J.
+    /// Dissipated energy, J; `None` if the history ends in contact.
     pub dissipated_energy: Option<f64>,
 }
 

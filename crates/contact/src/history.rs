@@ -177,8 +177,8 @@ pub struct Work {
     pub loading_passes: u64,
     /// Number of passes over the tree for unloading legs.
     pub unloading_passes: u64,
-    /// Number of passes from first touch and from zero force, for the zero-load adhesion F_a(0).
-    pub zero_load_passes: u64,
+    /// Number of passes for F_a(d=0) and F_a(F=0).
+    pub passes_without_preload: u64,
     /// Number of evaluations of the rule of Hess.
     pub hess_evaluations: u64,
     /// Number of springs sorted by threshold in the intervals that may hold an extreme of the force.

@@ -36,8 +36,6 @@ mod leg;
 mod modulus;
 mod profile;
 mod stepwise;
-#[cfg(test)]
-mod sums;
 mod target;
 mod thresholds;
 mod totals;

@@ -33,8 +33,8 @@ pub struct Profile {
     summit: f64,
 }
 
-/// The gaps under a profile, and the contact trees, which depend on the gaps and the edge model alone. A tree is built when
-/// a contact first needs it.
+/// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge model. A tree is built
+/// when a contact first needs it.
 #[derive(Debug)]
 pub struct Springs {
     pub gaps: Arc<Vec<f64>>,
@@ -93,7 +93,7 @@ impl Profile {
     /// body. A punch covers a part of its foundation.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a length out of its range.
+    /// [`ContactError::Value`] for a length that is out of its range or too short for the profile at this place.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -104,13 +104,20 @@ impl Profile {
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn on_foundation(self, length: f64, first: usize) -> Result<Self, ContactError> {
-        check("length", length, is_positive(length), "from 1e-50 to 1e50 m")?;
+        let end = (first as f64 + self.points() as f64) * self.spacing;
+        let is_allowed = is_positive(length) && end <= length * (1.0 + 1e-9);
+        let allowed = "at least the end of the profile, at most 1e50 m";
+        check("length of the foundation", length, is_allowed, allowed)?;
         Ok(Profile { length, first, ..self })
     }
 
     /// The same profile with this height of its highest point, m.
-    pub fn with_summit(self, summit: f64) -> Self {
-        Profile { summit, ..self }
+    ///
+    /// # Errors
+    /// [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
+    pub fn with_summit(self, summit: f64) -> Result<Self, ContactError> {
+        check("height of the highest point", summit, summit.abs() <= LARGEST, "from -1e50 to 1e50 m")?;
+        Ok(Profile { summit, ..self })
     }
 
     /// Number of points.

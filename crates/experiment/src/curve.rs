@@ -54,7 +54,8 @@ pub struct MeasuredCurve {
     pub(crate) is_estimated: [bool; 3],
     /// Name and value of the stiffness of the instrument that the file states, N/m.
     pub(crate) stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement if it is that of the body, without the deflection of the instrument.
+    /// Name of the column of the displacement if it is the displacement of the body, without the deflection of the
+    /// instrument.
     pub(crate) of_body: Option<String>,
     /// Sentences on what was assumed and done to the curve; the first one has columns, units and points.
     pub statements: Vec<String>,

@@ -78,7 +78,8 @@ pub struct FitResult {
     /// Root mean square residual of the points in contact over the noise; points inside a jump of the model count as
     /// described, and other single points count as 5 times that root mean square.
     pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve as well.
+    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve
+    /// equally well.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
     /// Tabor number of the scene with the fitted values.
@@ -166,6 +167,13 @@ impl<'a> Fit<'a> {
     }
 
     /// Fits the free parameters to a curve, on one thread. The progress is the number of curves computed so far.
+    ///
+    /// A population of parameter sets is drawn over the ranges, evenly in their logarithms. The assumed noise starts large,
+    /// where jumps count little, and is lowered to the noise of the curve. At each step likely sets are copied, unlikely
+    /// sets are dropped, and all are moved (sequential Monte Carlo). A point on the wrong side of a jump counts by the
+    /// logarithm of its residual. Zero, drift and tilt are estimated anew with each model. The population is drawn twice if
+    /// the residual remains above the noise, and the better one is kept. Residuals that are no noise are divided into four
+    /// parts of each segment; the errors are then the scatter of the values if parts are weighted anew (jackknife).
     ///
     /// # Errors
     /// No free parameter or one given twice, a scene that lacks one, values of the curve that are not allowed, a computation

@@ -74,37 +74,30 @@ fn positive_length(text: &str) -> Result<f64, String> {
 }
 
 /// Options of reading and preparing a curve; what they do not state is determined from the curve.
-///
-/// ```
-/// use asperity_experiment::{CurveOptions, Tilt};
-///
-/// let options = CurveOptions { segments: vec![2], tilt: Tilt::Remove, ..CurveOptions::default() };
-/// assert_eq!(options.to_string(), " --segments=2 --tilt=remove");
-/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
     /// Columns of displacement, force and segment: names or numbers
     ///
-    /// Default: by the names in the header; of two columns the first is the displacement. Four
-    /// are displacement and force of the approach, then those of a retraction beside it. Without
-    /// a column of segments these end where the displacement turns.
+    /// Default: by the names in the header; of two columns the first is the displacement. Four are
+    /// displacement and force of the approach, then displacement and force of a retraction beside
+    /// it. Without a column of segments these end where the displacement turns.
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "D,F[,SEGMENT]", value_delimiter = ',', verbatim_doc_comment)
     )]
     pub columns: Vec<String>,
-    /// Units of displacement and force: nm,nN; default: those of the file
+    /// Units of displacement and force: nm,nN; default: units of the file
     ///
     /// A number is the value of 1 in the column: nm,3.01nN for a deflection in nm with 3.01 N/m.
     #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
     pub units: Vec<String>,
     /// Travel of the piezo for a file with one column of forces: 500nm
     ///
-    /// The forces are evenly spaced over it, there and back. Default: that of the file.
+    /// The forces are evenly spaced over it, there and back. Default: the travel of the file.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
-    /// Segments that are used: 2 is the retraction alone
+    /// Segments that are used: 2 is only the retraction
     ///
     /// 1 is the first approach, 2 its retraction, and so on. Default: all; pauses are left out.
     /// The model runs through the other segments too, and the part before contact still gives
@@ -139,7 +132,8 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument of the scene, N/m: with it the displacement of a body becomes that of the instrument.
+    /// Stiffness of the instrument of the scene, N/m: with it the displacement of a body becomes
+    /// the displacement of the instrument.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
     /// Number of points before contact; default: up to the first change
@@ -147,6 +141,12 @@ pub struct CurveOptions {
     pub free_points: Option<usize>,
 }
 
+/// ```
+/// use asperity_experiment::{CurveOptions, Tilt};
+///
+/// let options = CurveOptions { segments: vec![2], tilt: Tilt::Remove, ..CurveOptions::default() };
+/// assert_eq!(options.to_string(), " --segments=2 --tilt=remove");
+/// ```
 impl fmt::Display for CurveOptions {
     /// Writes the options as arguments of the command line, with a blank before each.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {

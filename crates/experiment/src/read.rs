@@ -33,7 +33,8 @@ pub(crate) struct Columns {
     pub missing: usize,
     /// Name and value of the stiffness of the instrument that the file states, N/m.
     pub stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement if it is that of the body, without the deflection of the instrument.
+    /// Name of the column of the displacement if it is the displacement of the body, without the deflection of the
+    /// instrument.
     pub of_body: Option<String>,
     /// Columns and their units in words.
     pub assumed: String,

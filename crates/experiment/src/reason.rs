@@ -81,7 +81,7 @@ pub enum Reason {
     TaborNumber(f64),
     /// The profile of the scene is random, and the specimen has another one.
     #[error(
-        "The profile of the scene is one of many random ones, and the specimen has another one: --lines compares the curve with \
+        "The profile of the scene is one of many random ones, and the specimen has another one: --profiles compares the curve with \
          many of them."
     )]
     OtherProfile,

@@ -24,8 +24,7 @@ pub struct Figure {
     pub parameters: Vec<Label>,
     /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
     pub width: Option<f64>,
-    /// Height of a picture, px of 1/96 inch, into which its frames are fitted; `None`: the height that its frames need, but in
-    /// a figure with a given width at most the height of a page.
+    /// Height of a picture, px of 1/96 inch; `None`: the height that its frames need, with a given width at most a page.
     pub height: Option<f64>,
     /// True for a picture without the title, which a caption has instead.
     pub untitled: bool,

@@ -56,7 +56,7 @@ impl Report for FitReport<'_> {
         }
         sheet.heading(&format!("Curve {title}"));
         curve.statements.iter().chain(&fit.instrument).for_each(|sentence| sheet.paragraph(sentence));
-        sheet.heading(&format!("FitResult of {}", fit.document.title()));
+        sheet.heading(&format!("Fit of {}", fit.document.title()));
         let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
         let header = ["", "value", "95 % interval", "standard error", "start"];
         let row = |one: &FittedParameter| {

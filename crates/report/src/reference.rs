@@ -169,7 +169,7 @@ fn model<V: Serialize>(
     };
     object! {
         "adhesion_force": reference.adhesion_force.as_ref().map(of),
-        "zero_load_adhesion_force": reference.zero_load_adhesion_force.as_ref().map(of),
+        "first_touch_adhesion_force": reference.first_touch_adhesion_force.as_ref().map(of),
         "dissipated_energy": reference.dissipated_energy.as_ref().map(of),
         "loading": reference.loading.iter().map(point).collect::<Vec<_>>(),
     }
@@ -196,7 +196,7 @@ impl Report for ReferenceReport<'_> {
         sheet.table(&rows);
         let adhesive = [
             ("adhesion force F_a", &reference.adhesion_force, "N"),
-            ("at first touch F_a(0)", &reference.zero_load_adhesion_force, "N"),
+            ("at first touch F_a(d=0)", &reference.first_touch_adhesion_force, "N"),
             ("dissipated energy", &reference.dissipated_energy, "J"),
         ];
         let adhesive = adhesive.into_iter().filter_map(|(name, of, unit)| {

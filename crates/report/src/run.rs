@@ -65,7 +65,7 @@ impl Report for RunReport<'_> {
             "regime_after_zero_force": outcome.regime_after_zero_force,
             "ideal_adhesion_force": outcome.ideal_adhesion_force,
             "smooth_adhesion_force": outcome.smooth_adhesion_force,
-            "first_touch_adhesion_force": outcome.zero_load_adhesion_force,
+            "first_touch_adhesion_force": outcome.first_touch_adhesion_force,
             "zero_force_adhesion_force": outcome.zero_force_adhesion_force,
             "preload": figures.preload,
             "preload_indentation": figures.preload_indentation,

@@ -40,7 +40,7 @@ const ROWS: [Row; 8] = [
     ("e_el/γ", "1", |outcome| outcome.governing.elastic_energy_ratio),
     ("preload F_n", "N", |outcome| outcome.figures.preload),
     ("adhesion force F_a", "N", |outcome| outcome.figures.adhesion_force),
-    ("at first touch F_a(d=0)", "N", |outcome| outcome.zero_load_adhesion_force),
+    ("at first touch F_a(d=0)", "N", |outcome| outcome.first_touch_adhesion_force),
     ("pull-off at", "m", |outcome| outcome.figures.pull_off_indentation),
     ("dissipated energy", "J", |outcome| outcome.figures.dissipated_energy),
 ];

@@ -104,11 +104,11 @@ impl Spectra {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {
             let shape = Shape::line(self.line.clone(), Stroke::Solid);
-            layers.push(Layer::new("line".into(), Ink::Loading, shape));
+            layers.push(Layer::new("profile".into(), Ink::Loading, shape));
         }
         if !self.heights.is_empty() {
             let shape = Shape::signs(self.heights.clone(), Sign::Cross);
-            layers.push(Layer::new("heights of the line".into(), Ink::Manual, shape));
+            layers.push(Layer::new("heights of the profile".into(), Ink::Manual, shape));
         }
         let measured = self.measured.iter().flat_map(|layer| match &layer.shape {
             Shape::Curve { points, stroke, .. } if *stroke != Some(SELF_AFFINE) => points.as_slice(),
@@ -156,8 +156,8 @@ mod tests {
             "measured, 1D PSD along x",
             "fit",
             "self-affine fit, H = 0.50",
-            "line",
-            "heights of the line",
+            "profile",
+            "heights of the profile",
             "last resolved wave",
         ] {
             assert!(legend.iter().any(|entry| entry == name), "{name}: {legend:?}");

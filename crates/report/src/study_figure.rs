@@ -234,7 +234,7 @@ fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> 
 fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     let shares = means(&grid.statistics(share, false));
     let places = coordinates(&grid.across);
-    // At zero load all curves are equal; curves that differ have no single crossing.
+    // Without a preload all curves are equal; curves that differ have no single crossing.
     let mut curves = shares.chunks(places.len().max(1));
     let first = curves.next();
     if curves.any(|curve| Some(curve) != first) {
@@ -256,7 +256,7 @@ mod tests {
     use asperity_scene::open;
     use asperity_study::{Axis, GridCell, GridLayer, RegimeCounts, Spacing, Spread};
 
-    const SHARE: Quantity = Quantity::ZeroLoadAdhesionShare;
+    const SHARE: Quantity = Quantity::FirstTouchAdhesionShare;
     const COEFFICIENT: Quantity = Quantity::AdhesionCoefficient;
 
     struct Study {

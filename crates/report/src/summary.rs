@@ -63,7 +63,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     sheet.row("regime", regime(outcome));
     sheet.quantity("preload F_n", figures.preload, "N");
     sheet.row("adhesion force F_a", adhesion_force(outcome));
-    sheet.quantity("at first touch F_a(d=0)", outcome.zero_load_adhesion_force, "N");
+    sheet.quantity("at first touch F_a(d=0)", outcome.first_touch_adhesion_force, "N");
     dissipated_energy(&mut sheet, outcome);
     sheet.into_text()
 }
@@ -129,7 +129,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Optio
     sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
     let share = outcome.adhesion_share().map(|share| rounded(Quantity::AdhesionShare, share, 4));
     sheet.row_of("share F_a/F_a,max", share);
-    sheet.quantity("at first touch F_a(d=0)", outcome.zero_load_adhesion_force, "N");
+    sheet.quantity("at first touch F_a(d=0)", outcome.first_touch_adhesion_force, "N");
     sheet.quantity("at zero force F_a(F=0)", outcome.zero_force_adhesion_force, "N");
     sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
     sheet.row_of("λ²/(AR)", outcome.steep_waves.map(steep_waves));
@@ -186,18 +186,18 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     if outcome.regime.is_none() {
         return;
     }
-    let (zero_load, adhesion) = (outcome.zero_load_adhesion_force, outcome.figures.adhesion_force);
+    let (first_touch, adhesion) = (outcome.first_touch_adhesion_force, outcome.figures.adhesion_force);
     let (zero_force, smooth) = (outcome.zero_force_adhesion_force, outcome.smooth_adhesion_force);
     let preload = outcome.figures.preload;
     let says = ["most of it", "less than half"];
-    share(sheet, "  F_a(d=0)/F_a", zero_load, adhesion, INSENSITIVE_SHARE, says);
+    share(sheet, "  F_a(d=0)/F_a", first_touch, adhesion, INSENSITIVE_SHARE, says);
     let says = ["adhesion", "vanished"];
-    share(sheet, "  F_a(d=0)/F_smooth", zero_load, smooth, VANISHING_SHARE, says);
+    share(sheet, "  F_a(d=0)/F_smooth", first_touch, smooth, VANISHING_SHARE, says);
     let says = ["most of it", "less than half"];
     share(sheet, "  F_a(F=0)/F_a", zero_force, adhesion, INSENSITIVE_SHARE, says);
     let says = ["adhesion", "vanished"];
     share(sheet, "  F_a(F=0)/F_smooth", zero_force, smooth, VANISHING_SHARE, says);
-    if preload.is_some_and(|preload| preload <= 0.0) && zero_load != adhesion {
+    if preload.is_some_and(|preload| preload <= 0.0) && first_touch != adhesion {
         let says = ["adhesion without a preload", "vanished without a preload"];
         share(sheet, "  F_a/F_smooth", adhesion, smooth, VANISHING_SHARE, says);
     }
@@ -291,9 +291,14 @@ fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
     for (label, count) in counts(work) {
         sheet.row_of(label, (count > 0).then(|| grouped(count)));
     }
-    let Timings { line, tree, passes, curve, zero_load } = *timings;
-    let stages =
-        [("line", line), ("tree", tree), ("loop", passes), ("curve", curve), ("without preload", zero_load)];
+    let Timings { line, tree, passes, curve, without_preload } = *timings;
+    let stages = [
+        ("line", line),
+        ("tree", tree),
+        ("loop", passes),
+        ("curve", curve),
+        ("without preload", without_preload),
+    ];
     let stages = stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
     let total = format_quantity(timings.total(), "s");
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
@@ -307,7 +312,7 @@ fn counts(work: &Work) -> [(&'static str, u64); 15] {
         ("tree nodes", work.tree_nodes),
         ("loading passes", work.loading_passes),
         ("unloading passes", work.unloading_passes),
-        ("passes without preload", work.zero_load_passes),
+        ("passes without preload", work.passes_without_preload),
         ("rule of Hess applied", work.hess_evaluations),
         ("events sorted", work.events_sorted),
         ("springs attached", work.attached),

@@ -70,10 +70,8 @@ impl Report for SurfaceReport {
         sheet.row("wavelengths", format!("{low} to {high} ({end})"));
         let gradient = format_quantity(self.line.moments().rms_gradient.value * FRAC_1_SQRT_2, "1");
         let energy = 100.0 * FRAC_2_PI;
-        sheet.row(
-            "the profile itself",
-            format!("⟨∇z⟩ = {gradient}, {energy:.0} % of e_el if it were the line"),
-        );
+        sheet
+            .row("the profile itself", format!("⟨∇z⟩ = {gradient}, {energy:.0} % of e_el if used unchanged"));
         if let Some((scene, computed)) = &self.adhesion {
             adhesion(&mut sheet, scene, computed.as_ref());
         }
@@ -191,7 +189,7 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion
     sheet.row("length L", format!("{} on {springs} springs", format_quantity(scene.length, "m")));
     let Some(computed) = computed else {
         return sheet
-            .row("adhesion force F_a", format!("not computed on {springs} springs; --lines 16 does"));
+            .row("adhesion force F_a", format!("not computed on {springs} springs; --profiles 16 does"));
     };
     let force = measured_adhesion_text(computed);
     sheet.row("adhesion force F_a", force.unwrap_or_else(|| "none: nothing is pulled".to_owned()));

@@ -96,7 +96,7 @@ pub fn error_rows(
     };
     let largest = match budget.largest {
         Some("grid") => "grid: more springs reduce it (--tolerance)",
-        Some("sample") => "sample of profiles: more profiles reduce it (--lines)",
+        Some("sample") => "sample of profiles: more profiles reduce it (--profiles)",
         Some("model") => "model: more springs do not help",
         Some(_) => "surface: more or larger scans reduce it",
         None => "not known",

@@ -17,5 +17,5 @@ use crate::simulation::stages::Simulation;
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```
 pub fn run(document: &Document) -> Result<Outcome, Error> {
-    Ok(Simulation::new(document.resolve("")).run(document.scene(), &|| false, &mut |_, _, _| Ok(()))?)
+    Ok(Simulation::new(document.resolve("")).compute(document.scene())?)
 }

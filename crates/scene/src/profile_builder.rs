@@ -9,10 +9,10 @@ use crate::scene::model::{Material, Numerics, Roughness, SPRINGS_PER_WAVE, Scene
 use crate::simulation::outcome::{Outcome, RunError};
 use crate::simulation::stages::Simulation;
 use asperity_contact::{ContactError, Modulus, Move, Profile};
-use asperity_surface::{Form, Line, MeasuredRoughness};
+use asperity_surface::{EquivalentLine, Form, Line, MeasuredRoughness};
 use std::sync::Arc;
 
-/// Builder of the equivalent profile of a form and a roughness: the same profile, to the bit, as that of a scene with these
+/// Builder of the equivalent profile of a form and a roughness: the same profile, to the bit, as a scene with these
 /// values. By default nominally flat and smooth.
 ///
 /// ```
@@ -33,8 +33,8 @@ pub struct ProfileBuilder {
     points: usize,
     form: Option<Form>,
     roughness: Option<Roughness>,
-    /// Measured surface in memory, in place of the files of the roughness.
-    surface: Option<Arc<MeasuredRoughness>>,
+    /// Measured spectrum in memory, in place of the files of the roughness.
+    spectrum: Option<Arc<MeasuredRoughness>>,
 }
 
 /// Changes a member of the self-affine roughness, which has no Hurst exponent yet if it begins here.
@@ -55,7 +55,7 @@ impl ProfileBuilder {
     /// Begins a profile of this length (m) with this number of points.
     #[must_use]
     pub fn new(length: f64, points: usize) -> Self {
-        ProfileBuilder { length, points, form: None, roughness: None, surface: None }
+        ProfileBuilder { length, points, form: None, roughness: None, spectrum: None }
     }
 
     /// Sets the macroscopic form.
@@ -84,7 +84,7 @@ impl ProfileBuilder {
             roll_off: None,
             seed: 1,
         };
-        ProfileBuilder { roughness: Some(roughness), surface: None, ..self }
+        ProfileBuilder { roughness: Some(roughness), spectrum: None, ..self }
     }
 
     /// Sets the rms height of the self-affine roughness, m.
@@ -117,12 +117,24 @@ impl ProfileBuilder {
         with_member!(self, roll_off, Some(wavelength))
     }
 
-    /// Sets a measured surface as the roughness, in place of a self-affine one.
+    /// Sets a roughness with the spectrum of measured surfaces and random phases, in place of a self-affine one.
+    ///
+    /// ```
+    /// use asperity_scene::ProfileBuilder;
+    /// use asperity_surface::{AnalysisOptions, EquivalentLine, Topography, analyse};
+    ///
+    /// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+    /// let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
+    /// let surface = Topography::from_profile(&heights, 1e-6).unwrap();
+    /// let analysis = analyse(&[surface], &AnalysisOptions::default()).unwrap();
+    /// let rough = ProfileBuilder::new(2.56e-4, 1024).sphere(1.0e-3).spectrum(EquivalentLine::from(&analysis));
+    /// assert_ne!(rough.clone().seed(1).build()?, rough.seed(2).build()?);
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
     #[must_use]
-    pub fn surface(self, surface: Arc<MeasuredRoughness>) -> Self {
-        let as_line = matches!(*surface, MeasuredRoughness::Profile(_));
-        let measured = Measured { as_line, ..Measured::of_file("surface in memory") };
-        ProfileBuilder { roughness: Some(Roughness::Measured(measured)), surface: Some(surface), ..self }
+    pub fn spectrum(self, line: EquivalentLine) -> Self {
+        let roughness = Some(Roughness::Measured(Measured::of_file("spectrum in memory")));
+        ProfileBuilder { roughness, spectrum: Some(Arc::new(MeasuredRoughness::Equivalent(line))), ..self }
     }
 
     /// Sets the seed of the random phases; by default 1. A seed determines the phases on any machine and for any number of
@@ -181,7 +193,7 @@ impl ProfileBuilder {
     /// # Errors
     /// As for [`Self::build`], and [`Error::Contact`] for another number of heights or a height that is not finite.
     pub fn build_with(&self, heights: Vec<f64>) -> Result<Profile, Error> {
-        let smooth = ProfileBuilder { roughness: None, surface: None, ..self.clone() };
+        let smooth = ProfileBuilder { roughness: None, spectrum: None, ..self.clone() };
         let scene = smooth.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
         let value =
             |name: String, value: f64, allowed| Err(ContactError::Value { name, value, allowed }.into());
@@ -264,13 +276,13 @@ impl ProfileBuilder {
         loading: &[Move],
     ) -> Result<Outcome, Error> {
         let scene = self.scene(modulus, adhesion, loading)?;
-        Ok(self.simulation().run(&scene, &|| false, &mut |_, _, _| Ok(()))?)
+        Ok(self.simulation().compute(&scene)?)
     }
 
     fn simulation(&self) -> Simulation {
         let simulation = Simulation::default().for_one_scene();
-        match &self.surface {
-            Some(surface) => simulation.with_measured(Arc::clone(surface)),
+        match &self.spectrum {
+            Some(spectrum) => simulation.with_measured(Arc::clone(spectrum)),
             None => simulation,
         }
     }

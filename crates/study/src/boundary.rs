@@ -1,8 +1,8 @@
-//! Boundary of vanishing zero-load adhesion, between pressure-insensitive and pressure-sensitive adhesion, eq. (15), with
+//! Boundary of vanishing adhesion without a preload, between pressure-insensitive and pressure-sensitive adhesion, eq. (15), with
 //! its statistical error.
 //!
-//! F_a(0) falls about exponentially with κ and never quite to zero, since a single spring still adheres. So the boundary κ*
-//! is where the mean of F_a(0) over the profiles falls below a share of the ideal adhesion force F_a,max; κ* depends on
+//! F_a(d=0) falls about exponentially with κ and never quite to zero, since a single spring still adheres. So the boundary κ*
+//! is where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max; κ* depends on
 //! that share, and several shares are evaluated together. A boundary in κ is also one in e_el/γ, since on profiles of one
 //! spectrum each determines the other.
 
@@ -30,7 +30,7 @@ const RESAMPLING_SEED: u64 = 2012;
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of these axes.
     pub others: Vec<f64>,
-    /// The recorded quantity F_a(0)/F_a,max, which identifies the protocol.
+    /// The recorded quantity F_a(d=0)/F_a,max, which identifies the protocol.
     pub protocol: Quantity,
     /// The share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
@@ -38,7 +38,7 @@ pub struct AdhesionBoundary {
     pub crossing: Crossing,
 }
 
-/// κ or e_el/γ at which the mean of F_a(0)/F_a,max falls below a share.
+/// κ or e_el/γ at which the mean of F_a(d=0)/F_a,max falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// The position, or the end of the studied range beyond which it lies.
@@ -71,13 +71,13 @@ pub struct Boundaries {
     pub found: Vec<AdhesionBoundary>,
 }
 
-/// F_a(0)/F_a,max over ascending κ or e_el/γ: for each value the shares on the same profiles.
+/// F_a(d=0)/F_a,max over ascending κ or e_el/γ: for each value the shares on the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
 /// Finds the boundaries of a merged study along its axis of κ or e_el/γ, and states them in either of the two.
 ///
 /// # Errors
-/// The study has no such axis or recorded no F_a(0)/F_a,max, or the errors of [`Results::open`]; also a study of a measured
+/// The study has no such axis or recorded no F_a(d=0)/F_a,max, or the errors of [`Results::open`]; also a study of a measured
 /// surface whose axis is the other parameter.
 pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let study = Results::open(path)?;
@@ -155,9 +155,9 @@ fn conversion(
     Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
 }
 
-/// Name of the protocol of a recorded quantity F_a(0)/F_a,max.
+/// Name of the protocol of a recorded quantity F_a(d=0)/F_a,max.
 pub fn protocol_name(share: Quantity) -> &'static str {
-    if share == Quantity::ZeroLoadAdhesionShare { "first touch" } else { "zero force" }
+    if share == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
 }
 
 impl Boundaries {

@@ -14,9 +14,9 @@ pub(super) struct CaseOutcome<'o> {
     pub profile: ProfileRecord,
     /// Scene of the case; its own loading is ignored.
     pub scene: &'o Scene,
-    /// F_a(0) by the touch protocol, N.
-    pub zero_load: Option<f64>,
-    /// F_a(0) by the zero-force protocol, N.
+    /// F_a(d=0), N.
+    pub first_touch: Option<f64>,
+    /// F_a(F=0), N.
     pub zero_force: Option<f64>,
     /// F_smooth after the preload, N, if a regime is recorded.
     pub smooth: Option<f64>,
@@ -53,7 +53,7 @@ impl LoadingOutcome {
     }
 }
 
-/// Properties that depend on the profile and the elasticity alone.
+/// Properties that depend only on the profile and the elasticity.
 #[derive(Clone, Copy, Default)]
 pub(super) struct ProfileRecord {
     /// Rms height about the mean, m, without the form.
@@ -112,9 +112,9 @@ impl CaseOutcome<'_> {
         scene_tabor_number(self.scene, &self.governing)
     }
 
-    /// Index in [`Regime::ALL`] of the regime of this loading; `zero_load` is F_a(0), N.
-    pub fn regime(&self, zero_load: Option<f64>) -> Option<f64> {
-        Some(Regime::of_loading(&self.loading.figures, zero_load, self.smooth)? as u8 as f64)
+    /// Index in [`Regime::ALL`] of the regime of this loading; `first_touch` is F_a(d=0), N.
+    pub fn regime(&self, first_touch: Option<f64>) -> Option<f64> {
+        Some(Regime::of_loading(&self.loading.figures, first_touch, self.smooth)? as u8 as f64)
     }
 }
 

@@ -135,7 +135,7 @@ mod tests {
         Plan::new(&document, &axes, 3, &[Quantity::AdhesionForce, Quantity::Regime]).unwrap()
     }
 
-    /// Each record is that of a recorder of its own; one that cannot be computed has its reason.
+    /// Each record is made by a recorder of its own; one that cannot be computed has its reason.
     #[test]
     fn a_plan_in_memory_has_the_records_of_single_cells() {
         let plan = plan();

@@ -67,15 +67,15 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
 /// [`VANISHING_SHARE`] adhesion has vanished, as in the definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
-    let own = [outcome.zero_load_adhesion_force, outcome.zero_force_adhesion_force];
-    let quantities = [Quantity::ZeroLoadAdhesionForce, Quantity::ZeroForceAdhesionForce];
+    let own = [outcome.first_touch_adhesion_force, outcome.zero_force_adhesion_force];
+    let quantities = [Quantity::FirstTouchAdhesionForce, Quantity::ZeroForceAdhesionForce];
     let median = |ensemble: &Ensemble, quantity| Some(ensemble.statistics(quantity)?.quartiles[1]);
-    let [zero_load, zero_force] =
+    let [first_touch, zero_force] =
         ensemble.map_or(own, |ensemble| quantities.map(|quantity| median(ensemble, quantity)));
     let of =
         ensemble.map(|ensemble| format!(", median of {} profiles", ensemble.computed())).unwrap_or_default();
     let rows = [
-        ("F_a(d=0)/F_smooth", "turned at first touch", zero_load),
+        ("F_a(d=0)/F_smooth", "turned at first touch", first_touch),
         ("F_a(F=0)/F_smooth", "turned at zero force", zero_force),
     ];
     let refusal = long_ranged(outcome.tabor_number);
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(names(&found)[4..], ["Tabor number", "this program", "this program"]);
         let smooth = run(&rough).unwrap().smooth_adhesion_force.unwrap();
         for (row, quantity) in
-            found[5..].iter().zip([Quantity::ZeroLoadAdhesionForce, Quantity::ZeroForceAdhesionForce])
+            found[5..].iter().zip([Quantity::FirstTouchAdhesionForce, Quantity::ZeroForceAdhesionForce])
         {
             let mut forces: Vec<f64> = ensemble.values(quantity).into_iter().flatten().collect();
             forces.sort_by(f64::total_cmp);

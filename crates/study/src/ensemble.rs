@@ -27,7 +27,7 @@ impl Ensemble {
     pub const NUMBERS: [Quantity; 5] = [
         Quantity::AdhesionForce,
         Quantity::AdhesionShare,
-        Quantity::ZeroLoadAdhesionForce,
+        Quantity::FirstTouchAdhesionForce,
         Quantity::ZeroForceAdhesionForce,
         Quantity::DissipatedEnergy,
     ];
@@ -100,7 +100,7 @@ impl Ensemble {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }
 
-    /// Number of profiles in each regime, from first touch and after zero net force.
+    /// Number of profiles in each regime, turned at first touch and at zero force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }
@@ -163,7 +163,7 @@ mod tests {
             outcomes.iter().map(value).collect::<Vec<_>>()
         };
         assert_eq!(found.values(Quantity::AdhesionForce), of(|one| one.figures.adhesion_force));
-        assert_eq!(found.values(Quantity::ZeroLoadAdhesionForce), of(|one| one.zero_load_adhesion_force));
+        assert_eq!(found.values(Quantity::FirstTouchAdhesionForce), of(|one| one.first_touch_adhesion_force));
         assert_eq!(found.values(Quantity::ZeroForceAdhesionForce), of(|one| one.zero_force_adhesion_force));
         assert_eq!(found.values(Quantity::DissipatedEnergy), of(|one| one.figures.dissipated_energy));
         let share = of(|one| Some(one.figures.adhesion_force? / one.ideal_adhesion_force?));

@@ -59,8 +59,8 @@ pub fn find(
 }
 
 impl Found {
-    /// Finds the numbers on all profiles. `jobs` threads share the profiles, the first with this simulation; no bit depends on
-    /// their number. `report` receives the number of profiles done after each.
+    /// Finds the numbers on all profiles. `jobs` threads share the profiles, the first with this simulation; no bit
+    /// depends on their number. After each profile `report` receives the number of finished profiles.
     ///
     /// # Errors
     /// The scene does not have the quantity, the number does not act on the quantity, a profile fails, or `stop` returned true.
@@ -95,7 +95,9 @@ impl Found {
         let range = format!("from {}", format_range(*searched, 4, axis.unit));
         let refused = |found, allowed| Err(StudyError::refused(Some(&axis.path), found, allowed));
         if let Some(why) = self.refused.as_ref().filter(|_| self.question.is_of_preload()) {
-            return refused(why.clone(), "a smaller range: --range A..B");
+            let (found, allowed) =
+                why.split_once("; allowed: ").unwrap_or((why.as_str(), "a smaller range: --range A..B"));
+            return refused(found.to_owned(), allowed);
         }
         let Some((least, most)) = self.reachable() else {
             let why = self.refused.as_ref().map_or_else(String::new, |reason| format!(": {reason}"));

@@ -19,7 +19,7 @@ pub struct GridCell {
 }
 
 impl GridCell {
-    /// Number of profiles in each regime: after zero net force if `quantity` is that regime, otherwise from first touch.
+    /// Number of profiles in each regime: turned at zero force if `quantity` is that regime, otherwise from first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -98,7 +98,7 @@ impl Grid {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// The quantities of the grid, with the regime from first touch first and the regime after zero net force last, if known.
+    /// The quantities of the grid, with the regime turned at first touch first and the regime turned at zero force last, if known.
     pub fn quantities(&self) -> Vec<Quantity> {
         let [touch, zero_force] = Quantity::REGIMES
             .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));

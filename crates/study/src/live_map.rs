@@ -206,7 +206,7 @@ mod tests {
         assert_eq!(rows, 5 + 9 + 19 + 19);
         let grid = map.grid();
         assert_eq!(grid.size(), (HURSTS, KAPPAS), "H across");
-        let shares = grid.statistics(Quantity::ZeroLoadAdhesionShare, false);
+        let shares = grid.statistics(Quantity::FirstTouchAdhesionShare, false);
         for column in 0..HURSTS {
             let cell = |row| grid.shown(column, row).unwrap().0.clone().unwrap();
             let regime = |row| cell(row).regimes[0].most().unwrap().0;
@@ -230,7 +230,7 @@ mod tests {
             places.iter().map(value).collect::<Vec<_>>().join(", ")
         };
         let text = format!(
-            "(version: 1, title: \"Map\", scene: {}, lines: {}, record: [first_touch_adhesion_share, \
+            "(version: 1, title: \"Map\", scene: {}, profiles: {}, record: [first_touch_adhesion_share, \
              adhesion_coefficient, regime, zero_force_adhesion_share, regime_after_zero_force, adhesion_share], axes: [List(path: \"adhesion.kappa\", values: [{}]), \
              List(path: \"roughness.hurst\", values: [{}])])",
             to_ron(&live.plan().scene),
@@ -281,7 +281,7 @@ mod tests {
             let (_, column, row) = grid.shown(asked.0, asked.1).unwrap();
             assert_eq!((column, row), expected, "{asked:?}");
         }
-        let computed = grid.statistics(Quantity::ZeroLoadAdhesionShare, false);
+        let computed = grid.statistics(Quantity::FirstTouchAdhesionShare, false);
         assert_eq!(computed.iter().flatten().count(), 25);
         assert!(grid.shown(HURSTS, 0).is_none() && grid.shown(0, KAPPAS).is_none());
     }

@@ -13,7 +13,7 @@ use asperity_scene::{Adhesion, Numerics, Roughness, SPRINGS_PER_WAVE, Scene, Sol
 pub const MAP_LINES: u64 = 4;
 /// Quantities recorded in each cell.
 pub const MAP_RECORD: [Quantity; 6] = [
-    Quantity::ZeroLoadAdhesionShare,
+    Quantity::FirstTouchAdhesionShare,
     Quantity::AdhesionCoefficient,
     Quantity::Regime,
     Quantity::ZeroForceAdhesionShare,

@@ -33,7 +33,7 @@ pub struct ProfileAdhesion {
     pub fit_change: Option<f64>,
     /// Regime of adhesion with the fitted spectrum, from first touch.
     pub regime: Option<Regime>,
-    /// Regime of adhesion with the fitted spectrum, after zero net force.
+    /// Regime of adhesion with the fitted spectrum, turned at zero force.
     pub regime_after_zero_force: Option<Regime>,
 }
 
@@ -76,8 +76,8 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Solves the scene of a document on `count` profiles of its measured surface: those of the scene's seed and of the
-    /// seeds that follow. The files are read with the scene's own options, relative to the folder of the scene file. `jobs`
+    /// Solves the scene of a document on `count` profiles of its measured surface: the scene's seed and the seeds
+    /// that follow. The files are read with the scene's own options, relative to the folder of the scene file. `jobs`
     /// threads share the profiles; no bit of a result depends on their number.
     ///
     /// # Errors
@@ -152,7 +152,7 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Number of profiles in each regime: from first touch, and after zero net force.
+    /// Number of profiles in each regime: turned at first touch and at zero force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))

@@ -189,10 +189,10 @@ impl Plan {
             );
         }
         if !(1..=MOST_LINES).contains(&self.lines) {
-            wrong.push(format!("lines = {}: allowed: from 1 to {MOST_LINES}", self.lines));
+            wrong.push(format!("profiles = {}: allowed: from 1 to {MOST_LINES}", self.lines));
         }
         if self.lines > 1 && self.scene.seed().is_none() {
-            wrong.push(format!("lines = {}: {}; allowed: {}", self.lines, ONE_PROFILE.0, ONE_PROFILE.1));
+            wrong.push(format!("profiles = {}: {}; allowed: {}", self.lines, ONE_PROFILE.0, ONE_PROFILE.1));
         }
         if self.record.is_empty() {
             wrong.push("record = []: allowed: at least one quantity".into());

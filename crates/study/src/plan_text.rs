@@ -55,7 +55,7 @@ struct PlanText {
     #[serde(default)]
     preloads: Vec<f64>,
     #[serde(default)]
-    lines: Option<u64>,
+    profiles: Option<u64>,
     #[serde(default)]
     seed: Option<u64>,
     record: Vec<Quantity>,
@@ -161,7 +161,10 @@ impl Plan {
             let (offset, error) = explain(text, &error);
             let (line, column) = line_column(text, offset);
             let word = text[offset..].split(|c: char| !c.is_alphanumeric() && c != '_').next();
-            let what = word.and_then(renamed).unwrap_or_else(|| error.what());
+            let what = match word {
+                Some("lines") => "lines is now profiles".to_owned(),
+                word => word.and_then(renamed).unwrap_or_else(|| error.what()),
+            };
             StudyError::Plan(vec![format!("{name}:{line}:{column}: {what}")])
         })?;
         if read.version != PLAN_VERSION {
@@ -194,7 +197,7 @@ impl Plan {
             title,
             notice,
             axes: read_axes,
-            lines: lines.or(read.lines).unwrap_or(1),
+            lines: lines.or(read.profiles).unwrap_or(1),
             seed: read.seed.or(scene.seed()).unwrap_or(0),
             record,
             scene,
@@ -225,7 +228,7 @@ impl Plan {
         line("scene", to_ron(&self.scene).trim_end().replace('\n', "\n    "));
         let axes: String = self.axes.iter().map(|axis| format!("        {},\n", in_ron(axis))).collect();
         line("axes", format!("[\n{axes}    ]"));
-        line("lines", self.lines.to_string());
+        line("profiles", self.lines.to_string());
         line("seed", self.seed.to_string());
         let names: Vec<_> = self.record.iter().map(|quantity| quantity.name()).collect();
         line("record", format!("[{}]", names.join(", ")));

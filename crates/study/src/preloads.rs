@@ -107,8 +107,9 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile as a function of the preload. Only the closing of a patch that decides the pull-off raises
-/// it, so the curve is a staircase; with a smaller work of adhesion on closing it also rises between its steps.
+/// Adhesion force of one profile as a function of the preload. It rises only where the loading closes a patch that
+/// decides the pull-off, so the curve is a staircase. With a smaller work of adhesion on closing it also rises
+/// between the steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
     /// Scale of the preloads.

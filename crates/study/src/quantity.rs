@@ -23,9 +23,9 @@ pub(super) enum Needs {
     Profile,
     /// The statistics of the heights without the form are needed.
     Heights,
-    /// F_a(0) by the touch protocol is needed: turning point at first touch.
+    /// F_a(d=0) is needed: turning point at first touch.
     Touch,
-    /// F_a(0) by the zero-force protocol is needed: turning point where the force is back at zero.
+    /// F_a(F=0) is needed: turning point where the force is back at zero.
     ZeroForce,
     /// The loading to the preload is needed, or the scene's own loading.
     Loading,
@@ -86,15 +86,15 @@ quantities! {
         name: "ideal_adhesion_force", meaning: "adhesion force of a flat face, eq. (14)",
         symbol: "F_a,max", unit: "N", needs: Needs::Profile, of: |case| case.ideal(),
     }
-    ZeroLoadAdhesionForce {
+    FirstTouchAdhesionForce {
         name: "first_touch_adhesion_force", meaning: "adhesion force turned at first touch",
-        symbol: "F_a(d=0)", unit: "N", needs: Needs::Touch, of: |case| case.zero_load,
+        symbol: "F_a(d=0)", unit: "N", needs: Needs::Touch, of: |case| case.first_touch,
     }
-    ZeroLoadAdhesionShare {
+    FirstTouchAdhesionShare {
         name: "first_touch_adhesion_share",
         meaning: "F_a(d=0) over the ideal adhesion force",
         symbol: "F_a(d=0)/F_a,max", bounds: SHARE, needs: Needs::Touch,
-        of: |case| case.share(case.zero_load),
+        of: |case| case.share(case.first_touch),
     }
     ZeroForceAdhesionForce {
         name: "zero_force_adhesion_force",
@@ -149,7 +149,7 @@ quantities! {
     }
     Regime {
         name: "regime", meaning: "regime of adhesion turned at first touch",
-        unit: "", of: |case| case.regime(case.zero_load),
+        unit: "", of: |case| case.regime(case.first_touch),
     }
     RegimeAfterZeroForce {
         name: "regime_after_zero_force", meaning: "regime of adhesion turned at zero force",
@@ -184,9 +184,9 @@ quantities! {
 }
 
 impl Quantity {
-    /// F_a(0)/F_a,max by both protocols.
+    /// F_a(d=0)/F_a,max and F_a(F=0)/F_a,max.
     pub const ADHESION_SHARES: [Quantity; 2] =
-        [Quantity::ZeroLoadAdhesionShare, Quantity::ZeroForceAdhesionShare];
+        [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
     /// The regimes by both protocols.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];

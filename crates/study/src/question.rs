@@ -16,7 +16,7 @@ use std::mem::replace;
 pub const WITHIN: f64 = 1e-9;
 /// Ratio of the ends of the searched range to the number of the scene.
 const FACTOR: f64 = 100.0;
-/// Ratio of the largest searched preload to that of full contact, for a loading without a force.
+/// Ratio of the largest searched preload to the preload of full contact, for a loading without a force.
 const DEEPER: f64 = 10.0;
 /// Number of intervals into which the searched range is divided for a quantity that may fall as well as rise.
 const INTERVALS: usize = 32;
@@ -301,8 +301,8 @@ impl Question {
 /// The same quantity after a turn at first touch, for an adhesion force over the preload, which never falls.
 fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
-        (Target::Preload { .. }, Quantity::AdhesionForce) => Some(Quantity::ZeroLoadAdhesionForce),
-        (Target::Preload { .. }, Quantity::AdhesionShare) => Some(Quantity::ZeroLoadAdhesionShare),
+        (Target::Preload { .. }, Quantity::AdhesionForce) => Some(Quantity::FirstTouchAdhesionForce),
+        (Target::Preload { .. }, Quantity::AdhesionShare) => Some(Quantity::FirstTouchAdhesionShare),
         _ => None,
     }
 }

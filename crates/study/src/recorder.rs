@@ -87,9 +87,9 @@ impl<'p> Recorder<'p> {
         if needs_zero_force {
             loops.push(vec![Move::ToZeroForce, Move::ToSeparation]);
         }
-        let (mut each, mut zero_load) = (Vec::new(), None);
+        let (mut each, mut first_touch) = (Vec::new(), None);
         if !loops.is_empty() || plan.records(Needs::Touch) {
-            (each, zero_load) = self.solve(&scene, &governing, loops)?;
+            (each, first_touch) = self.solve(&scene, &governing, loops)?;
         }
         let zero_force = each.get(count).filter(|_| needs_zero_force);
         let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
@@ -101,13 +101,13 @@ impl<'p> Recorder<'p> {
                 false => None,
             };
             let case =
-                CaseOutcome { governing, profile, scene: &scene, zero_load, zero_force, smooth, loading };
+                CaseOutcome { governing, profile, scene: &scene, first_touch, zero_force, smooth, loading };
             Ok(plan.record.iter().map(|quantity| quantity.of(&case)).collect())
         };
         each.into_iter().map(values).collect()
     }
 
-    /// Outcomes of loadings that each begin at separation, and F_a(0) by the touch protocol, N.
+    /// Outcomes of loadings that each begin at separation, and F_a(d=0), N.
     fn solve(
         &mut self,
         scene: &CheckedScene,
@@ -133,13 +133,13 @@ impl<'p> Recorder<'p> {
             return Ok((each, at_touch.filter(|_| governing.adhesive_work().is_some())));
         }
         let loops = if loops.is_empty() { vec![vec![Move::ToTouch, Move::ToSeparation]] } else { loops };
-        let (mut each, mut zero_load) = (Vec::with_capacity(loops.len()), None);
+        let (mut each, mut first_touch) = (Vec::with_capacity(loops.len()), None);
         for one in loops {
             let outcome = self.run(&scene.with(|scene| scene.loading = one)?)?;
-            zero_load = zero_load.or(outcome.zero_load_adhesion_force);
+            first_touch = first_touch.or(outcome.first_touch_adhesion_force);
             each.push(LoadingOutcome::of_legs(outcome.history.legs));
         }
-        Ok((each, zero_load))
+        Ok((each, first_touch))
     }
 
     fn run(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {

@@ -95,7 +95,7 @@ pub struct Reference {
     /// Adhesion force after the preload, N.
     pub adhesion_force: Option<Compared>,
     /// Adhesion force after a turn at first touch, N.
-    pub zero_load_adhesion_force: Option<Compared>,
+    pub first_touch_adhesion_force: Option<Compared>,
     /// Dissipated energy, J.
     pub dissipated_energy: Option<Compared>,
     /// Errors of the line by their sources.
@@ -291,7 +291,7 @@ impl Reference {
             omitted: resolved.omitted,
             preload,
             adhesion_force,
-            zero_load_adhesion_force: of(&|outcome| outcome.zero_load_adhesion_force, &|found| {
+            first_touch_adhesion_force: of(&|outcome| outcome.first_touch_adhesion_force, &|found| {
                 found.at_touch
             }),
             dissipated_energy: of(&|outcome| outcome.figures.dissipated_energy, &|found| {

@@ -102,7 +102,7 @@ impl Selection {
         if !self.quantities.is_empty() {
             return self.quantities.iter().map(|name| named(name)).collect();
         }
-        let paper = [Quantity::ZeroLoadAdhesionShare, Quantity::AdhesionCoefficient];
+        let paper = [Quantity::FirstTouchAdhesionShare, Quantity::AdhesionCoefficient];
         // Without a preload there is no coefficient, and both protocols are side by side.
         let usual = if drawn.contains(&paper[1]) { paper } else { Quantity::ADHESION_SHARES };
         let usual: Vec<_> = usual.into_iter().filter(|one| drawn.contains(one)).collect();

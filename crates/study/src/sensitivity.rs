@@ -43,7 +43,7 @@ pub struct Influence {
 /// Results of a scene, and of scenes with one number changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Number of profiles computed so far: those of the seed of the scene and of the seeds that follow.
+    /// Number of profiles computed so far: the seed of the scene and the seeds that follow.
     pub profiles: u64,
     /// Medians of the results of the scene.
     pub present: Values,
@@ -59,7 +59,7 @@ type Solved = Vec<[f64; 3]>;
 impl Sensitivity {
     /// The results that are compared.
     pub const RESULTS: [Quantity; 3] =
-        [Quantity::AdhesionForce, Quantity::ZeroLoadAdhesionForce, Quantity::DissipatedEnergy];
+        [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 
     /// Computes a checked scene, and scenes with one number changed, on the profiles of an ensemble. All other numbers stay: if
     /// κ is given, the work of adhesion follows from κ. `jobs` threads share the profiles, the first with this simulation; no

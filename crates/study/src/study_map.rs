@@ -92,8 +92,8 @@ impl StudyMap {
         [Some(self.across), self.up].into_iter().flatten().map(|axis| &self.plan().axes[axis])
     }
 
-    /// The scene of a map on the first profile of the study, with these values on the axes of the map. An axis without a
-    /// value here keeps that of the plan's scene.
+    /// The scene of a map on the first profile of the study, with these values on the axes of the map. An axis
+    /// without a value here keeps the value of the plan's scene.
     fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
@@ -192,7 +192,7 @@ mod tests {
             Linear(path: "roughness.hurst", from: 0.25, to: 0.75, count: 2),
         ],
         preloads: [0.5, 2.0],
-        lines: 5,
+        profiles: 5,
         seed: 7,
         record: [adhesion_coefficient, regime, preload_force],
     )"#;

@@ -35,7 +35,7 @@ pub struct SweepRunArguments {
     #[arg(long, value_name = "K/N")]
     pub shard: Option<Shard>,
     /// Random profiles of each cell, in place of the number in the plan
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long = "profiles", value_name = "COUNT")]
     pub lines: Option<u64>,
     /// Check the plan and print its cost, without computing
     #[arg(long)]

@@ -49,7 +49,7 @@ pub struct SubmitArguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub jobs: u64,
     /// Random profiles of each cell, in place of the number in the plan
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long = "profiles", value_name = "COUNT")]
     pub lines: Option<u64>,
     /// Print the script for sbatch; write and submit nothing
     #[arg(long)]

@@ -52,7 +52,7 @@ fn report(app: &App) -> Exported<'_> {
     let (axis, lines) = (&curve.axis, curve.results.plan().lines);
     let (from, to) = (axis.values.first()?, axis.values.last()?);
     let scale = if axis.scale() == AxisScale::Logarithmic { ":log" } else { "" };
-    let lines = if lines > 1 { format!(" --lines {lines}") } else { String::new() };
+    let lines = if lines > 1 { format!(" --profiles {lines}") } else { String::new() };
     let command = format!("asperity run --preloads={from:?}..{to:?}:{}{scale}{lines} --curves", axis.count());
     let (title, results) = (app.edit.document.title(), &curve.results);
     let report =

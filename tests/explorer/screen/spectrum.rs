@@ -23,7 +23,7 @@ fn a_measured_surface_has_its_spectrum_fit_and_errors() {
     driver.shows_all([
         "measured, 1D PSD along x",
         "fit",
-        "heights of the line",
+        "heights of the profile",
         "κ = ",
         "e_el/γ = ",
         "⟨∇z⟩ ± ",

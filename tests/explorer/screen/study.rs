@@ -43,7 +43,7 @@ fn glyphs_show_all_that_was_recorded() {
     assert_eq!(driver.app.keys(), Context::Map);
     assert_eq!(driver.app.mapped(), Quantity::Regime);
     for (quantity, text) in [
-        (Quantity::ZeroLoadAdhesionShare, "F_a(d=0)/F_a,max over H, κ"),
+        (Quantity::FirstTouchAdhesionShare, "F_a(d=0)/F_a,max over H, κ"),
         (Quantity::AdhesionCoefficient, "F_a/F_n over H, κ"),
         (Quantity::AdhesionForce, "F_a (µN) "),
     ] {

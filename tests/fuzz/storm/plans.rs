@@ -59,7 +59,7 @@ fn plans() -> impl Strategy<Value = String> {
     (quick().documents(), axes, preloads, lines, any::<u64>(), record, title).prop_map(
         |(document, axes, preloads, lines, seed, record, title)| {
             let preloads = preloads.map_or(String::new(), |shares| format!("preloads: {}, ", list(&shares)));
-            let lines = if lines == 1 { String::new() } else { format!("lines: {lines}, seed: {seed}, ") };
+            let lines = if lines == 1 { String::new() } else { format!("profiles: {lines}, seed: {seed}, ") };
             let (title, text, axes, record) =
                 (ron_string(&title), document.text(), axes.join(", "), record.join(", "));
             format!("(version: 1, title: {title}, scene: {text}, axes: [{axes}], {preloads}{lines}record: [{record}])")

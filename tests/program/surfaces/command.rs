@@ -150,8 +150,9 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
     {
         let scene = format!("scenes/{number}.ron");
         let asked: Vec<&str> = std::iter::once("surface").chain(options.split(' ')).collect();
-        let report = place
-            .run(&[&asked[..], &CONTACT, &["--lines", "2", "--format", "json", "--scene", &scene]].concat());
+        let report = place.run(
+            &[&asked[..], &CONTACT, &["--profiles", "2", "--format", "json", "--scene", &scene]].concat(),
+        );
         // The moments of the analysis, and those of the line on springs: bit for bit.
         let document = asperity::scene::open(place.path().join(&scene).to_str().unwrap()).unwrap();
         let faces = document.scene().measured_paths(&document.resolve(""));
@@ -168,7 +169,7 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
                 assert_eq!(stated, Some(value), "{options}, {name}, {kind}");
             }
         }
-        let lines = place.run(&["run", &scene, "--lines", "2", "--format", "csv"]);
+        let lines = place.run(&["run", &scene, "--profiles", "2", "--format", "csv"]);
         let stated: Vec<f64> = numbers(&report, &["adhesion", "lines", "adhesion_force"]).collect();
         assert_eq!(table(&lines).map(|row| row[1]).collect::<Vec<_>>(), stated, "{options}");
         assert_eq!(numbers(&report, &["adhesion", "length"]).next(), Some(document.scene().length));
@@ -178,9 +179,11 @@ fn a_scene_holds_all_that_decides_the_equivalent_line() {
 #[test]
 fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     let place = Place::new();
-    let asked =
-        [&["surface", "line.txt", "--preload", "10uN", "--lines", "4", "--scene", "rough.ron"], &CONTACT[..]]
-            .concat();
+    let asked = [
+        &["surface", "line.txt", "--preload", "10uN", "--profiles", "4", "--scene", "rough.ron"],
+        &CONTACT[..],
+    ]
+    .concat();
     let report = place.json(&asked);
     let run = |more: &[&str]| place.json(&[&["run", "rough.ron"], more].concat());
     let first = run(&[]);
@@ -195,7 +198,7 @@ fn a_scene_of_a_surface_runs_on_its_equivalent_line() {
     let adhesion = &report["adhesion"];
     assert_eq!((&adhesion["preload"], &adhesion["adhesion_force"]["count"]), (&json!(1e-5), &json!(4)));
     assert!(number(&adhesion["fit_deviation"]) > 0.0, "{adhesion}");
-    let lines = place.run(&["run", "rough.ron", "--lines", "4", "--format", "csv"]);
+    let lines = place.run(&["run", "rough.ron", "--profiles", "4", "--format", "csv"]);
     for (row, line) in table(&lines).zip(adhesion["lines"].as_array().unwrap()) {
         assert_equal(row[1], number(&line["adhesion_force"]), 1e-9);
     }

@@ -34,7 +34,7 @@ fn limited(arguments: &[&str]) -> Command {
 
 #[test]
 fn two_thousand_shards_are_merged_with_few_open_files() {
-    let plan = plan(&SMALL.replace("lines: 3", "lines: 70").replace("count: 4", "count: 5"));
+    let plan = plan(&SMALL.replace("profiles: 3", "profiles: 70").replace("count: 4", "count: 5"));
     assert!(plan.records_in_all() > 2000);
     let (_place, folder) = computed(&plan);
     let whole = tables(&folder);

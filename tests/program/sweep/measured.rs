@@ -117,7 +117,7 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
 
 #[test]
 fn a_hash_without_a_file_is_refused() {
-    let smooth = super::SMALL.replace("lines: 3", "lines: 3, measured_sha256: \"abc\"");
+    let smooth = super::SMALL.replace("profiles: 3", "profiles: 3, measured_sha256: \"abc\"");
     let message = Plan::parse(&smooth, "p.ron", &Changes::default()).unwrap_err().to_string();
     assert!(message.contains("this scene has no such file"), "{message}");
 }

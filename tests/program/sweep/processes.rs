@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 fn text() -> String {
     super::SMALL
         .replace("count: 4", "count: 6")
-        .replace("lines: 3", "lines: 6")
+        .replace("profiles: 3", "profiles: 6")
         .replace("points: 256", "points: 2048")
         .replace("modes: (1, 64)", "modes: (1, 512)")
 }

@@ -14,8 +14,9 @@ fn each_mistake_has_its_message() {
         ("axes:", "axis:", "p.ron:12:5: axis: no such field; did you mean axes?"),
         ("Linear(", "Liner(", "p.ron:13:9: axes.0 = Liner: allowed: Linear, Logarithmic, List"),
         ("from: 0.5", "form: 0.5", "form: no such field; did you mean from?"),
-        ("lines: 3", "lines: three", "p.ron:18:12: lines = three: a whole number is expected here"),
-        ("lines: 3", "lines: 0", "p.ron: lines = 0: allowed: from 1 to 1000000"),
+        ("profiles: 3", "profiles: three", "p.ron:18:15: profiles = three: a whole number is expected here"),
+        ("profiles: 3", "lines: 3", "p.ron:18:5: lines is now profiles"),
+        ("profiles: 3", "profiles: 0", "p.ron: profiles = 0: allowed: from 1 to 1000000"),
         ("regime,", "regimes,", "(did you mean regime?)"),
         ("regime,", "regime, regime,", "record: regime is given twice"),
         ("version: 1,\n    title", "version: 2,\n    title", "version = 2: allowed: 1"),
@@ -45,11 +46,11 @@ fn each_mistake_has_its_message() {
         assert!(message.contains(expected), "{to}: {message}");
         assert!(message.lines().all(|line| line.starts_with("p.ron")), "{message}");
     }
-    let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], lines: 2, record: [regime])";
+    let smooth = "(version: 1, base: \"jkr-sphere\", preloads: [0.1], profiles: 2, record: [regime])";
     let message = wrong(smooth);
     assert!(message.contains("this scene is smooth; allowed: an axis preload_in_N"), "{message}");
     assert!(
-        message.contains("lines = 2: more than one profile, and the profile of this scene is fixed; allowed: random roughness (SelfAffine"),
+        message.contains("profiles = 2: more than one profile, and the profile of this scene is fixed; allowed: random roughness (SelfAffine"),
         "{message}"
     );
     let message = wrong(&SMALL[..SMALL.len() / 2]);
@@ -62,7 +63,7 @@ fn too_many_cells_are_refused_at_once() {
     let text = SMALL.replace("count: 4", "count: 1000000");
     let message = wrong(&text.replace("values: [1.0e6, 2.0e6]", "values: [1.0e6, 2.0e6, 3.0e6]"));
     assert!(message.contains("1000000 × 2 × 3 × 2 cells; allowed: at most 10000000"), "{message}");
-    let message = wrong(&text.replace("lines: 3", "lines: 1000000"));
+    let message = wrong(&text.replace("profiles: 3", "profiles: 1000000"));
     assert!(message.contains("on 1000000 profiles; allowed: at most 100000000 together"), "{message}");
     let message = wrong(&SMALL.replace("count: 4", "count: 18446744073709551615"));
     assert!(message.contains("allowed: from 2 to 1000000"), "{message}");
@@ -76,7 +77,7 @@ fn scenes_stand_beside_their_plans() {
     let preset = asperity::scene::find_scene("rough-sphere").unwrap().text;
     std::fs::write(folder.join("mine.ron"), preset).unwrap();
     let text =
-        "(version: 1, base: \"mine.ron\", set: {\"roughness.seed\": \"7\"}, lines: 2, record: [regime])";
+        "(version: 1, base: \"mine.ron\", set: {\"roughness.seed\": \"7\"}, profiles: 2, record: [regime])";
     std::fs::write(folder.join("plan.ron"), text).unwrap();
     let open = |name: &str| Plan::open(folder.join(name).to_str().unwrap(), &Changes::default());
     let plan = open("plan.ron").unwrap();

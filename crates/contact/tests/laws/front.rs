@@ -59,6 +59,15 @@ fn wrong_values_are_named_with_what_is_allowed() {
         ),
         (gaps(&[0.0, f64::INFINITY]), "gap with index 1 = inf; allowed: from 0 to 1e50 m".to_owned()),
         (
+            of(flat.clone().on_foundation(1e-6, 0).unwrap_err()),
+            "length of the foundation = 1e-6; allowed: at least the end of the profile, at most 1e50 m"
+                .to_owned(),
+        ),
+        (
+            of(flat.clone().with_summit(f64::NAN).unwrap_err()),
+            "height of the highest point = NaN; allowed: from -1e50 to 1e50 m".to_owned(),
+        ),
+        (
             gaps(&[1.0, 2.0]),
             "smallest gap of the profile = 1; allowed: 0: the highest point has no gap".to_owned(),
         ),

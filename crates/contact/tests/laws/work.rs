@@ -25,17 +25,17 @@ proptest! {
         }
     }
 
-    /// F_a(0) takes one pass for each protocol, wherever the body is, and evaluates the rule of Hess for the springs that
+    /// F_a(d=0) takes one pass for each protocol, wherever the body is, and evaluates the rule of Hess for the springs that
     /// touch and those that these attach.
     #[test]
-    fn zero_load_adhesion_takes_one_pass_for_each_protocol(body in bodies(200), deep in 0.1..1.2_f64) {
+    fn adhesion_without_preload_takes_one_pass_for_each_turn(body in bodies(200), deep in 0.1..1.2_f64) {
         prop_assume!(body.work > 0.0);
         let mut solver = body.on(2);
         solver.advance(Move::ToIndentation(deep)).unwrap();
         let (here, before) = (solver.point(), solver.work());
-        let forces = solver.zero_load_adhesion().unwrap();
+        let forces = solver.adhesion_without_preload().unwrap();
         let work = solver.work();
-        prop_assert_eq!((work.zero_load_passes, work.unloading_passes, work.loading_passes), (2, 0, 1));
+        prop_assert_eq!((work.passes_without_preload, work.unloading_passes, work.loading_passes), (2, 0, 1));
         prop_assert!(work.hess_evaluations > before.hess_evaluations && solver.point() == here);
         for (force, turn) in forces.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
             let back = body.history(&[turn, Move::ToSeparation], 2);

@@ -204,8 +204,8 @@ fn check(
         return refused("no curve", "one or more curves");
     }
     if scene.seed().is_none() {
-        let allowed = "a scene with random roughness; without --lines a scene whose profile is known";
-        return refused("--lines: the profile of the scene is not random", allowed);
+        let allowed = "a scene with random roughness; without --profiles a scene whose profile is known";
+        return refused("--profiles: the profile of the scene is not random", allowed);
     }
     if scene.numerics.solver != Solver::Exact {
         let found = "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
@@ -222,7 +222,7 @@ fn check(
         return refused(found, "roughness: SelfAffine(…), or no --height-error and --hurst-error");
     }
     if options.lines < FEWEST_LINES {
-        return refused(format!("--lines {}", options.lines), format!("at least {FEWEST_LINES}"));
+        return refused(format!("--profiles {}", options.lines), format!("at least {FEWEST_LINES}"));
     }
     for (index, (name, curve)) in curves.iter().enumerate() {
         let same = |(_, other): &&(String, MeasuredCurve)| {
@@ -312,7 +312,7 @@ mod tests {
         for (result, said) in [
             (found(&all, &smooth, OPTIONS), "the profile of the scene is not random"),
             (found(&[], &scene, OPTIONS), "no curve"),
-            (found(&all, &scene, few), "--lines 8"),
+            (found(&all, &scene, few), "--profiles 8"),
             (found(&twice, &scene, OPTIONS), "again: the same curve as place 0"),
             (
                 found(&cut(0, turned + 120), &scene, OPTIONS),

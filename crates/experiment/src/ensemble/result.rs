@@ -33,7 +33,8 @@ pub struct EnsembleFit {
     pub shares: Shares,
     /// Relative half-width of the interval of the work of adhesion with other numbers of curves.
     pub prospects: Vec<Prospect>,
-    /// Changes of the results if the roughness differs from that of the scene; `None` for a measured roughness.
+    /// Changes of the results if the roughness differs from the roughness of the scene; `None` for a measured
+    /// roughness.
     pub roughness: Option<RoughnessShifts>,
     /// Changes of the scene by the files of the curves, in words.
     #[serde(skip)]
@@ -49,12 +50,12 @@ pub struct EnsembleFit {
     pub preload_scatter: Option<f64>,
     /// Each curve by itself.
     pub curves: Vec<CurveOfEnsemble>,
-    /// Scatter of the curves over that of the random profiles, expected between about 0.8 and 1.2; `None` for fewer than 4
-    /// curves.
+    /// Scatter of the curves over the scatter of the random profiles, expected between about 0.8 and 1.2; `None` for
+    /// fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
     /// True if random profiles of this spectrum describe the means of all summaries.
     pub described: bool,
-    /// How far the mean of each summary lies from that of the random profiles.
+    /// How far the mean of each summary lies from the mean of the random profiles.
     pub deviations: Vec<SummaryDeviation>,
     /// True if the interval reaches an end of the table of computed curves: its ends are then too close.
     pub at_end_of_table: bool,
@@ -110,9 +111,9 @@ pub struct CurveOfEnsemble {
     pub loop_area: f64,
     /// Half of the preload over the way back to it, N/m.
     pub stiffness: f64,
-    /// Work of adhesion by this curve alone, J/m².
+    /// Work of adhesion by only this curve, J/m².
     pub work: IntervalEstimate,
-    /// True if the interval of this curve alone reaches an end of the table.
+    /// True if the interval of only this curve reaches an end of the table.
     pub at_end_of_table: bool,
     /// True if one in a thousand curves of random profiles lies so far from the others.
     pub foreign: bool,
@@ -124,7 +125,7 @@ pub struct CurveOfEnsemble {
 pub struct SummaryDeviation {
     /// Name of the summary.
     pub summary: &'static str,
-    /// Mean over the curves over that of random profiles, as a natural logarithm.
+    /// Natural logarithm of the mean over the curves, divided by the mean over random profiles.
     pub logarithm: f64,
     /// The same in units of its standard error.
     pub deviation: f64,

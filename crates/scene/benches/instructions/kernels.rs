@@ -22,7 +22,7 @@ const PRESS: [Move; 1] = [Move::ToForce(FORCE)];
 #[derive(Default)]
 pub struct Given {
     pub history: History,
-    pub zero_load: [Option<f64>; 2],
+    pub without_preload: [Option<f64>; 2],
     pub histogram: Option<Histogram>,
     pub fragments: Vec<Vec<Patch>>,
 }
@@ -72,9 +72,9 @@ fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
         Ok(())
     });
     let history = history.expect("a loading within reach");
-    let zero_load = match case.class {
+    let without_preload = match case.class {
         Class::AdhesivePressed => [None; 2],
-        _ => body.zero_load_adhesion().expect("a contact at first touch"),
+        _ => body.adhesion_without_preload().expect("a contact at first touch"),
     };
-    Given { history, zero_load, histogram: None, fragments }
+    Given { history, without_preload, histogram: None, fragments }
 }

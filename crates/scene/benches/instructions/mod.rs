@@ -39,7 +39,7 @@ impl What {
 /// The program's own way from a scene to its outcome.
 pub fn program(document: &Document) -> Outcome {
     let mut simulation = Simulation::default();
-    let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(()));
+    let outcome = simulation.compute(document.scene());
     outcome.expect("a scene that can be computed")
 }
 
@@ -66,8 +66,8 @@ pub fn assert_agree(case: &Case) {
     };
     assert_eq!(forces(&outcome.history), forces(&given.history), "{what}");
     assert_eq!(outcome.history.contacts, given.history.contacts, "{what}");
-    let zero_load = [outcome.zero_load_adhesion_force, outcome.zero_force_adhesion_force];
-    assert_eq!(zero_load, given.zero_load, "{what}");
+    let without_preload = [outcome.first_touch_adhesion_force, outcome.zero_force_adhesion_force];
+    assert_eq!(without_preload, given.without_preload, "{what}");
     assert_eq!(outcome.histogram, given.histogram, "{what}");
     assert_eq!(outcome.fragments, given.fragments, "{what}");
     assert!(outcome.history.legs.iter().all(|leg| leg.curve.iter().any(|point| point.springs > 0)), "{what}");

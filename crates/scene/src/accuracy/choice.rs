@@ -129,7 +129,7 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// stays within the tolerance over at least two refinements. The error counts under the loads of the scene, half of them
 /// and twice of them (its target forces and indentations above zero), unless a closed form gives it. With equal springs
 /// both edge models take about the same time; edges between springs are preferred, since their error falls faster if the
-/// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is polled now and then;
+/// estimate was too optimistic. The choice depends on the scene alone, not on times. `stop` is asked between solutions;
 /// `trying` receives the next number of springs.
 ///
 /// ```

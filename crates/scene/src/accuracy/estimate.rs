@@ -94,7 +94,7 @@ pub enum Evidence {
 /// let rough = ProfileBuilder::new(1.0e-4, 1024).self_affine(0.7).rms_height(1.0e-7).modes(1, 64);
 /// let (modulus, adhesion) = (Modulus::effective(2.0e6)?, Some(Adhesion::by_work(0.02)));
 /// let scene = rough.scene(modulus, adhesion, &[Move::ToForce(1.0e-4), Move::ToSeparation])?;
-/// let outcome = Simulation::default().run(&scene, &|| false, &mut |_, _, _| Ok(()))?;
+/// let outcome = Simulation::default().compute(&scene)?;
 /// let estimated = estimate(&scene, Path::new(""), &outcome, &|| false).unwrap();
 /// assert!(estimated.of_adhesion_force(&outcome) < outcome.figures.adhesion_force);
 /// # Ok::<(), asperity_scene::Error>(())
@@ -180,7 +180,7 @@ mod tests {
     use crate::simulation::stages::Simulation;
 
     fn run(document: &Document) -> Outcome {
-        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+        Simulation::default().compute(document.scene()).unwrap()
     }
 
     fn estimated(document: &Document) -> Option<Estimate> {

@@ -53,8 +53,8 @@ struct Ladder<'a> {
     table: CostTable,
 }
 
-/// Measures the cost table of a checked scene with files in `folder`, within a budget of time. `stop` is polled now and
-/// then; `watch` receives each setting and its result.
+/// Measures the cost table of a checked scene with files in `folder`, within a budget of time. `stop` is asked between
+/// solutions; `watch` receives each setting and its result.
 ///
 /// # Errors
 /// The reason in a sentence: the scene cannot be computed, the budget allows fewer than two solutions, or `stop` returned

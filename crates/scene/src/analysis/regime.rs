@@ -44,29 +44,28 @@ impl Regime {
     pub const ALL: [Regime; 3] =
         [Regime::PressureInsensitive, Regime::PressureSensitive, Regime::NonAdhesive];
 
-    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force. `zero_load` is the
-    /// adhesion force F_a(0) by the touch or the zero-force protocol and `smooth` that of the same body without roughness,
-    /// both in N and `None` without adhesion. F_a(0) is larger by the zero-force protocol, so where both protocols give
-    /// different regimes, the zero-force one gives the pressure-insensitive regime.
+    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force. `turned` is
+    /// F_a(d=0) or F_a(F=0), and `smooth` the adhesion force of the same body without roughness, both in N and `None` without
+    /// adhesion. F_a(F=0) is at least F_a(d=0). Where both give different regimes, F_a(F=0) gives the pressure-insensitive one.
     ///
-    /// Pressure-insensitive: F_a(0) is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
+    /// Pressure-insensitive: `turned` is at least [`INSENSITIVE_SHARE`] of F_a(F_n) and at least
     /// [`VANISHING_SHARE`] of the smooth body's. Otherwise non-adhesive if F_a(F_n)/F_n is below
     /// [`NEGLIGIBLE_COEFFICIENT`] or, without a preload, if the adhesion force is below [`VANISHING_SHARE`] of the smooth
     /// body's; pressure-sensitive in all other cases.
-    pub fn of_loading(figures: &Figures, zero_load: Option<f64>, smooth: Option<f64>) -> Option<Self> {
+    pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
-        match (figures.adhesion_force, zero_load, smooth) {
+        match (figures.adhesion_force, turned, smooth) {
             (Some(_), None, None) => Some(Regime::NonAdhesive),
-            (Some(adhesion), Some(zero_load), Some(smooth)) => {
-                Some(Regime::of_forces(zero_load, adhesion, preload, smooth))
+            (Some(adhesion), Some(turned), Some(smooth)) => {
+                Some(Regime::of_forces(turned, adhesion, preload, smooth))
             }
             _ => None,
         }
     }
 
-    fn of_forces(zero_load: f64, adhesion: f64, preload: f64, smooth: f64) -> Self {
-        let present = zero_load >= VANISHING_SHARE * smooth && zero_load > 0.0;
-        if present && zero_load >= INSENSITIVE_SHARE * adhesion {
+    fn of_forces(turned: f64, adhesion: f64, preload: f64, smooth: f64) -> Self {
+        let present = turned >= VANISHING_SHARE * smooth && turned > 0.0;
+        if present && turned >= INSENSITIVE_SHARE * adhesion {
             Regime::PressureInsensitive
         } else if adhesion <= NEGLIGIBLE_COEFFICIENT * preload
             || (preload <= 0.0 && adhesion < VANISHING_SHARE * smooth)
@@ -85,7 +84,7 @@ impl Regime {
         self.into()
     }
 
-    /// Name of the regime with the protocols for F_a(0) that give it; also the regime after zero net force, if that differs.
+    /// Name of the regime with the protocols for F_a(d=0) that give it; also the regime turned at zero force, if that differs.
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {
@@ -113,7 +112,7 @@ mod tests {
     #[test]
     fn thresholds_belong_to_the_stronger_regime() {
         let [insensitive, sensitive, non_adhesive] = Regime::ALL;
-        for (zero_load, adhesion, preload, smooth, expected) in [
+        for (turned, adhesion, preload, smooth, expected) in [
             // Half of the adhesion needs no pressing; slightly less does not count.
             (0.5, 1.0, 5.0, 1.0, insensitive),
             (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
@@ -133,8 +132,8 @@ mod tests {
             (0.3, 1.0, 0.0, 1.0, sensitive),
             (0.3, 1.0, -1.0, 1.0, sensitive),
         ] {
-            let found = Regime::of_forces(zero_load, adhesion, preload, smooth);
-            assert_eq!(found, expected, "{zero_load} {adhesion} {preload} {smooth}");
+            let found = Regime::of_forces(turned, adhesion, preload, smooth);
+            assert_eq!(found, expected, "{turned} {adhesion} {preload} {smooth}");
         }
     }
 }

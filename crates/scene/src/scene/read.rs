@@ -118,7 +118,7 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
 
 /// Returns true for a field of the plan of a study in place of one of a scene, which are the expected ones.
 fn is_of_plan(found: &str, expected: &[&str]) -> bool {
-    ["scene", "axes", "preloads", "lines", "record"].contains(&found) && expected.contains(&"material")
+    ["scene", "axes", "preloads", "profiles", "record"].contains(&found) && expected.contains(&"material")
 }
 
 /// Message of the reader in plain words.

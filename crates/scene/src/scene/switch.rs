@@ -16,8 +16,8 @@ const BY_WORK: &str = "(work: 0.05)";
 impl Document {
     /// This document without an effect; unchanged if the effect is off already.
     ///
-    /// Without roughness, adhesion given by κ or e_el/γ becomes adhesion by a work: the work that was replaced by a key,
-    /// else the usual one. Without unloading, only the stage that presses most remains.
+    /// If the roughness is switched off, adhesion by κ or e_el/γ becomes adhesion by a work: the work that was given
+    /// before, else the usual one. Without unloading, only the stage that presses most remains.
     ///
     /// # Errors
     /// The scene does not allow the effect to be left out.

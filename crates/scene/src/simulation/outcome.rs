@@ -23,17 +23,17 @@ pub struct Outcome {
     pub ideal_adhesion_force: Option<f64>,
     /// Adhesion force F_smooth, N, of the same body without roughness after the same preload; `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(0) by the touch protocol, N; `None` without adhesion or an unloading stage.
-    pub zero_load_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(0) by the zero-force protocol, N; `None` without adhesion or an unloading stage.
+    /// Adhesion force F_a(d=0), N; `None` without adhesion or an unloading stage.
+    pub first_touch_adhesion_force: Option<f64>,
+    /// Adhesion force F_a(F=0), N; `None` without adhesion or an unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion or a radius of curvature.
     pub tabor_number: Option<f64>,
     /// Waves of a sphere, if they are too steep for the theory of Johnson, Kendall and Roberts.
     pub steep_waves: Option<SteepWaves>,
-    /// Regime of adhesion (Fig. 4) by the touch protocol; `None` without a tensile force.
+    /// Regime of adhesion (Fig. 4) turned at first touch; `None` without a tensile force.
     pub regime: Option<Regime>,
-    /// Regime of adhesion by the zero-force protocol; `None` without a tensile force.
+    /// Regime of adhesion turned at zero force; `None` without a tensile force.
     pub regime_after_zero_force: Option<Regime>,
     /// Headline figures of the loading history.
     pub figures: Figures,
@@ -92,14 +92,14 @@ pub struct Timings {
     pub passes: f64,
     /// Time for the curves and exact extremes of all loading stages, s.
     pub curve: f64,
-    /// Time for F_a(0) by both protocols, for the regimes, s.
-    pub zero_load: f64,
+    /// Time for F_a(d=0) and F_a(F=0), for the regimes, s.
+    pub without_preload: f64,
 }
 
 impl Timings {
     /// Time of all computing stages, s.
     pub fn total(&self) -> f64 {
-        self.line + self.tree + self.passes + self.curve + self.zero_load
+        self.line + self.tree + self.passes + self.curve + self.without_preload
     }
 }
 

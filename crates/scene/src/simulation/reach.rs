@@ -109,7 +109,7 @@ mod tests {
 
     fn run(document: &Document, stage: Move) -> Result<Outcome, RunError> {
         let document = document.with_stages(&[(None, stage)]).unwrap();
-        Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(()))
+        Simulation::default().compute(document.scene())
     }
 
     #[test]

@@ -40,7 +40,7 @@ const SMALL: u64 = 32 << 20;
 /// let (mut simulation, sphere) = (Simulation::default(), open("jkr-sphere")?);
 /// let mut force = |points: u64| {
 ///     let scene = sphere.scene().with(|scene| scene.numerics.points = points)?;
-///     Ok::<_, asperity_scene::Error>(simulation.run(&scene, &|| false, &mut |_, _, _| Ok(()))?.figures.adhesion_force)
+///     Ok::<_, asperity_scene::Error>(simulation.compute(&scene)?.figures.adhesion_force)
 /// };
 /// assert!((force(512)?.unwrap() / force(4096)?.unwrap() - 1.0).abs() < 1e-3);
 /// # Ok::<(), asperity_scene::Error>(())
@@ -55,7 +55,7 @@ pub struct Simulation {
     histogram: Option<Histogram>,
     /// The line as the profile of a contact, with its tree.
     profile: Option<Profile>,
-    /// Profile of the form alone, once it was needed for F_smooth.
+    /// Profile of the form without roughness, once it was needed for F_smooth.
     pub(super) smooth: Option<SmoothProfile>,
     /// Contact tree of a former profile, for the reuse of its memory.
     former_tree: ContactTree,
@@ -308,8 +308,16 @@ impl Simulation {
         Ok((made.contact, made.governing))
     }
 
-    /// Runs a checked scene: only the computing stages that it needs. `stop` is polled now and then; `after` receives each
-    /// stage of the scene's own loading.
+    /// Computes a checked scene; see [`Self::run`], which can be stopped.
+    ///
+    /// # Errors
+    /// A computing stage fails; earlier results are kept for the next run.
+    pub fn compute(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {
+        self.run(scene, &|| false, &mut |_, _, _| Ok(()))
+    }
+
+    /// Runs a checked scene: only the computing stages that it needs. `stop` is asked between stages; `after` receives each
+    /// loading stage of the scene.
     ///
     /// # Errors
     /// A computing stage fails or `stop` returns true; earlier results are kept for the next run.
@@ -339,9 +347,10 @@ impl Simulation {
             stage += 1;
             after(stage - 1, record, leg)
         };
-        let zero_load = plan.runs(Stage::ZeroLoadAdhesion);
-        let (mut history, zero_load) = load(scene, &contact, zero_load, &mut timings, stop, &mut see)?;
-        timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.zero_load).max(0.0);
+        let without_preload = plan.runs(Stage::WithoutPreload);
+        let (mut history, without_preload) =
+            load(scene, &contact, without_preload, &mut timings, stop, &mut see)?;
+        timings.passes = (clock.elapsed().as_secs_f64() - timings.curve - timings.without_preload).max(0.0);
         history.contacts.iter_mut().for_each(|contact| *contact = on_foundation(*contact));
         let transforms = u64::from(random_phases > 0);
         let work = &mut history.work;
@@ -349,20 +358,20 @@ impl Simulation {
             (random_phases, transforms, heights_binned);
 
         let figures = Figures::of(&history);
-        let [zero_load_adhesion_force, zero_force_adhesion_force] = zero_load;
+        let [first_touch_adhesion_force, zero_force_adhesion_force] = without_preload;
         let (work, modulus, length) = (governing.adhesive_work(), governing.effective_modulus, scene.length);
         let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
-        let regime = |zero_load| Regime::of_loading(&figures, zero_load, smooth);
+        let regime = |without_preload| Regime::of_loading(&figures, without_preload, smooth);
         Ok(Outcome {
             line: facts,
             governing,
             ideal_adhesion_force: work.map(|work| ideal_adhesion_force(work, modulus, length)),
             smooth_adhesion_force: smooth,
-            zero_load_adhesion_force,
+            first_touch_adhesion_force,
             zero_force_adhesion_force,
             tabor_number: scene_tabor_number(scene, &governing),
             steep_waves: SteepWaves::of(scene, &governing),
-            regime: regime(zero_load_adhesion_force),
+            regime: regime(first_touch_adhesion_force),
             regime_after_zero_force: regime(zero_force_adhesion_force),
             instrument: scene.loading_stiffness.map(|k| InstrumentFigures::of(&history, &figures, k)),
             figures,
@@ -377,15 +386,15 @@ impl Simulation {
 /// The profile of a contact on the springs under a line.
 pub(crate) fn profile_of(line: &Line) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
-    Ok(profile.on_foundation(line.length, line.first)?.with_summit(line.summit))
+    profile.on_foundation(line.length, line.first)?.with_summit(line.summit)
 }
 
-/// Loads a contact with the solver of the scene; with `zero_load` also with turns at first touch and at zero force. Returns
-/// the history, and F_a(0) by both protocols, N, where the contact pulls.
+/// Loads a contact with the solver of the scene; with `without_preload` also with turns at first touch and at zero force. Returns
+/// the history, and F_a(d=0) and F_a(F=0), N, where the contact pulls.
 fn load(
     scene: &Scene,
     contact: &Contact,
-    zero_load: bool,
+    without_preload: bool,
     timings: &mut Timings,
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
@@ -398,12 +407,12 @@ fn load(
             let mut solver = body(samples)?;
             let mut history = load_body(&mut solver, &scene.loading, see)?;
             timings.curve = solver.curve_seconds();
-            if zero_load {
+            if without_preload {
                 let clock = Instant::now();
                 for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
                     let turned = match load_body(&mut body(2)?, &[turn, Move::ToSeparation], |_, _| Ok(())) {
                         Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
-                        // A turn out of reach of the steps has no F_a(0).
+                        // A turn out of reach of the steps has no F_a(d=0).
                         Err(_) => continue,
                         Ok(turned) => turned,
                     };
@@ -413,7 +422,7 @@ fn load(
                     work.relaxation_sweeps += turned.work.relaxation_sweeps;
                     work.spring_updates += turned.work.spring_updates;
                 }
-                timings.zero_load = clock.elapsed().as_secs_f64();
+                timings.without_preload = clock.elapsed().as_secs_f64();
             }
             Ok((history, forces))
         }
@@ -421,11 +430,11 @@ fn load(
             let mut body = Body::new(contact, samples);
             let mut history = load_body(&mut body, &scene.loading, see)?;
             timings.curve = body.curve_seconds();
-            if zero_load && contact.has_adhesion() {
+            if without_preload && contact.has_adhesion() {
                 let clock = Instant::now();
-                forces = body.zero_load_adhesion()?;
+                forces = body.adhesion_without_preload()?;
                 history.work = body.work();
-                timings.zero_load = clock.elapsed().as_secs_f64();
+                timings.without_preload = clock.elapsed().as_secs_f64();
             }
             Ok((history, forces))
         }

@@ -49,8 +49,8 @@ pub enum Stage {
     UnloadingPass,
     /// Steps and relaxation sweeps of the stepwise solver.
     Relaxation,
-    /// The loops with turns at first touch and at zero force, for F_a(0) and the regimes.
-    ZeroLoadAdhesion,
+    /// The loops with turns at first touch and at zero force, for F_a(d=0) and the regimes.
+    WithoutPreload,
     /// Listing the contact patches.
     Fragments,
     /// Counting heights into the histogram.
@@ -61,7 +61,7 @@ pub enum Stage {
 impl Stage {
     const NAMES: [&str; 11] = [
         "form", "random profile", "measured profile", "contact tree", "rule of Hess", "loading passes",
-        "unloading passes", "stepwise relaxation", "zero-load adhesion and regime", "contact patches",
+        "unloading passes", "stepwise relaxation", "adhesion without a preload, regime", "contact patches",
         "height histogram",
     ];
 
@@ -127,7 +127,7 @@ impl Workload {
         let stages = stages(scene, points, springs);
         let mut plan = Workload { springs, peak_bytes: 0, resident_bytes: 0, stages };
         // At most, if the whole contact under load also exists at first touch.
-        let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::ZeroLoadAdhesion];
+        let solved = [Stage::Tree, Stage::LoadingPass, Stage::Relaxation, Stage::WithoutPreload];
         let between = scene.numerics.edges == Edges::SubCell && scene.numerics.solver == Solver::Exact;
         let sampled = if between { SAMPLED_WITH_EDGES } else { SAMPLED };
         let curves = scene.numerics.samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64
@@ -195,7 +195,7 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         (true, true, false) => Err(STEPWISE),
         (true, true, true) => Ok("loading goes back"),
     };
-    let zero_load = match (adhesive, pulls) {
+    let without_preload = match (adhesive, pulls) {
         (false, _) => Err("no adhesion: non-adhesive"),
         (true, false) => Err(NEVER_BACK),
         (true, true) => Ok("adhesion with a loading that goes back"),
@@ -218,7 +218,7 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         row(Stage::LoadingPass, solved, each_stage, PASSED * springs),
         row(Stage::UnloadingPass, unloading, each_stage, 0),
         row(Stage::Relaxation, when(!exact, STEPWISE, "solver: Exact"), each_stage, RELAXED * springs),
-        row(Stage::ZeroLoadAdhesion, zero_load, touch, touch_bytes + smooth_bytes),
+        row(Stage::WithoutPreload, without_preload, touch, touch_bytes + smooth_bytes),
         row(Stage::Fragments, fragments, (Some(scene.loading.len() as u64), springs), 0),
         row(Stage::HeightHistogram, histogram, once, 0),
     ]

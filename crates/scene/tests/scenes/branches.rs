@@ -9,7 +9,7 @@ use proptest::prelude::*;
 /// A scene with this loading.
 fn loaded(scene: &str, loading: &str) -> Outcome {
     let document = open(scene).unwrap().set("loading", loading).unwrap();
-    Simulation::default().run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+    Simulation::default().compute(document.scene()).unwrap()
 }
 
 /// One path in several cuts, several cycles, and paths that end in contact.

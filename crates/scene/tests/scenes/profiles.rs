@@ -3,9 +3,12 @@
 use asperity_contact::{Modulus, Move};
 use asperity_data::on_this_thread;
 use asperity_scene::{Adhesion, Document, Error, ProfileBuilder, Simulation};
-use asperity_surface::{Form, phases};
+use asperity_surface::{
+    AnalysisOptions, EquivalentLine, Form, MeasuredRoughness, Topography, analyse, phases,
+};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 const LENGTH: f64 = 1.0e-4;
 
@@ -71,7 +74,7 @@ proptest! {
         prop_assert_eq!(profile.position(0), line.position(0));
         let stages = [Move::ToForce(1.0e-6), Move::ToSeparation];
         let run = builder.run(Modulus::effective(1.0e6).unwrap(), Some(Adhesion::by_work(1.0e-3)), &stages).unwrap();
-        let outcome = simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap();
+        let outcome = simulation.compute(document.scene()).unwrap();
         prop_assert!(run.history.legs == outcome.history.legs && run.figures == outcome.figures);
         prop_assert_eq!((run.governing, run.regime), (outcome.governing, outcome.regime));
     }
@@ -105,6 +108,33 @@ proptest! {
         for (one, other) in built.gaps().iter().zip(profile.gaps()) {
             prop_assert!((one - other).abs() < 1e-18 + 1e-12 * summit.abs());
         }
+    }
+}
+
+#[test]
+fn a_profile_with_a_measured_spectrum_is_that_of_a_scene() {
+    let heights: Vec<f64> = phases(3, 1).take(256).map(|phase| 1e-8 * phase).collect();
+    let surface = Topography::from_profile(&heights, 1e-6).unwrap();
+    let line = EquivalentLine::from(&analyse(&[surface], &AnalysisOptions::default()).unwrap());
+    let length = 2e-4;
+    for points in [1024, 1025] {
+        let built = |form: Option<Form>| {
+            let builder = ProfileBuilder::new(length, points).spectrum(line.clone()).seed(7);
+            form.map_or(builder.clone(), |form| builder.form(form)).build().unwrap()
+        };
+        // A flat face has the heights of the line themselves.
+        let rough = line.heights(length, points, 7).unwrap();
+        let summit = rough.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        assert!(built(None).gaps().iter().zip(&rough).all(|(gap, height)| *gap == summit - height));
+        let text = format!(
+            "(version: 1, material: (effective_modulus: 1.0), length: {length}, form: Paraboloid(radius: 1.0e-3), \
+             roughness: Measured(file: \"any.txt\", seed: 7), numerics: (points: {points}))"
+        );
+        let document = Document::parse(&text, "scene").unwrap();
+        let simulation = Simulation::default();
+        let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
+        let profile = simulation.with_measured(measured).profile(document.scene()).unwrap();
+        assert!(built(Some(Form::Paraboloid { radius: 1e-3 })) == profile, "{points}");
     }
 }
 

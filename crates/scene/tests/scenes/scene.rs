@@ -250,7 +250,7 @@ fn a_refused_scene_has_no_numbers() {
     }
     let simulation = &mut Simulation::default();
     let coarse = document.scene().with(|scene| scene.numerics.points = 1024).unwrap();
-    assert!(simulation.run(&coarse, &|| false, &mut |_, _, _| Ok(())).is_ok());
+    assert!(simulation.compute(&coarse).is_ok());
 }
 
 fn modes(scene: &mut Scene, wanted: (u64, u64)) {

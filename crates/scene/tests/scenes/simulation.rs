@@ -26,7 +26,7 @@ fn scene(overrides: Overrides) -> CheckedScene {
 }
 
 fn outcome(simulation: &mut Simulation, scene: &CheckedScene) -> Outcome {
-    let outcome = simulation.run(scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
+    let outcome = simulation.compute(scene).unwrap();
     let mut outcome = outcome;
     outcome.timings = Timings::default();
     outcome
@@ -78,8 +78,8 @@ fn kept_stages_do_not_change_results() {
             (random_phases, transforms, heights_binned);
         assert_eq!(found, expected, "{edit:?}");
 
-        let zero_load = [found.zero_load_adhesion_force, found.zero_force_adhesion_force];
-        for (force, turn) in zero_load.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
+        let without_preload = [found.first_touch_adhesion_force, found.zero_force_adhesion_force];
+        for (force, turn) in without_preload.into_iter().zip([Move::ToTouch, Move::ToZeroForce]) {
             let turned = scene.with(|scene| scene.loading = vec![turn, Move::ToSeparation]).unwrap();
             let turned = outcome(&mut Simulation::default(), &turned).figures.adhesion_force;
             assert_eq!(force, turned.filter(|_| scene.adhesion.is_some()), "{edit:?}, {turn:?}");
@@ -118,7 +118,7 @@ fn an_interrupted_run_does_not_affect_the_next() {
             Ok(found) => {
                 assert!(allowed > 2);
                 assert_eq!(found.history.legs, expected.history.legs);
-                assert_eq!(found.zero_load_adhesion_force, expected.zero_load_adhesion_force);
+                assert_eq!(found.first_touch_adhesion_force, expected.first_touch_adhesion_force);
                 assert_eq!(found.histogram, expected.histogram);
                 return;
             }

@@ -10,7 +10,7 @@ fn run(simulation: &mut Simulation, form: &str, roughness: &str, adhesion: &str,
          adhesion: {adhesion}, loading: {loading}, numerics: (points: 2048, samples: 9))"
     );
     let document = Document::parse(&text, "test").unwrap_or_else(|errors| panic!("{errors}"));
-    simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+    simulation.compute(document.scene()).unwrap()
 }
 
 /// Bodies with a closed form and without one: waves, tables, contacts that reach the end of the profile, two works.

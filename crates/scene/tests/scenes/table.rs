@@ -50,7 +50,7 @@ fn a_thousand_rows_are_their_closed_form() {
         std::fs::write(folder.path().join("tip.csv"), text(&rows(reach, depth))).unwrap();
         let run = |form: &str| {
             let mut simulation = Simulation::new(folder.path().to_owned());
-            simulation.run(scene(form, 2.0 * reach).scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+            simulation.compute(scene(form, 2.0 * reach).scene()).unwrap()
         };
         let [exact, table] = [form, "Table(file: \"tip.csv\")"].map(run);
         let pull_off = |outcome: &Outcome| outcome.figures.adhesion_force.unwrap();
@@ -83,7 +83,7 @@ fn a_table_without_a_file_or_too_short_is_refused() {
     let write = |text: &str| std::fs::write(folder.path().join("tip.csv"), text).unwrap();
     let run = |form: &str| {
         let mut simulation = Simulation::new(folder.path().to_owned());
-        let outcome = simulation.run(scene(form, 1e-4).scene(), &|| false, &mut |_, _, _| Ok(()));
+        let outcome = simulation.compute(scene(form, 1e-4).scene());
         match outcome {
             Err(RunError::Surface(error)) if error.field() == Some("form.file") => error.to_string(),
             other => panic!("{other:?}"),
@@ -295,7 +295,7 @@ fn tips_with_edges_have_their_own_forces() {
         let document = scene("Table(file: \"tip.csv\")", 1e-4);
         let document = document.set("loading", &format!("[ToForce({force:e}), ToSeparation]")).unwrap();
         let mut simulation = Simulation::new(folder.path().to_owned());
-        simulation.run(document.scene(), &|| false, &mut |_, _, _| Ok(())).unwrap()
+        simulation.compute(document.scene()).unwrap()
     };
     let punch = run("0,0\n2e-5,0\n2.0001e-5,5e-6\n5.1e-5,6e-6\n", 1e-3);
     // Kendall: √(8πa³E*γ); the edge of 2001 springs is known to a spring.
