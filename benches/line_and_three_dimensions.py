@@ -36,6 +36,6 @@ def row(hurst, energy):
 if __name__ == "__main__":
     print("| H | e_el/γ | F_a after the preload | F_a at first touch | dissipated energy | indentation | grid |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
-    for hurst in (0.3, 0.5, 0.8):
+    for hurst in (0.3, 0.8):
         for energy in (0.3, 1.0, 3.0):
             print(row(hurst, energy), flush=True)
