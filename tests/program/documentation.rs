@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 const LONGEST_README: usize = 200;
 
 /// Pages of the documentation and their contents, in the order of the README's table.
-const PAGES: [(&str, &str); 16] = [
+const PAGES: [(&str, &str); 17] = [
     ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
     ("scene-file.md", "fields of a scene, waves, loading, forms, built-in scenes"),
     ("results.md", "summary, JSON, tables, figures"),
