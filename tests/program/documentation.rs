@@ -55,8 +55,8 @@ pub fn block(page: &str, language: &str) -> String {
 
 /// A table in Markdown, from its header and the cells of its rows.
 pub fn markdown<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
-    let head = format!("|{}|\n|{}\n", header.join("|"), "---|".repeat(N));
-    head + &rows.map(|cells| format!("|{}|\n", cells.join("|"))).collect::<String>()
+    let head = format!("| {} |\n|{}\n", header.join(" | "), " --- |".repeat(N));
+    head + &rows.map(|cells| format!("| {} |\n", cells.join(" | "))).collect::<String>()
 }
 
 /// Path, variant and symbol of a field, its range and default, and its meaning.
@@ -85,7 +85,7 @@ fn escaped(text: &str) -> String {
 fn tables_are_those_of_the_program() {
     // The help has the keys of editors and lists.
     let keys = bindings().markdown();
-    let (keys, _) = keys.split_once("|**Typing and lists**").unwrap();
+    let (keys, _) = keys.split_once("| **Typing and lists**").unwrap();
     check("docs/keys.md", "keys", keys);
     let panes = Pane::ALL.iter().flat_map(|pane| row(*pane).help);
     let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
@@ -315,10 +315,10 @@ fn the_regimes_are_those_of_the_program() {
     let model = read("docs/model.md");
     for row in [
         format!(
-            "|pressure-insensitive|F_a(d=0) ≥ {INSENSITIVE_SHARE} F_a and F_a(d=0) ≥ {VANISHING_SHARE} F_smooth|"
+            "| pressure-insensitive | F_a(d=0) ≥ {INSENSITIVE_SHARE} F_a and F_a(d=0) ≥ {VANISHING_SHARE} F_smooth |"
         ),
         format!(
-            "|non-adhesive|F_a ≤ {NEGLIGIBLE_COEFFICIENT} F_n; without a preload: F_a < {VANISHING_SHARE} F_smooth|"
+            "| non-adhesive | F_a ≤ {NEGLIGIBLE_COEFFICIENT} F_n; without a preload: F_a < {VANISHING_SHARE} F_smooth |"
         ),
     ] {
         assert!(model.contains(&row), "docs/model.md lacks: {row}");

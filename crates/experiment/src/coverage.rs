@@ -70,11 +70,11 @@ fn intervals_hold_the_truth_of_most_spheres() {
     let percent = |held: Held| format!("{held}, {:.1} %", 100.0 * held.share());
     let row = |parameter: &Parameter| {
         let [smooth, rough] = rows.map(|row| row[*parameter as usize]);
-        format!("|{}|{smooth}|{rough}|\n", parameter.row().term)
+        format!("| {} | {smooth} | {rough} |\n", parameter.row().term)
     };
     let tried = Parameter::ALL.into_iter().filter(|one| rows[0][*one as usize].all > 0);
     let table: String = tried.map(|one| row(&one)).collect();
-    let table = format!("{table}|all|{}|{}|\n", percent(all[0]), percent(all[1]));
+    let table = format!("{table}| all | {} | {} |\n", percent(all[0]), percent(all[1]));
     let (mean, longest) =
         (seconds.iter().sum::<f64>() / seconds.len() as f64, seconds.iter().copied().fold(0.0, f64::max));
     println!("{table}{mean:.2} s for a fit, {longest:.2} s at most");

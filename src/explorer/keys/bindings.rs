@@ -176,16 +176,16 @@ impl Bindings {
 
     /// The table as Markdown, for docs/keys.md: keys and functions by section, with the names for the configuration.
     pub fn markdown(&self) -> String {
-        let mut text = String::from("|key|does|\n|---|---|\n");
+        let mut text = String::from("| key | does |\n| --- | --- |\n");
         let mut section = "";
         for Binding { row, .. } in self.rows() {
             if row.section != section {
                 section = row.section;
-                text += &format!("|**{section}**||\n");
+                text += &format!("| **{section}** | |\n");
             }
             let keys: Vec<String> = row.keys.split(' ').map(|name| format!("`{name}`")).collect();
             let action = if row.is_rebindable() { format!(" (`{}`)", row.name) } else { String::new() };
-            text += &format!("|{}|{}{action}|\n", keys.join(" "), row.help);
+            text += &format!("| {} | {}{action} |\n", keys.join(" "), row.help);
         }
         text
     }

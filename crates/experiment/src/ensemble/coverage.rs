@@ -40,7 +40,7 @@ impl ParameterRow {
     fn text(&self, name: &str) -> String {
         let count = |held: usize| format!("{held} of {}", self.work.len());
         format!(
-            "|{name}|{}|{:.3}|{:+.3}|{}|\n",
+            "| {name} | {} | {:.3} | {:+.3} | {} |\n",
             count(self.work.iter().filter(|one| one.0).count()),
             self.mean(|one| one.1),
             self.mean(|one| one.2),
