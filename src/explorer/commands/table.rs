@@ -198,7 +198,6 @@ static TABLE: &[Entry] = &[
     row("+ =", EXPLORE, "zoom-in", Do(|app| view::zoom(app, 1)), "", "zoom in: the profile if selected, else the close-up", LOOK),
     row("-", OTHER_PANES, "zoom-out", Do(|app| view::zoom(app, -1)), "", "zoom out", LOOK),
     row("( )", EXPLORE, "pan", Key(view::pan), "", "pan left or right along the profile", LOOK).unlisted(),
-    row("Z", EXPLORE, "reset-zoom", Do(view::reset_zoom), "", "show the whole profile", LOOK),
     row("A", EXPLORE, "toggle-trust", Do(|app| app.toggle(Pane::Trust)), "trust", "show how far F_a can be trusted", LOOK).words("accuracy error uncertainty budget theories criteria Persson Tabor JKR convergence cost time"),
     row("Q", EXPLORE, "toggle-spectrum", Do(|app| app.toggle(Pane::Spectrum)), "", "show spectra over the wave number", LOOK).words("spectrum power spectral density PSD roughness"),
     row("i", EXPLORE, "toggle-preloads", Do(|app| app.toggle(Pane::Preloads)), "", "show adhesion against preload", LOOK).words("spread scatter ensemble profiles statistics median quartiles load"),

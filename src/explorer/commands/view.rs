@@ -19,12 +19,6 @@ pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     app.view.close_up.focus = question(fragment.map(|facts| facts.patch.middle()));
 }
 
-/// Shows the whole profile, and in the close-up the whole patch.
-pub fn reset_zoom(app: &mut App) {
-    app.view.profile = LineView::WHOLE;
-    app.view.close_up.springs = None;
-}
-
 pub fn next_pane(app: &mut App) {
     let panes = app.panes();
     let place = panes.iter().position(|pane| *pane == app.view.pane).unwrap_or(0);

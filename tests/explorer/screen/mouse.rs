@@ -97,7 +97,6 @@ fn the_wheel_looks_closer_and_scrolls() {
         );
     }
     assert_eq!(driver.app.view.profile.share, 0.25);
-    driver.press("Z");
     let (area, springs) = (driver.area(Pane::CloseUp), driver.snapshot().close_up.section.springs);
     driver.mouse(area.x, area.y, Gesture::Wheel(1));
     assert_eq!((driver.app.view.close_up.springs, driver.app.view.pane), (Some(springs / 2), Pane::CloseUp));
