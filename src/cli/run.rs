@@ -82,9 +82,9 @@ pub struct RunArguments {
     /// Compute the adhesion force for many preloads instead of the loading
     ///
     /// 64 preloads at equal distances, or the number after a colon: 0..20uN:128; with :log at
-    /// equal ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload; with --profiles,
-    /// median, quartiles, range and mean over the profiles. A preload below 0 N turns while the
-    /// bodies are still drawn together, and is at least the force at first touch.
+    /// equal ratios: 10nN..100uN:64:log. One loading, and one unloading from each preload.
+    /// Several profiles give median, quartiles, range and mean. A preload below 0 N turns while
+    /// the bodies are still drawn together, and is at least the force at first touch.
     #[arg(long, value_name = "A..B", allow_hyphen_values = true, value_parser = parse_preloads, verbatim_doc_comment)]
     pub preloads: Option<Axis>,
     /// Write a table of the drawn curves instead of all profiles

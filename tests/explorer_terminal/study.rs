@@ -20,7 +20,7 @@ fn a_folder_without_a_map_says_why() {
     let at = |name: &str| folder.path().join(name);
     begun(&at("begun"), PLAN);
     merged(&at("whole"), PLAN);
-    let axes = PLAN.find("    axes:").unwrap()..PLAN.find("    lines:").unwrap();
+    let axes = PLAN.find("    axes:").unwrap()..PLAN.find("    profiles:").unwrap();
     merged(&at("one cell"), &PLAN.replace(&PLAN[axes], ""));
     std::fs::create_dir(at("notes")).unwrap();
     std::fs::create_dir(at("jkr-sphere")).unwrap();

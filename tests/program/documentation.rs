@@ -175,6 +175,8 @@ fn pictures_are_those_of_their_commands() {
     for file in ["docs/examples/five-springs.ron", "docs/examples/five-springs.txt"] {
         std::fs::write(folder.path().join(file), read(file)).unwrap();
     }
+    let sphere =
+        "asperity run jkr-sphere --set \"material=(effective_modulus:1e6)\" -o docs/learn/sphere.svg";
     let protocols = "asperity run pressure-sensitive --set \
                      \"loading=[ToTouch,ToSeparation,ToZeroForce,ToSeparation]\" -o docs/learn/protocols.svg";
     let of_particles =
@@ -182,7 +184,7 @@ fn pictures_are_those_of_their_commands() {
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \
                      -o docs/learn/five-springs.svg";
     for (page, command) in [
-        ("docs/learn.md", "asperity run jkr-sphere -o docs/learn/sphere.svg"),
+        ("docs/learn.md", sphere),
         ("docs/learn.md", staircase),
         ("docs/learn.md", "asperity run pressure-sensitive -o docs/learn/rough.svg"),
         ("docs/learn.md", protocols),
