@@ -203,8 +203,8 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Governing parameters of the present scene, from the newest computation, if that has the same line; its adhesion may
-    /// differ. `None` otherwise.
+    /// Governing parameters of the present scene, if the newest computation has the same line. The adhesion of this
+    /// computation may differ.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let (before, now) = (&computed.scene, &self.edit.scene);

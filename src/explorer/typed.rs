@@ -33,7 +33,7 @@ pub fn unit_of_force(app: &App) -> String {
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
-/// A typed value of a parameter, with the unit of its row if it has none. A number for a stage without one is a force.
+/// Adds the unit of the row to a typed value without one. A number for a stage without one is a force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     if let (Setting::Reading(index), Some(measured)) = (parameter.setting, &app.edit.measured) {
         return OPTIONS[index].with_unit(measured, typed);

@@ -237,6 +237,7 @@ fn the_figure_of_the_regimes_shows_them() {
     assert!((sensitive[0] - 0.08).abs() < 0.005 && (sensitive[sensitive.len() - 1] - 0.54).abs() < 0.005);
     assert!(sensitive.is_sorted() && of(8.0, "regime_pressure_sensitive").iter().all(|part| *part == 1.0));
     assert!(shares(100.0).iter().all(|share| *share < 1e-6));
+    assert!(of(100.0, "tabor_number_mean").iter().all(|number| (number - 0.81).abs() < 0.005));
     for (part, preload) in of(100.0, "regime_non_adhesive").into_iter().zip(of(100.0, "preload")) {
         assert!(part == 1.0 || preload < 1e-4 * (1.0 - 1e-9), "{part} under {preload}");
     }

@@ -259,7 +259,8 @@ impl Body {
     /// Loads this separated body once and unloads it from the turning point of each target, which is reached from
     /// separation at d = 0. A force is reached where the loading first has at least that force; a tensile force at first
     /// touch or while attraction draws the bodies together. Calls `see` with the index of each target and its reversal, the
-    /// shallowest first; the reversal has the forces at the ascending indentations `points`, m. The body stays separated.
+    /// shallowest target first. Each reversal holds the forces at the indentations `points` (m, ascending). The body stays
+    /// separated.
     ///
     /// # Errors
     /// A target that is out of reach or without contact, [`ContactError::OutOfMemory`], or the first error of `see`.

@@ -118,7 +118,7 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
     }
 
-    /// Returns true if a file has displacements and forces, whether or not they are used as a curve.
+    /// Returns true if a file has columns of displacement and force, even if it is not used as a curve.
     pub fn is_in(path: &Path) -> bool {
         let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))

@@ -176,8 +176,8 @@ impl<'a> Fit<'a> {
     /// parts of each segment; the errors are then the scatter of the values if parts are weighted anew (jackknife).
     ///
     /// # Errors
-    /// No free parameter or one given twice, a scene that lacks one, values of the curve that are not allowed, a computation
-    /// that fails, or a stop.
+    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. A value of the curve is not allowed,
+    /// a computation fails, or `stop` returns true.
     pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
         find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))

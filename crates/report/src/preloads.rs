@@ -199,8 +199,8 @@ const LOGARITHMIC_RATIO: f64 = 30.0;
 const MOST_DECADES: f64 = 6.0;
 
 /// Chart of the adhesion force (N) over the preload (N): the staircase of one profile, the spread over several
-/// profiles, and F_a(d=0) and F_a(F=0). `has_values` writes these two forces into the legend. If the preloads are
-/// logarithmic, forces over several decades are too.
+/// profiles, and F_a(d=0) and F_a(F=0). `has_values` writes these two forces into the legend. If the axis of
+/// preloads is logarithmic, the axis of forces over several decades is logarithmic too.
 pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_values: bool) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;

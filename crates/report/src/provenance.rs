@@ -92,8 +92,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Name of a file, given relative to `folder`, in a table in the folder `destination`: unchanged if both folders are the
-/// same, otherwise the absolute path.
+/// Name of a file as a table in the folder `destination` writes it. `file` is relative to `folder`. The name stays if both
+/// folders are the same; otherwise it becomes absolute.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

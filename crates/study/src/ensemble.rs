@@ -110,7 +110,7 @@ impl Ensemble {
 /// progress is the number of profiles.
 ///
 /// # Errors
-/// As for [`Ensemble::of`], no profiles and no threads.
+/// The errors of [`Ensemble::of`], and zero profiles or zero threads.
 ///
 /// ```
 /// use asperity_data::Control;

@@ -51,7 +51,7 @@ pub struct Question {
 pub struct Answer {
     /// Seed of the profile; `None` for a fixed profile.
     pub seed: Option<u64>,
-    /// All numbers at which the quantity crosses the target, ascending; of both ends of a crossing the one at which the
+    /// All numbers at which the quantity crosses the target, ascending. Each crossing is given by the end at which the
     /// quantity is at least the target.
     pub crossings: Vec<f64>,
     /// True where the quantity is at least the target: at the smallest and at the largest searched number.

@@ -14,7 +14,7 @@ pub fn clear(app: &mut App) {
     app.ghosts.clear();
 }
 
-/// Computes and shows loops in three dimensions, or no longer.
+/// Switches the loops in three dimensions on or off.
 pub fn toggle_squares(app: &mut App) {
     app.view.squares ^= true;
     app.studies.forget::<SquareLoops>();

@@ -37,7 +37,7 @@ pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
 
-/// Plays or pauses the animation; from its state of rest it begins again. Like all movements of the animation this ends manual loading,
+/// Plays or pauses the animation. At rest it starts again from the beginning. Like all movements of the animation this ends manual loading,
 /// since the animation shows the loading of the scene.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;

@@ -59,7 +59,7 @@ impl fmt::Debug for Row {
     }
 }
 
-/// Contexts of exploring, with any pane selected.
+/// Contexts of the keys while exploring, whichever pane is selected.
 pub const EXPLORE: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair, Context::Parameters];
 pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 pub const MANUAL: &str = "Manual loading";

@@ -63,8 +63,8 @@ impl Key {
     }
 }
 
-/// Direction of an arrow or of its letter, in columns to the right and in rows upwards, and whether the step is a large
-/// one; `None` for another key.
+/// Step of an arrow key or of its letter: columns to the right and rows upwards. The flag marks a large step. `None` for
+/// another key.
 pub fn direction(key: &KeyEvent) -> Option<((i32, i32), bool)> {
     let is_coarse = key.modifiers.contains(KeyModifiers::SHIFT);
     let way = match key.code {

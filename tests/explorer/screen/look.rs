@@ -16,7 +16,7 @@ fn the_profile_is_looked_at_from_near_and_moved_along() {
         ("( ( ( (", 0, 512),
         (") ) ) ) ) ) ) )", 512, 512),
         ("+ -", 512, 512),
-        ("Z + -", 0, 1024),
+        ("- + -", 0, 1024),
     ] {
         driver.press(keys);
         let section = &driver.snapshot().profile;

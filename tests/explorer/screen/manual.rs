@@ -163,7 +163,7 @@ fn an_edit_puts_the_body_back_and_says_so() {
     // A change of the view alone does not.
     let mut driver = pressed("d {");
     let at_first = driver.point();
-    driver.press("j n v N a T z Tab + Z");
+    driver.press("j n v N a T z Tab +");
     assert!(driver.app.manual.is_some());
     assert_eq!(driver.point(), at_first);
 }

@@ -317,7 +317,7 @@ impl Slider {
         Self::without_adhesion(Levels { gap, length: 0.0, growth, top })
     }
 
-    /// The half cell at an end of the foundation, without adhesion; its gap is the gap of the last spring, m, throughout.
+    /// Half cell at an end of the foundation, without adhesion. Its gap, m, is constant: the gap of the last spring.
     pub fn half_cell(gap: f64) -> Self {
         Self::without_adhesion(Levels { gap, length: 0.5, growth: 0.0, top: f64::INFINITY })
     }

@@ -158,8 +158,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// ∫ (c − θ)² dx over the parts of the line that attach or detach at an indentation θ above `low` and up to `high`, m,
     /// in cells times m²: the energy that springs release as they detach, and take as they attach under a stretch.
     ///
-    /// A patch that forms at an indentation θ attaches all springs between its edges except springs of patches inside, each of
-    /// which ends at θ; a patch that splits detaches them. So the energy of a leg telescopes over its runs: the squared
+    /// A patch that forms at an indentation θ attaches all springs between its edges, except springs of the patches inside,
+    /// which end at θ. When a patch splits, the same springs detach. So the energy of a leg telescopes over its runs: the squared
     /// stretches at the beginning of each run, less the squared stretches at its end, and the squares along its sliding edges.
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         let ground = &self.ground;

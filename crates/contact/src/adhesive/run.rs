@@ -44,7 +44,7 @@ pub struct Held {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
-    /// Height of pinned edges above the largest gap, m; `None` for free edges.
+    /// Height of the pinned edges above the deepest point, m; `None` if the edges are free.
     pub pin: Option<f64>,
 }
 

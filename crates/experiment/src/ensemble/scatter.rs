@@ -22,7 +22,7 @@ impl Moments {
         Moments { mean, covariance: [product(0, 0), product(0, 1), product(1, 1)] }
     }
 
-    /// Inverse of the covariance, in the same order, and the logarithm of its determinant. A second value that does not
+    /// Inverse of the covariance, in the order of the field `covariance`, and the logarithm of its determinant. A second value that does not
     /// vary does not count.
     pub fn inverse(&self) -> ([f64; 3], f64) {
         let [one, both, other] = self.covariance;

@@ -55,8 +55,8 @@ impl Estimate {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }
 
-    /// The error in words, to follow the adhesion force: in per cent, to one significant digit, or two if the first is 1,
-    /// as accurate as the estimate is.
+    /// The error in words, to follow the adhesion force. It is in per cent, with one significant digit, or two if the first
+    /// digit is 1.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),

@@ -190,7 +190,7 @@ impl Scene {
         Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
-    /// Warning, in words, if the shortest wave has fewer springs than [`SPRINGS_PER_WAVE`], which is allowed.
+    /// Warning if the shortest wave has fewer springs than [`SPRINGS_PER_WAVE`]. Such a scene is allowed.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};

@@ -98,9 +98,9 @@ impl Form {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 
-    /// Index range of the springs under the form, of `points` springs on `length` (m): all springs, except for a punch,
-    /// which covers its diameter rounded to whole cells and centred on the axis to half a cell. Empty for a diameter below
-    /// half a cell.
+    /// Range of indices of the springs under the form, of `points` springs on `length` (m). All springs count, except for a
+    /// punch. A punch covers its diameter, rounded to whole cells and centred on the axis to half a cell. The range is empty
+    /// for a diameter below half a cell.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.

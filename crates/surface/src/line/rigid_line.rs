@@ -107,7 +107,7 @@ impl Line {
         ((self.first + index) as f64 + 0.5) * self.spacing
     }
 
-    /// Height of the lowest point under the body, m.
+    /// Height of the lowest point of the profile, m.
     pub fn lowest(&self) -> f64 {
         self.height(self.deepest)
     }

@@ -190,8 +190,8 @@ impl FormTable {
 
     /// Depths g, m, at `count` multiples of `spacing` (m) from the axis, beginning on it.
     ///
-    /// One depth takes a square root for each row below it. Between two rows with many points, the rows at least one
-    /// interval away are therefore interpolated by a polynomial.
+    /// One depth takes a square root for each row below it. Where many points lie between two
+    /// rows, a polynomial therefore interpolates the contribution of all rows at least one interval away.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {

@@ -83,8 +83,8 @@ pub struct Analysis {
     /// True if the waves parallel to one axis of a map are left out, because its rows or columns are offset against each
     /// other or were levelled one by one.
     pub offsets: bool,
-    /// Share of the squared gradient by which the waves parallel to one axis depart from waves in neighbouring directions
-    /// although they are not left out; 0 where that may be chance.
+    /// Share of the squared gradient by which waves parallel to an axis differ from waves in neighbouring directions, if they
+    /// are not left out; 0 if the difference may be chance.
     pub apart: f64,
     /// Distance, m, by which odd rows of a map are displaced against even rows, as if they were from two scans; the largest
     /// of all maps.
