@@ -26,7 +26,7 @@ fn a_folder_without_a_map_says_why() {
     std::fs::create_dir(at("jkr-sphere")).unwrap();
     for (name, expected) in [
         ("begun", "begun: the study has not been merged yet; asperity sweep merge begun does it"),
-        ("notes", "notes: this folder is not that of a study: there is no plan.ron in it; allowed"),
+        ("notes", "notes: this is not the folder of a study: there is no plan.ron in it; allowed"),
         ("one cell", "one cell: this study has one cell and no map; a curve needs an axis"),
         ("whole", "the explorer needs a terminal; asperity sweep plot whole draws the study without one"),
         // A folder with the name of a built-in scene does not hide the scene.
