@@ -112,7 +112,7 @@ impl Contact {
         ContactBuilder { profile, modulus, works: [0.0; 2], loading_stiffness, edges }
     }
 
-    /// The same contact with whole springs and a rigid instrument, as the stepwise solver moves it.
+    /// Copies the contact for the stepwise solver, with whole springs and a rigid instrument.
     pub(super) fn of_whole_springs(&self) -> Self {
         let closing = Arc::default();
         Contact { edges: Edges::Grid, loading_stiffness: f64::INFINITY, closing, ..self.clone() }

@@ -111,7 +111,7 @@ impl Profile {
         Ok(Profile { length, first, ..self })
     }
 
-    /// The same profile with this height of its highest point, m.
+    /// Moves the profile in height, so that its highest point lies at this height, m.
     ///
     /// # Errors
     /// [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.

@@ -1,4 +1,4 @@
-//! What is refused, and what is allowed.
+//! Errors of the half-space: the refused value and the allowed range.
 
 use asperity_data::OutOfMemory;
 use thiserror::Error;
@@ -21,11 +21,11 @@ pub enum HalfSpaceError {
     /// A value of a body, a load or an option.
     #[error("{name} = {found:e}; allowed: {allowed}")]
     Value {
-        /// What it is.
+        /// Name of the value.
         name: &'static str,
         /// The value.
         found: f64,
-        /// What is allowed.
+        /// Allowed range of the value, with its unit.
         allowed: &'static str,
     },
     /// An array does not fit into memory.

@@ -19,7 +19,7 @@ pub struct Square<'a> {
     pub effective_modulus: f64,
 }
 
-/// What presses the bodies together.
+/// Prescribed force or indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     /// Force, N, positive in compression. The force of one period of a periodic square.

@@ -55,7 +55,7 @@ pub struct EnsembleFit {
     pub scatter_ratio: Option<f64>,
     /// True if random profiles of this spectrum describe the means of all summaries.
     pub described: bool,
-    /// How far the mean of each summary lies from the mean of the random profiles.
+    /// Difference between the mean of each summary and the mean of the random profiles.
     pub deviations: Vec<SummaryDeviation>,
     /// True if the interval reaches an end of the table of computed curves: its ends are then too close.
     pub at_end_of_table: bool,
