@@ -3,9 +3,10 @@
 use crate::metadata::Metadata;
 use crate::options::CurveOptions;
 use asperity_data::shown;
+use asperity_data::text_table::TextColumn;
 use asperity_data::{format_quantity, parse_quantity};
-use asperity_surface::TextColumn;
-use asperity_surface::{Place, SurfaceError, refused};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
 
 /// Term, SI unit and example unit of displacement and force, and the names of their columns as letters, preferred names
 /// first: the displacement of the instrument before the displacement of the body, which lacks the deflection of the

@@ -1,6 +1,7 @@
 //! Binary files of instruments, which are refused with the way to a text.
 
-use asperity_surface::{Place, SurfaceError, refused};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
 use std::path::Path;
 
 /// Ends of the names of binary files, the first bytes that identify them, what they are, and how the curve becomes a text.
