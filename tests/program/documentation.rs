@@ -10,8 +10,9 @@ use asperity::explorer::config::Config;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::row;
 use asperity::scene::Simulation;
-use asperity::scene::{Document, FIELDS, Field, LEG_FIELDS, LEG_FORCE, Range, presets};
-use asperity::scene::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use asperity::scene::fields::{FIELDS, Field, LEG_FIELDS, LEG_FORCE, Range};
+use asperity::scene::theory::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use asperity::scene::{Document, presets};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -90,7 +91,7 @@ fn tables_are_those_of_the_program() {
     let panes = Pane::ALL.iter().flat_map(|pane| row(*pane).help);
     let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
     check("docs/keys.md", "panes", &markdown(["pane", "content"], panes));
-    let plans = asperity::study::PLANS.iter().map(|plan| {
+    let plans = asperity::study::plans::PLANS.iter().map(|plan| {
         let read = Plan::open(plan.name, &Changes::default()).unwrap();
         let cells = read.cells();
         [format!("`{}`", plan.name), cells.to_string(), read.lines.to_string(), read.title.clone()]
@@ -286,8 +287,8 @@ fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
 /// The first step of the tour: the keys are those of the explorer, the numbers those of the answer.
 #[test]
 fn the_tour_begins_with_the_question() {
-    let scene = asperity::scene::open(asperity::scene::DEFAULT).unwrap();
-    let condition = asperity::study::parse_condition("F_a/F_a,max = 20 %").unwrap();
+    let scene = asperity::scene::open(asperity::scene::library::DEFAULT).unwrap();
+    let condition = asperity::study::plans::parse_condition("F_a/F_a,max = 20 %").unwrap();
     let mut simulation = Simulation::default();
     let question = Question::new(scene.scene(), "preload", condition, Ensemble::PROFILES, &mut simulation);
     let found = Found::of(question.unwrap(), (simulation, 2), &|| false, &mut |_| ()).unwrap();

@@ -16,7 +16,8 @@ use std::time::{Duration, Instant};
 /// A body on its foundation that moves from target to target. It begins separated, at d = 0 just before first touch.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
+/// use asperity_contact::motion::{Body, MovingBody};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -48,7 +49,8 @@ pub trait MovingBody {
 /// A body on its foundation: the present leg and the position on it, the whole state of the model.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+/// use asperity_contact::motion::Body;
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -71,7 +73,8 @@ pub struct Body {
 /// A motion of a body without a curve, as [`Body::move_to`] returns it.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+/// use asperity_contact::motion::Body;
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -382,7 +385,8 @@ impl MovingBody for Body {
 /// The first stage that fails ends the run.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
+/// use asperity_contact::motion::{Body, load_body};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

@@ -15,7 +15,7 @@ use crate::statistics::{block_error, correlated, correlation, spread, widen};
 use asperity_data::{Control, format_within};
 use asperity_scene::Document;
 use asperity_scene::Simulation;
-use asperity_scene::scene_tabor_number;
+use asperity_scene::theory::scene_tabor_number;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// Correlation above which parameters are not separated, and half width of a 95 % interval of a logarithm above which it is

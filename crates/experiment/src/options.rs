@@ -1,7 +1,7 @@
 //! Options of reading and preparing a measured curve, as arguments of the command line.
 
 use asperity_data::parse_quantity;
-use asperity_scene::quoted;
+use asperity_scene::text::quoted;
 use std::fmt;
 use std::str::FromStr;
 

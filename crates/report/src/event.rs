@@ -1,6 +1,7 @@
 //! The event at a point of a loading history in words: first contact, spreading, preload, detachment, pull-off, separation.
 
-use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
+use asperity_contact::points::Branch;
+use asperity_contact::{CurvePoint, Direction, LegRecord};
 
 /// Share of the indentation range of a branch within which a state counts as its end or its smallest force.
 const NEAR: f64 = 0.01;

@@ -2,7 +2,7 @@
 
 use crate::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
-use asperity_scene::{PlannedStage, Workload};
+use asperity_scene::stages::{PlannedStage, Workload};
 
 /// The stages of a scene as a table, and the memory that they need.
 pub fn stages_text(plan: &Workload) -> String {

@@ -2,7 +2,8 @@
 
 use crate::sheet::Sheet;
 use asperity_data::grouped;
-use asperity_study::{Plan, Status, StudyProgress};
+use asperity_study::folders::Status;
+use asperity_study::{Plan, StudyProgress};
 use std::time::Duration;
 
 /// Number of characters from which on the name of a machine is shortened in the table.

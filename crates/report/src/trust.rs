@@ -3,7 +3,8 @@
 use crate::sheet::Sheet;
 use asperity_data::per_cent;
 use asperity_scene::{Estimate, Outcome, Scene};
-use asperity_study::{Budget, Criterion, Ensemble, LEAST_TABOR_NUMBER_OF_JKR, criteria};
+use asperity_study::Ensemble;
+use asperity_study::trust::{Budget, Criterion, LEAST_TABOR_NUMBER_OF_JKR, criteria};
 
 /// The sentence with which a summary begins where JKR theory does not apply.
 pub fn without_jkr(outcome: &Outcome) -> Option<String> {

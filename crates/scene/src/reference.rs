@@ -1,13 +1,13 @@
 //! Closed forms of the contact of a form without roughness, where there are any.
 
-use asperity_contact::{ClosedForm, flat_punch, ideal_adhesion_force};
+use asperity_contact::closed_forms::{ClosedForm, flat_punch, ideal_adhesion_force};
 use asperity_surface::Form;
 
 /// The closed form of the contact of a form, for an effective modulus (Pa) and a work of adhesion (J/m²), if its profile is a
 /// power law; `None` for punches, waves and tables.
 ///
 /// ```
-/// use asperity_scene::closed_form;
+/// use asperity_scene::theory::closed_form;
 /// use asperity_surface::Form;
 ///
 /// let sphere = closed_form(&Form::Paraboloid { radius: 1.0e-4 }, 1.0e6, 0.05).unwrap();

@@ -4,7 +4,7 @@
 //! height h, rms gradient g, and c, the rms mean curvature, half of the rms Laplacian.
 
 use super::criterion::{Criterion, long_ranged, number};
-use asperity_scene::LEAST_TABOR_NUMBER;
+use asperity_scene::theory::LEAST_TABOR_NUMBER;
 use asperity_surface::{Amplitude, SelfAffine};
 use std::f64::consts::{E, PI, TAU};
 

@@ -43,7 +43,7 @@ pub struct Spread {
 }
 
 /// Function that gives the value in a column of a table of statistics, if it is known.
-pub type Column = fn(&Statistics) -> Option<f64>;
+type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
     /// Computes the statistics of values of a quantity with these bounds, (−∞, ∞) without any. Values that are not finite

@@ -21,7 +21,7 @@ const MOST_TRIED: u64 = 1 << 21;
 /// Parses a tolerance: `1e-3` or `0.1 %`; the error is the allowed range.
 ///
 /// ```
-/// use asperity_scene::parse_tolerance;
+/// use asperity_scene::discretisation::parse_tolerance;
 ///
 /// assert_eq!(parse_tolerance("0.1%"), Ok(0.001));
 /// assert!(parse_tolerance("2").is_err());
@@ -133,7 +133,8 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// `trying` receives the next number of springs.
 ///
 /// ```
-/// use asperity_scene::{choose, open};
+/// use asperity_scene::discretisation::choose;
+/// use asperity_scene::open;
 /// use std::path::Path;
 ///
 /// let sphere = open("jkr-sphere")?;

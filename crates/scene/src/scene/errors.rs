@@ -181,7 +181,7 @@ const LONGEST: usize = 64;
 /// The last component of a name suffices: `hurst` means `roughness.hurst`.
 ///
 /// ```
-/// use asperity_scene::nearest;
+/// use asperity_scene::text::nearest;
 ///
 /// assert_eq!(nearest("parabloid", ["Cone", "Paraboloid"]), Some("Paraboloid"));
 /// assert_eq!(nearest("sphere", ["Cone", "Paraboloid"]), None);

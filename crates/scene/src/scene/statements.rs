@@ -25,7 +25,8 @@ pub struct Statement {
 /// with numbers, only its numbers.
 ///
 /// ```
-/// use asperity_scene::{open, statements};
+/// use asperity_scene::open;
+/// use asperity_scene::fields::statements;
 ///
 /// let stated = statements(open("jkr-sphere")?.scene());
 /// let length = stated.iter().find(|one| one.field.path == "length").unwrap();

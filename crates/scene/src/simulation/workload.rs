@@ -91,7 +91,8 @@ pub struct PlannedStage {
 /// The computing stages of a scene, in the order of execution, with its memory.
 ///
 /// ```
-/// use asperity_scene::{Stage, Workload, open};
+/// use asperity_scene::stages::{Stage, Workload};
+/// use asperity_scene::open;
 ///
 /// // Without adhesion there is no contact tree.
 /// let bare = open("jkr-sphere")?.set("adhesion", "None")?;

@@ -118,7 +118,7 @@ impl MeasuredProfile {
     /// A profile shorter than `length` (m).
     ///
     /// ```
-    /// use asperity_surface::{MeasuredOptions, MeasuredProfile};
+    /// use asperity_surface::lines::{MeasuredOptions, MeasuredProfile};
     ///
     /// let options = MeasuredOptions::default();
     /// let profile = MeasuredProfile::new(b"x [um] z [nm]\n0 10\n1 20\n2 40\n", &options)?;

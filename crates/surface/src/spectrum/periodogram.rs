@@ -68,7 +68,7 @@ impl ProfilePower {
 /// Spectrum C1D, m³, of the heights (m) of a line, averaged in bins. `windowed` for a line that is not periodic.
 ///
 /// ```
-/// use asperity_surface::line_spectrum;
+/// use asperity_surface::spectra::line_spectrum;
 /// use std::f64::consts::TAU;
 ///
 /// // A wave of 16 points has its power at q = 2π/16 per point.
