@@ -261,10 +261,10 @@ fn published(code: &str) -> BTreeSet<(Option<String>, String)> {
 #[test]
 fn each_published_name_is_of_one_crate() {
     let modules = modules();
-    let mut crates_of: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    let mut crates_of: BTreeMap<String, BTreeSet<&str>> = BTreeMap::new();
     for name in CRATES {
         for (_, published) in published(&modules[&vec![name.to_owned()]]) {
-            crates_of.entry(published).or_default().push(name);
+            crates_of.entry(published).or_default().insert(name);
         }
     }
     assert!(crates_of.len() > 300, "{} names", crates_of.len());
