@@ -35,28 +35,28 @@ pub struct LoadOptions<'a> {
 }
 
 impl<'a> LoadOptions<'a> {
-    /// Sets the number of samples of the force curve on each loading stage, from 2 to a million; by default 512. Extremes of
-    /// the force are exact for any number.
+    /// Sets the number of samples of the force curve on each loading stage, from 2 to a million. The default is 512. Extremes
+    /// of the force are exact for any number.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         LoadOptions { samples: Some(samples), ..self }
     }
 
-    /// Sets ascending indentations, m. Each stage has a point at every one of them that it passes: [`Cycle::at`].
+    /// Sets ascending indentations in m. [`Cycle::at`] then has a point at each of them that a stage passes.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions { indentations, ..self }
     }
 
-    /// Sets a function that is called before each stage with the index of the stage, from 0. If it returns false, the
-    /// loading ends with [`ContactError::Interrupted`].
+    /// Sets a function that is called before each stage with the index of the stage, from 0. If it returns false, the loading
+    /// ends with [`ContactError::Interrupted`].
     #[must_use]
     pub fn before_stage(self, proceed: &'a mut dyn FnMut(usize) -> bool) -> Self {
         LoadOptions { before_stage: Some(proceed), ..self }
     }
 }
 
-/// Result of a loading history that begins separated.
+/// Result of a loading history that begins separated: force curve, figures and final patches.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -83,7 +83,7 @@ pub struct Cycle {
     leg: Leg,
 }
 
-/// The force curve of a loading history in columns of one length: one row for each point, in the order of the motion.
+/// Force curve of a loading history in columns of equal length. Each row is one point, in the order of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -100,19 +100,19 @@ pub struct Cycle {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Curve {
-    /// Indices of the loading stages, from 0.
+    /// Indices of the loading stages of the points, from 0.
     pub stage: Vec<usize>,
-    /// Indentations d, m.
+    /// Indentations d in m.
     pub indentation: Vec<f64>,
-    /// Forces F, N; compression positive.
+    /// Forces F in N; compression is positive.
     pub force: Vec<f64>,
-    /// Displacements of the instrument D = d + F/k, m; for a rigid instrument they equal the indentations.
+    /// Displacements D = d + F/k of the instrument in m. For a rigid instrument they equal the indentations.
     pub displacement: Vec<f64>,
-    /// Lengths in contact, m.
+    /// Lengths in contact in m.
     pub contact_length: Vec<f64>,
     /// Numbers of contact patches.
     pub patches: Vec<u64>,
-    /// Stored elastic energies, J.
+    /// Elastic energies stored in the springs in J.
     pub stored_energy: Vec<f64>,
 }
 
@@ -120,8 +120,8 @@ impl Contact {
     /// Loads the separated body through these loading stages, one after the other.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target that
-    /// the contact cannot reach, [`ContactError::OutOfMemory`].
+    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target that the
+    /// contact cannot reach, and [`ContactError::OutOfMemory`].
     pub fn load(&self, stages: &[Move]) -> Result<Cycle, ContactError> {
         self.load_with(stages, LoadOptions::default())
     }
@@ -129,7 +129,8 @@ impl Contact {
     /// Loads the separated body as [`Contact::load`] does, with options.
     ///
     /// # Errors
-    /// As for [`Contact::load`], [`ContactError::Value`] for an option out of its range, and [`ContactError::Interrupted`].
+    /// The errors of [`Contact::load`], [`ContactError::Value`] for an option out of its range, and
+    /// [`ContactError::Interrupted`].
     ///
     /// ```
     /// use asperity_contact::{Contact, LoadOptions, Modulus, Move, Profile};
@@ -166,11 +167,11 @@ impl Contact {
     }
 
     /// Finds the pull-off after each of several turning points from one loading, at the cost of a few loads. The body loads
-    /// from separation to each of these `ends` and unloads to separation: each result equals [`Contact::load`] of its end
-    /// and [`Move::ToSeparation`]. A tensile force is reached where the loading first has it, at touch or while adhesion
-    /// draws the bodies together.
+    /// from separation to each of these `ends` and unloads to separation. Each result equals [`Contact::load`] with the end and
+    /// [`Move::ToSeparation`]. A tensile force is reached where the loading first has it, at touch or while adhesion draws the
+    /// bodies together.
     ///
-    /// [`Reversal::forces`] are the forces at those of the ascending `indentations`, m, that are not above the turning point.
+    /// `indentations` ascend, in m. [`Reversal::forces`] has the force at each of them up to the turning point.
     ///
     /// ```
     /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -189,7 +190,7 @@ impl Contact {
     ///
     /// # Errors
     /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50 or for indentations that do not ascend,
-    /// [`ContactError::Stage`] for a target without contact or out of reach, [`ContactError::OutOfMemory`].
+    /// [`ContactError::Stage`] for a target without contact or out of reach, and [`ContactError::OutOfMemory`].
     pub fn reversals(&self, ends: &[Move], indentations: &[f64]) -> Result<Vec<Reversal>, ContactError> {
         check_targets(ends)?;
         check_ascending(indentations)?;
@@ -204,7 +205,7 @@ impl Contact {
     }
 }
 
-/// Points of a stage at the indentations that it passes, m, in their ascending order.
+/// Returns the points of a stage at the indentations in m that it passes, in their ascending order.
 fn points_between(
     record: &LegRecord,
     leg: &Leg,
@@ -239,44 +240,44 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
 }
 
 impl Cycle {
-    /// Pull-off force, N: minus the smallest force of the last unloading, which may take several stages. `None` if that force
-    /// is above zero, or if the unloading ends in contact while the force still falls.
+    /// Returns the pull-off force in N, minus the smallest force of the last unloading, which may take several stages. `None`
+    /// if the smallest force is above zero, or if the unloading ends in contact while the force still falls.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
     }
 
-    /// Indentation at the pull-off force, m; `None` without a pull-off force.
+    /// Returns the indentation at the pull-off force in m; `None` without a pull-off force.
     #[must_use]
     pub fn pull_off_indentation(&self) -> Option<f64> {
         self.figures.pull_off_indentation
     }
 
-    /// Preload, N: largest force while loading, since the last separation and before the last unloading. `None` if no stage
-    /// loads the body in contact.
+    /// Returns the preload in N, the largest force while loading. Only stages after the last separation and before the last
+    /// unloading count. `None` if no such stage loads the body in contact.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
     }
 
-    /// Dissipated energy, J. `None` if the history ends in contact.
+    /// Returns the dissipated energy in J; `None` if the history ends in contact.
     #[must_use]
     pub fn dissipated_energy(&self) -> Option<f64> {
         self.figures.dissipated_energy
     }
 
-    /// Preload, pull-off, their indentations, and the dissipated energy.
+    /// Returns the preload, the pull-off force, their indentations and ratio, and the dissipated energy.
     #[must_use]
     pub fn figures(&self) -> Figures {
         self.figures
     }
 
-    /// Points of the force curve of all loading stages in their order.
+    /// Returns the points of the force curve of all loading stages in their order.
     pub fn points(&self) -> impl Iterator<Item = &CurvePoint> {
         self.history.legs.iter().flat_map(|leg| &leg.curve)
     }
 
-    /// Force curve of all loading stages in columns.
+    /// Returns the force curve of all loading stages in columns.
     #[must_use]
     pub fn curve(&self) -> Curve {
         let mut curve = Curve::default();
@@ -295,20 +296,20 @@ impl Cycle {
         curve
     }
 
-    /// Points of a stage at the indentations of [`LoadOptions::indentations`] that it passes, in ascending order; empty for
-    /// a stage that does not exist.
+    /// Returns the points of a stage at the [`LoadOptions::indentations`] that it passes, in ascending order. The slice is
+    /// empty for a stage that does not exist.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Loading stages with their curves, exact extremes and dissipated energies.
+    /// Returns the records of the loading stages, with their curves, exact extremes and released energies.
     #[must_use]
     pub fn stages(&self) -> &[LegRecord] {
         &self.history.legs
     }
 
-    /// Contact patches at the end, from left to right, with their edges, forces and stretches.
+    /// Returns the contact patches at the end from left to right, with their edges, forces and stretches.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
         let end = self.history.legs.last().and_then(LegRecord::end_in_contact);
