@@ -225,8 +225,7 @@ impl Form {
         }
     }
 
-    /// Returns an upper bound of the depth in m that the waves add to the profile at a distance r from the axis in m: π A
-    /// √(r/λ).
+    /// Returns an upper bound of the depth in m that the waves add to the profile at a distance r from the axis in m: π A √(r/λ).
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {

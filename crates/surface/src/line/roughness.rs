@@ -22,7 +22,6 @@ pub struct Synthesizer {
     transform: Option<Transform>,
 }
 
-/// A planned inverse transform with its memory.
 struct Transform {
     points: usize,
     plan: Arc<dyn ComplexToReal<f64>>,

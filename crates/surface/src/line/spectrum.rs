@@ -5,8 +5,7 @@ use asperity_data::{integral_of_power, sum_of_powers};
 use std::f64::consts::TAU;
 
 /// Self-affine spectrum of the modes k = `first` … `last`, whose wave numbers are q_k = 2πk/L. The amplitudes are A_k ∝
-/// k^(−H−1/2). Below the roll-off the spectrum C₂D of the surface is flat, and by eq. (8) of Popov and Filippov (2012) A_k ∝
-/// √k.
+/// k^(−H−1/2). Below the roll-off the spectrum C₂D of the surface is flat, and by eq. (8) of Popov and Filippov (2012) A_k ∝ √k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.

@@ -188,8 +188,7 @@ impl FormTable {
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Returns the depths g in m of the equivalent profile at `count` multiples of `spacing` (m) from the axis, beginning on
-    /// it.
+    /// Returns the depths g in m of the equivalent profile at `count` multiples of `spacing` (m) from the axis, beginning on it.
     ///
     /// One depth takes a square root for each row below it. Where many points lie between two rows, a polynomial therefore
     /// interpolates the contribution of all rows at least one interval away.

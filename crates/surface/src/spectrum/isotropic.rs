@@ -82,7 +82,6 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// Creates a moment from its value and its relative errors.
     fn new(value: f64, statistical: f64, method: f64, missing_short_waves: f64) -> Self {
         let [statistical, method, missing_short_waves] =
             [statistical, method, missing_short_waves].map(|error| error * value);

@@ -26,10 +26,10 @@ use std::borrow::Cow;
 use std::ops::Range;
 use table::{Table, is_header};
 
-/// Limit of the number of headers with numbers behind them.
+/// Largest number of headers with numbers behind them.
 const MOST_PARTS: usize = 256;
 
-/// Limit of the number of channels that a message lists.
+/// Largest number of channels that a message lists.
 const MOST_LISTED: usize = 8;
 
 /// Numbers of a text, with the header before them.
@@ -39,7 +39,7 @@ struct Part {
     table: Option<Table>,
 }
 
-/// Reads the channel with this number, from 0, of a text with several; without a number, the only channel whose heights are
+/// Reads the channel with this number, from 0, of a text with several. Without a number, reads the only channel whose heights are
 /// lengths.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     // Tables of results are in SI units.
@@ -97,8 +97,8 @@ fn no_numbers() -> SurfaceError {
     refused(Place::File, "no line of numbers", "a line of numbers for each point or row")
 }
 
-/// Index of the part and the rows of the channel with this number; without a number, of the only channel, or the only one
-/// whose heights are lengths.
+/// Returns the index of the part and the rows of the channel with this number. Without a number, chooses the only channel, or the
+/// only one whose heights are lengths.
 fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), SurfaceError> {
     let with_numbers =
         parts.iter().enumerate().filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
@@ -135,7 +135,7 @@ fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>),
 }
 
 /// Calls `take` for each line of a text with its number, without white space around it. The scene in a table of results is
-/// skipped, since its words may look like units.
+/// skipped, because its words may look like units.
 pub fn each_text(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), SurfaceError>,
@@ -155,7 +155,7 @@ pub fn each_text(
     Ok(())
 }
 
-/// Limit of the length of a line, bytes: enough for a row of a large matrix.
+/// Largest length of a line in bytes, enough for a row of a large matrix.
 const LONGEST_LINE: usize = 1 << 24;
 
 /// Returns the bytes of a text without a byte order mark; UTF-16 as UTF-8, with U+FFFD for invalid characters.
