@@ -1,5 +1,5 @@
-//! The exact solver: a body that moves along any loading history in linear time, without a step error. Also reversals, the
-//! unloadings from many turning points of one loading.
+//! The exact solver: a body that moves along any loading history in linear time, without a step error. A reversal is the
+//! unloading from one turning point to separation; many reversals need only one loading.
 
 use super::adhesive::tree::TWO_THREADS;
 use super::contact::Contact;
@@ -47,8 +47,8 @@ pub trait MovingBody {
     fn curve_seconds(&self) -> f64;
 }
 
-/// The exact solver: a rigid body with the contact of its present motion and its position. Both are the whole state of the
-/// model.
+/// The exact solver: a rigid body with its position and the contact at all indentations of its present motion. Both are the
+/// whole state of the model.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
@@ -98,8 +98,8 @@ pub struct Motion {
 }
 
 impl Body {
-    /// Creates a separated body at d = 0, just before first touch. `samples` is the number of points of the force curve of each
-    /// motion, at least 2.
+    /// Creates a separated body at d = 0, just before first touch. Each motion records `samples` points of its force curve, at
+    /// least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
@@ -107,7 +107,7 @@ impl Body {
     /// Creates a body at an indentation in m of the motion `leg`, which the body may continue.
     ///
     /// # Errors
-    /// [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -260,10 +260,10 @@ impl Body {
     }
 
     /// Loads this separated body once, and unloads it from the turning point of each target. Each turning point is reached from
-    /// separation at d = 0. A force is reached where the loading first has at least that force; a tensile force at first touch
-    /// or while attraction draws the bodies together. Calls `see` with the index of each target and its reversal, the
-    /// shallowest turning point first. Each reversal holds the forces at the ascending indentations `points` in m. The body
-    /// stays separated.
+    /// separation at d = 0. A target force is reached where the loading first has at least this force. For a tensile force this
+    /// is at first touch, or while attraction draws the bodies together. Calls `see` with the index of each target and its
+    /// reversal, the shallowest turning point first. Each reversal has the forces at the ascending indentations `points` in m.
+    /// The body stays separated.
     ///
     /// # Errors
     /// Returns an error for a target that is out of reach or without contact, [`ContactError::OutOfMemory`], or the first error
@@ -298,9 +298,9 @@ impl Body {
         Ok(())
     }
 
-    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. Both loadings begin at separation; the first turns at first
-    /// touch, the second where the force is back at zero. A force is `None` if the contact does not pull or never reaches zero
-    /// force. The body stays in place.
+    /// Returns the adhesion forces F_a(d=0) and F_a(F=0) in N. Both loadings begin at separation. The first turns at first
+    /// touch, the second where the force is back at zero. A force is `None` if the contact does not pull, or if the loading
+    /// never returns to zero force. The body stays in place.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -418,7 +418,7 @@ pub fn load_body(
     Ok(history)
 }
 
-/// The unloading from one turning point to separation, without an error of discrete steps.
+/// The unloading from one turning point to separation, without a step error.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};

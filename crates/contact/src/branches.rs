@@ -1,5 +1,5 @@
-//! Branches of a loading history, with its preload and its pull-off. All three depend only on the path of the body, not on the
-//! division of this path into loading stages.
+//! Branches, preload and pull-off of a loading history. They depend only on the path of the body, not on the division of this
+//! path into loading stages.
 
 use super::history::{CurvePoint, Direction, LegRecord};
 use std::ops::Range;

@@ -1,5 +1,5 @@
-//! Closed forms that a profile must reproduce: the adhesive contact of a power-law body b rⁿ, which includes the sphere of JKR
-//! (n = 2) and the cone (n = 1), of the flat punch of Kendall, and of a flat face.
+//! Closed forms that a profile must reproduce: the adhesive contact of a power-law body b rⁿ, of a flat punch and of a flat
+//! face. The power law includes the sphere of JKR (n = 2) and the cone (n = 1).
 
 use super::modulus::Modulus;
 use std::f64::consts::PI;
@@ -75,8 +75,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. The force is the
-    /// smallest one.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This force is the
+    /// smallest of all.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
@@ -117,7 +117,7 @@ pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) ->
 }
 
 /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). γ is the work of adhesion in J/m²,
-/// E* the effective modulus in Pa. Popov and Filippov (2012), eq. (14); Kendall (1971).
+/// E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
 pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }

@@ -66,7 +66,7 @@ impl ContactBuilder {
         self.works_of_adhesion([work; 2])
     }
 
-    /// Sets the works of adhesion γ₁, where the interface closes, and γ, where it opens, in J/m². γ₁ is at most γ.
+    /// Sets two works of adhesion in J/m²: γ₁ for closing the interface and γ for opening it. γ₁ is at most γ.
     #[must_use]
     pub fn works_of_adhesion(self, works: [f64; 2]) -> Self {
         ContactBuilder { works, ..self }
@@ -88,7 +88,7 @@ impl ContactBuilder {
     /// Builds the contact.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a value out of its range.
+    /// Returns [`ContactError::Value`] for a value out of its range.
     pub fn build(self) -> Result<Contact, ContactError> {
         let ContactBuilder { profile, modulus, works: [closing, work], loading_stiffness, edges } = self;
         check("work of adhesion", work, (0.0..=LARGEST).contains(&work), "from 0 to 1e50 J/m²")?;
@@ -140,7 +140,7 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force of full contact in N, at which without adhesion the last spring touches the rigid body.
+    /// Returns the force of full contact in N. Without adhesion it is the force at which the last spring touches the rigid body.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};

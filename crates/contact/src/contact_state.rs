@@ -273,8 +273,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A grid has the requested number of equal intervals, both ends exact; the search finds the same point as a
-        /// scan.
+        /// A grid has the requested number of equal intervals, both ends exact; the search finds the same point as a scan.
         #[test]
         fn points_are_even_and_found(
             low in -1.0..1.0_f64,

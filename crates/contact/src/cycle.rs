@@ -36,13 +36,14 @@ pub struct LoadOptions<'a> {
 
 impl<'a> LoadOptions<'a> {
     /// Sets the number of samples of the force curve on each loading stage, from 2 to a million. The default is 512. Extremes
-    /// of the force are exact for any number.
+    /// of the force are exact for any number of samples.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         LoadOptions { samples: Some(samples), ..self }
     }
 
-    /// Sets ascending indentations in m. [`Cycle::at`] then has a point at each of them that a stage passes.
+    /// Sets indentations in m, in ascending order. [`Cycle::at`] returns the point of the force curve at each of them that a
+    /// stage passes.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions { indentations, ..self }
@@ -100,19 +101,19 @@ pub struct Cycle {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Curve {
-    /// Indices of the loading stages of the points, from 0.
+    /// Index of the loading stage of each point, from 0.
     pub stage: Vec<usize>,
-    /// Indentations d in m.
+    /// Indentation d of each point in m.
     pub indentation: Vec<f64>,
-    /// Forces F in N; compression is positive.
+    /// Force F at each point in N; compression is positive.
     pub force: Vec<f64>,
-    /// Displacements D = d + F/k of the instrument in m. For a rigid instrument they equal the indentations.
+    /// Displacement D = d + F/k of the instrument at each point in m. For a rigid instrument it equals the indentation.
     pub displacement: Vec<f64>,
-    /// Lengths in contact in m.
+    /// Length in contact at each point in m.
     pub contact_length: Vec<f64>,
-    /// Numbers of contact patches.
+    /// Number of contact patches at each point.
     pub patches: Vec<u64>,
-    /// Elastic energies stored in the springs in J.
+    /// Elastic energy stored in the springs at each point in J.
     pub stored_energy: Vec<f64>,
 }
 
@@ -120,8 +121,8 @@ impl Contact {
     /// Loads the separated body through these loading stages, one after the other.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target that the
-    /// contact cannot reach, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, [`ContactError::Stage`] for a target
+    /// that the contact cannot reach, and [`ContactError::OutOfMemory`].
     pub fn load(&self, stages: &[Move]) -> Result<Cycle, ContactError> {
         self.load_with(stages, LoadOptions::default())
     }
@@ -129,7 +130,7 @@ impl Contact {
     /// Loads the separated body as [`Contact::load`] does, with options.
     ///
     /// # Errors
-    /// The errors of [`Contact::load`], [`ContactError::Value`] for an option out of its range, and
+    /// Returns the errors of [`Contact::load`], [`ContactError::Value`] for an option out of its range, and
     /// [`ContactError::Interrupted`].
     ///
     /// ```
@@ -166,12 +167,12 @@ impl Contact {
         Ok(Cycle { figures: Figures::of(&history), history, at, leg: body.leg() })
     }
 
-    /// Finds the pull-off after each of several turning points from one loading, at the cost of a few loads. The body loads
-    /// from separation to each of these `ends` and unloads to separation. Each result equals [`Contact::load`] with the end and
-    /// [`Move::ToSeparation`]. A tensile force is reached where the loading first has it, at touch or while adhesion draws the
-    /// bodies together.
+    /// Finds the pull-off after each of several turning points. All turning points are on one loading, so the cost is only that
+    /// of a few loadings. The body loads from separation to each of these `ends` and unloads to separation. Each result equals
+    /// the result of [`Contact::load`] with this end and [`Move::ToSeparation`]. A tensile force is reached at first touch, or
+    /// while adhesion draws the bodies together.
     ///
-    /// `indentations` ascend, in m. [`Reversal::forces`] has the force at each of them up to the turning point.
+    /// `indentations` are in m, in ascending order. [`Reversal::forces`] has the force at each of them up to the turning point.
     ///
     /// ```
     /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -189,8 +190,8 @@ impl Contact {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a target that is not between −1e50 and 1e50 or for indentations that do not ascend,
-    /// [`ContactError::Stage`] for a target without contact or out of reach, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and for indentations that do not
+    /// ascend. Returns [`ContactError::Stage`] for a target without contact or out of reach, and [`ContactError::OutOfMemory`].
     pub fn reversals(&self, ends: &[Move], indentations: &[f64]) -> Result<Vec<Reversal>, ContactError> {
         check_targets(ends)?;
         check_ascending(indentations)?;
@@ -296,8 +297,8 @@ impl Cycle {
         curve
     }
 
-    /// Returns the points of a stage at the [`LoadOptions::indentations`] that it passes, in ascending order. The slice is
-    /// empty for a stage that does not exist.
+    /// Returns the points of a stage at those [`LoadOptions::indentations`] that the stage passes, in ascending order. The
+    /// slice is empty for a stage that does not exist.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)
@@ -309,7 +310,7 @@ impl Cycle {
         &self.history.legs
     }
 
-    /// Returns the contact patches at the end from left to right, with their edges, forces and stretches.
+    /// Returns the contact patches at the end of the history from left to right, with their edges, forces and stretches.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
         let end = self.history.legs.last().and_then(LegRecord::end_in_contact);

@@ -44,7 +44,7 @@ pub enum ContactError {
         index: usize,
         /// Target of the stage.
         target: Move,
-        /// Reason of the refusal, an error of the other kinds.
+        /// Reason of the refusal, an error of another variant.
         reason: Box<ContactError>,
     },
     /// An array does not fit into memory.

@@ -26,8 +26,8 @@ pub struct Figures {
     pub preload: Option<f64>,
     /// Indentation at the preload in m; `None` without a preload.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a in N, minus the smallest force of the last unloading in any number of stages. `None` if the smallest
-    /// force is above zero, or if the unloading ends in contact while the force still falls.
+    /// Adhesion force F_a in N, minus the smallest force of the last unloading, which may take several stages. `None` if the
+    /// smallest force is above zero, or if the unloading ends in contact while the force still falls.
     pub adhesion_force: Option<f64>,
     /// Adhesion coefficient F_a/F_n; `None` without an adhesion force or a compressive preload.
     pub adhesion_coefficient: Option<f64>,
@@ -51,8 +51,8 @@ impl Figures {
         )
     }
 
-    /// Computes the figures of a history that loads from separation to `leg`, the turning point of `reversal`, and unloads to
-    /// separation.
+    /// Computes the figures of a history that loads from separation to the target `leg` and unloads to separation. The target
+    /// is the turning point of `reversal`.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         Figures::at(
@@ -98,13 +98,13 @@ impl Figures {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// First contact of the bodies at a tensile force, where the contact forms in a jump.
+    /// First point in contact, if the contact forms there in a jump, at a tensile force.
     JumpIn,
     /// Point of the preload; see [`preload_point`].
     Preload,
-    /// Point of the pull-off at a tensile force; see [`pull_off_point`].
+    /// Point of the pull-off, if its force is tensile; see [`pull_off_point`].
     PullOff,
-    /// Last contact of the unloading that contains the pull-off, if the contact is lost in a jump after the pull-off.
+    /// Last point in contact after the pull-off, if the contact is lost there in a jump.
     JumpOut,
 }
 

@@ -92,8 +92,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// All cells are as long as the foundation, to the last bit; fewer have their own length, and more are no
-        /// longer.
+        /// All cells are as long as the foundation, to the last bit; fewer have their own length, and more are no longer.
         #[test]
         fn no_contact_is_longer_than_the_foundation(springs in 2_usize..400, length in 1e-6..10.0_f64) {
             let spacing = length / springs as f64;

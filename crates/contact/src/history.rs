@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of the motion of a body to one target, the target of one loading stage.
+/// Record of the motion of a body to the target of one loading stage.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -28,21 +28,20 @@ pub struct LegRecord {
     pub target: Move,
     /// Direction of the motion.
     pub direction: Direction,
-    /// Force curve of the motion: samples, and on unloading the points of the smallest force and of the smallest displacement.
-    /// A jump into or out of contact has a point before and a point after it.
+    /// Force curve of the motion: the samples, and on unloading also the points of the smallest force and of the smallest
+    /// displacement. A jump into or out of contact has one point before it and one point after it.
     pub curve: Vec<CurvePoint>,
-    /// Point of the largest force of a loading, exact to rounding; the first point of an unloading.
+    /// On loading the point of the largest force, exact to rounding; on unloading the first point.
     pub largest: CurvePoint,
-    /// Point of the smallest force of an unloading, exact to rounding; the point of the smallest force in the `curve` of a
-    /// loading.
+    /// On unloading the point of the smallest force, exact to rounding; on loading the point of the smallest force in `curve`.
     pub smallest: CurvePoint,
     /// Number of springs that attached.
     pub attached: u64,
     /// Number of springs that detached.
     pub detached: u64,
     /// Released elastic energy in J: ½ Δk Σ e² over the springs that detached with a stretch e, minus the same sum over the
-    /// springs that attached. It is negative where adhesion stretches springs. It equals the work ∫F dd of the motion minus the
-    /// growth of the stored elastic energy. Over a closed loop it sums to the dissipated energy.
+    /// springs that attached. The energy is negative where adhesion stretches springs. It equals the work ∫F dd of the motion
+    /// minus the growth of the stored elastic energy. Over a closed loop it sums to the dissipated energy.
     pub released_energy: f64,
     /// Energy in J that a compliant instrument and the moving body lose in the jumps of the motion, exact for any number of
     /// samples. The loop area ∮F dD of a history is the sum of `released_energy` and `jump_energy` over its stages. Consecutive
@@ -115,18 +114,18 @@ impl LegRecord {
         self.curve.last().copied().filter(|point| point.springs > 0)
     }
 
-    /// Returns the indentation at the beginning in m.
+    /// Returns the indentation at the beginning of the motion in m.
     pub fn start(&self) -> f64 {
         self.curve.first().map_or(0.0, |point| point.indentation)
     }
 
-    /// Returns the indentation at the end in m.
+    /// Returns the indentation at the end of the motion in m.
     pub fn end(&self) -> f64 {
         self.curve.last().map_or(0.0, |point| point.indentation)
     }
 }
 
-/// A whole loading history that a body has passed: its motions, its final patches and the computing work.
+/// A whole loading history: the records of its motions, the final patches and the computing work.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
@@ -184,10 +183,10 @@ pub struct Work {
     pub hess_evaluations: u64,
     /// Number of attachments and detachments sorted by indentation in the search for extremes of the force.
     pub events_sorted: u64,
-    /// Number of springs that attached during the loading history; `joins` in files.
+    /// Number of springs that attached during the loading history. Files call it `joins`.
     #[cfg_attr(feature = "serde", serde(rename = "joins"))]
     pub attached: u64,
-    /// Number of springs that detached during the loading history; `leaves` in files.
+    /// Number of springs that detached during the loading history. Files call it `leaves`.
     #[cfg_attr(feature = "serde", serde(rename = "leaves"))]
     pub detached: u64,
     /// Number of steps of the stepwise solver.
@@ -295,7 +294,8 @@ impl Patch {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Finds the contact patches from left to right. `contact` is true for each spring of the profile in contact.
+    /// Finds the contact patches from left to right. `contact` yields true for each spring in contact and false for each free
+    /// spring.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for spring in contact.enumerate().filter_map(|(spring, contact)| contact.then_some(spring)) {

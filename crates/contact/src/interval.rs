@@ -255,8 +255,7 @@ impl Interval {
         found.or_else(|| (self.high.compression >= wanted).then_some(to))
     }
 
-    /// Returns the largest indentation in the interval with at most this compression. The compression at the upper end is
-    /// larger.
+    /// Returns the largest indentation in the interval with at most this compression. The compression at the upper end is larger.
     pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
         let (from, to) = self.ends();
         if lower_bound(&self.low, &self.high) > wanted || from >= to {

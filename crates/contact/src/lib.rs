@@ -5,15 +5,15 @@
 //!
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
 //! rules of the method of dimensionality reduction, with the rule of Hess for adhesion. Here c is the gap of a spring, d the
-//! indentation and Δl_max(n) the largest stretch of a patch of n springs. Numbers of equations are those of Popov and Filippov
-//! (2012), the paper:
+//! indentation and Δl_max(n) the largest stretch of a patch of n springs. The paper, whose equations are cited by number, is
+//! Popov and Filippov (2012). The rules are:
 //!
 //! * *touch*: a free spring attaches when its gap is closed, c ≤ d;
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
 //! A [`Contact`] is all that stays the same while the body moves. A [`Leg`] is the contact at all indentations of a motion in
-//! one direction, and a [`Body`] is a leg with the position on it. [`Leg`] applies these rules in one pass over a tree.
+//! one direction, and a [`Body`] is a leg with the position on it. A [`Leg`] follows from these rules in one pass over a tree.
 //! [`Stepwise`] moves by small steps and relaxes after each, as the paper does. Any function that allocates may return
 //! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 

@@ -23,7 +23,7 @@ impl Modulus {
     /// Creates an effective modulus E* from a number in Pa.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a number that is not from 1e-50 to 1e50.
+    /// Returns [`ContactError::Value`] for a number that is not from 1e-50 to 1e50.
     pub fn effective(pascals: f64) -> Result<Self, ContactError> {
         check("effective modulus", pascals, is_positive(pascals), PASCALS)?;
         Ok(Modulus(pascals))
@@ -33,8 +33,8 @@ impl Modulus {
     /// and ν is Poisson's ratio.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a Young's modulus that is not from 1e-50 to 1e50 Pa, or for a Poisson's ratio that is not
-    /// above −1 and at most 0.5.
+    /// Returns [`ContactError::Value`] for a Young's modulus that is not from 1e-50 to 1e50 Pa, or for a Poisson's ratio that
+    /// is not above −1 and at most 0.5.
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
         check("Young's modulus", youngs_modulus, is_positive(youngs_modulus), PASCALS)?;
         let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
@@ -55,7 +55,7 @@ impl Modulus {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a result below 1e-50 Pa.
+    /// Returns [`ContactError::Value`] for a result below 1e-50 Pa.
     pub fn pair(one: Modulus, other: Modulus) -> Result<Self, ContactError> {
         let (softer, stiffer) = (one.0.min(other.0), one.0.max(other.0));
         Modulus::effective(softer / (1.0 + softer / stiffer))

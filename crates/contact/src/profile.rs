@@ -44,11 +44,11 @@ pub struct Springs {
 }
 
 impl Profile {
-    /// Creates a profile from measured or computed heights in m at this spacing in m. A `Vec` is used in place, and a slice is
-    /// copied.
+    /// Creates a profile from measured or computed heights in m at this spacing in m. The memory of a `Vec` is reused; a slice
+    /// is copied.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a profile without points, and for a spacing or a height out of its range.
+    /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height out of its range.
     pub fn from_heights(heights: impl Into<Vec<f64>>, spacing: f64) -> Result<Self, ContactError> {
         let mut heights = heights.into();
         let [_, summit] = ends(&heights, LARGEST).map_err(|index| {
@@ -71,8 +71,8 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a profile without points, for a spacing or a gap out of its range, or if the smallest gap is
-    /// not 0.
+    /// Returns [`ContactError::Value`] for a profile without points, for a spacing or a gap out of its range, or if the
+    /// smallest gap is not 0.
     pub fn from_gaps(gaps: impl Into<Arc<Vec<f64>>>, spacing: f64) -> Result<Self, ContactError> {
         let gaps = gaps.into();
         let points = gaps.len();
@@ -94,7 +94,7 @@ impl Profile {
     /// body. A flat punch, for example, covers only a part of its foundation.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a length that is out of its range or too short for the profile at this place.
+    /// Returns [`ContactError::Value`] for a length that is out of its range or too short for the profile at this place.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -115,7 +115,7 @@ impl Profile {
     /// Moves the profile in height, so that its highest point lies at this height in m.
     ///
     /// # Errors
-    /// [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
+    /// Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
     pub fn with_summit(self, summit: f64) -> Result<Self, ContactError> {
         check("height of the highest point", summit, summit.abs() <= LARGEST, "from -1e50 to 1e50 m")?;
         Ok(Profile { summit, ..self })
@@ -152,7 +152,7 @@ impl Profile {
         self.springs.deepest
     }
 
-    /// Returns the heights in m, exact to rounding.
+    /// Returns the heights of the points in m, exact to rounding.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps().iter().map(|gap| self.summit - gap)
     }
@@ -167,11 +167,11 @@ impl Profile {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the contact tree for an edge model, unless the profile has it already. The tree takes the memory of a former
-    /// tree. Without this call the first contact with adhesion builds the tree.
+    /// Builds the contact tree for an edge model, unless the profile has it already. The new tree reuses the memory of the tree
+    /// `memory`. Without this call the first contact with adhesion builds the tree.
     ///
     /// # Errors
-    /// [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
     ///
     /// ```
     /// use asperity_contact::{ContactTree, Edges, Profile};
@@ -186,8 +186,8 @@ impl Profile {
         self.springs.tree_in(memory, edges).map(|_| ())
     }
 
-    /// Returns a contact tree of this profile for the reuse of its memory. The tree is empty if there is none, or if a clone or
-    /// a contact still uses it.
+    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can reuse. The tree is empty if
+    /// there is none, or if a clone or a contact still uses it.
     pub fn into_tree(self) -> ContactTree {
         let trees = Arc::into_inner(self.springs).map(|springs| springs.trees);
         let trees = trees.into_iter().flatten().filter_map(OnceLock::into_inner);

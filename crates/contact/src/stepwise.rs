@@ -50,9 +50,9 @@ pub struct Stepwise<'a> {
 }
 
 impl<'a> Stepwise<'a> {
-    /// Creates a separated body of whole springs that moves by steps of the length `step` in m. `samples` is the number of
-    /// points of the force curve of each motion, at least 2. `stop` is called before each step; if it returns true, the motion
-    /// is interrupted.
+    /// Creates a separated body of whole springs that moves by steps of the length `step` in m. Each motion records `samples`
+    /// points of its force curve, at least 2. `stop` is called before each step; if it returns true, the motion ends with
+    /// [`ContactError::Interrupted`].
     pub fn new(
         contact: &'a Contact,
         step: f64,

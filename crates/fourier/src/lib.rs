@@ -15,8 +15,8 @@ pub fn plan_real_forward<T: FftNum>(points: usize) -> Arc<dyn RealToComplex<T>> 
     RealFftPlanner::new().plan_fft_forward(points)
 }
 
-/// Plans the transform x_n = Σ X_k exp(2πi kn/N) to N = `points` real numbers, from their modes k = 0 … ⌊N/2⌋. The sum is
-/// over all N modes.
+/// Plans the transform x_n = Σ X_k exp(2πi kn/N), which yields N = `points` real numbers x_n. The sum is over all N modes, of
+/// which only k = 0 … ⌊N/2⌋ are given.
 pub fn plan_real_inverse<T: FftNum>(points: usize) -> Arc<dyn ComplexToReal<T>> {
     RealFftPlanner::new().plan_fft_inverse(points)
 }

@@ -14,9 +14,9 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Energy over the work of adhesion at which a cell opens; found once with spheres.
+/// Ratio of the energy ½σg to the work of adhesion above which a cell opens. It was found once with spheres.
 pub const OPENING: f64 = 1.29;
-/// Energy over the work of adhesion on closing below which a cell closes.
+/// Ratio of the energy ½σg to the work of adhesion on closing below which a cell closes.
 pub const CLOSING: f64 = 0.8;
 /// Allowed error of stresses, as a share of the largest stress of an edge.
 const TOLERANCE: f64 = 1e-3;
@@ -101,7 +101,7 @@ impl AdhesiveSquare {
         Ok(AdhesiveSquare { grid, cells, side: scale, effective_modulus, works, opened })
     }
 
-    /// Returns the number of convolutions so far.
+    /// Returns the number of convolutions computed so far.
     pub fn convolutions(&self) -> u64 {
         self.grid.operators.convolutions
     }
@@ -303,9 +303,9 @@ mod tests {
         }
     }
 
-    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other directions on the grid at each angle, pulls off
-    /// at the same force whatever its angle, and at little less than the sphere with its mean radius (Johnson and Greenwood
-    /// 2005).
+    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other directions on the grid at
+    /// each angle, pulls off at the same force whatever its angle, and at little less than the sphere with its mean radius
+    /// (Johnson and Greenwood 2005).
     #[test]
     fn an_ellipsoid_pulls_off_at_the_same_force_at_all_angles() {
         let (cells, critical) = (64, 13.0);

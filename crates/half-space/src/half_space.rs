@@ -29,7 +29,7 @@ pub enum Load {
     Indentation(f64),
 }
 
-/// A contact without adhesion: pressures, gaps, force and indentation.
+/// Solution of a contact without adhesion: pressures, gaps, force and indentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pressed {
     /// Pressure on each cell in Pa.
@@ -52,7 +52,7 @@ pub struct Pressed {
     pub convolutions: u64,
 }
 
-/// Planned operators and memory for the contacts of squares with one number of cells.
+/// Solver for the contacts of squares with one number of cells, with its planned operators and memory.
 pub struct HalfSpace {
     boundary: Boundary,
     /// Nested grids, the finest one last.
@@ -60,7 +60,7 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Returns the number of bytes of the operators and the memory of a [`HalfSpace`].
+    /// Returns the memory of a solver in bytes.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         nested(cells).map(|cells| Grid::bytes(cells, boundary)).sum()
     }

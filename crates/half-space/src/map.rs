@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 
 /// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. `variance` of k is the
 /// part that a wave of k waves over the side has in the mean square height. Over all pairs (k_x, k_y) except (0, 0) the parts
-/// sum to h²; heights are in m if they are in m². The phase of each pair is random and does not depend on the number of cells,
-/// so that more cells refine the same surface.
+/// sum to the mean square height. Heights are in m if the parts are in m². The phase of each pair is random and does not depend
+/// on the number of cells, so that more cells refine the same surface.
 ///
 /// # Errors
 /// The memory is too small.

@@ -16,7 +16,7 @@ pub enum Place {
     Line(usize),
     /// Point of a surface or of a curve, by its number.
     Point(usize),
-    /// A byte, by its offset.
+    /// Byte of a file, by its offset.
     Byte(usize),
     /// Named part of a container, such as a file of an archive, an element or a channel.
     Part(String),
@@ -84,7 +84,7 @@ pub enum SurfaceError {
     /// The system cannot read a file.
     #[error("{place}{reason}")]
     Unreadable {
-        /// The file.
+        /// File that cannot be read.
         place: Place,
         /// Reason that the system gives.
         reason: String,
@@ -140,7 +140,7 @@ impl SurfaceError {
         self.find(|place| if let Place::FileOf(_, file, _) = place { Some(file.clone()) } else { None })
     }
 
-    /// Puts another place around the place of the error.
+    /// Returns the error with its place inside an outer place, such as a file.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
@@ -151,7 +151,7 @@ impl SurfaceError {
         self
     }
 
-    /// Adds the path of the file with a measured surface that a scene names.
+    /// Returns the error with the path of a measured surface, which the field `roughness.file` of a scene names.
     pub fn in_measured(self, file: &Path) -> Self {
         self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
     }
@@ -174,7 +174,7 @@ impl From<ReadError> for SurfaceError {
     }
 }
 
-/// Creates the error of a place from what was found there and what is allowed.
+/// Creates the error [`SurfaceError::Refused`] of a place, with what was found there and what is allowed, in words.
 pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> SurfaceError {
     SurfaceError::Refused { place, found: found.to_string(), allowed: allowed.to_string() }
 }

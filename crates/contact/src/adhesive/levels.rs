@@ -113,8 +113,7 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Length of a patch on one span as a function of its level t in m: `length + growth (t − gap)` cells, for t from `gap` to
-/// `top`.
+/// Length of a patch on one span as a function of its level t in m: `length + growth (t − gap)` cells, for t from `gap` to `top`.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
     /// Largest gap of the span in m, the lowest level.
@@ -322,8 +321,7 @@ impl Slider {
         Self::without_adhesion(Levels { gap, length: 0.0, growth, top })
     }
 
-    /// Creates the half cell at an end of the foundation, without adhesion. It has the gap of the last spring, in m,
-    /// everywhere.
+    /// Creates the half cell at an end of the foundation, without adhesion. It has the gap of the last spring, in m, everywhere.
     pub fn half_cell(gap: f64) -> Self {
         Self::without_adhesion(Levels { gap, length: 0.5, growth: 0.0, top: f64::INFINITY })
     }

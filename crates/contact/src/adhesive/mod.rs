@@ -1,9 +1,8 @@
 //! Adhesive contact: the exact force curve of a loading history with turning points.
 //!
 //! The local maxima of the gap form a `ContactTree`. A pass over the tree for a loading closes its nodes from below, and a pass
-//! for an unloading opens them from above. Both passes list *runs*: patches over ranges of indentation in which their edges
-//! move without a jump. Curves, extremes and energies are sums over the runs. Only the edge model defines the length of a
-//! patch.
+//! for an unloading opens them from above. Both passes list *runs*: patches over ranges of indentation in which their edges move
+//! without a jump. Curves, extremes and energies are sums over the runs. Only the edge model defines the length of a patch.
 
 pub(crate) mod levels;
 pub(crate) mod loading;

@@ -134,8 +134,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         ContactTotals { springs: span.springs() as i64, fragments: 1, quanta, squares }
     }
 
-    /// Returns the upper end, in m, of the indentations over which a run fills a span. Beyond it the run fills the span
-    /// `above`.
+    /// Returns the upper end, in m, of the indentations over which a run fills a span. Beyond it the run fills the span `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
         // Unloading, the span above parts where this one would go on.

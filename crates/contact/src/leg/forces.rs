@@ -1,8 +1,9 @@
 //! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force is reached.
 //!
-//! Between two events the force is convex. At an event it falls or stays as d grows. The contact at two indentations bounds the
-//! force between them. Springs that attach there are stretched, or they just touch and are then compressed by at most the width
-//! of the interval. Only intervals whose bounds allow the sought force are searched.
+//! At an event springs attach or detach in a jump. There the force falls or remains the same as d grows; between two events it
+//! is convex. The contact at two indentations bounds the force between them. Springs that attach there are stretched, or they
+//! just touch and are then compressed by at most the width of the interval. Only intervals whose bounds allow the sought force
+//! are searched.
 
 use super::{Leg, Patches};
 use crate::adhesive::levels::Edges;
@@ -267,8 +268,7 @@ impl Leg {
         Ok(coarse)
     }
 
-    /// Finds the largest indentation in m, between the ends of a sampled leg, at which the compression is at most `wanted` in
-    /// m.
+    /// Finds the largest indentation in m, between the ends of a sampled leg, at which the compression is at most `wanted` in m.
     fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
         let reached = leg.iter().rfind(|state| state.compression <= wanted);
         let start = reached.map(|state| state.indentation);

@@ -158,7 +158,7 @@ impl Leg {
     /// Creates the leg of the motion in the opposite direction, which begins at the indentation `at` of this leg in m.
     ///
     /// # Errors
-    /// [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
+    /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].
     pub fn turn(&self, at: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
@@ -213,13 +213,13 @@ impl Leg {
         self.direction
     }
 
-    /// Returns an indentation in m: on loading the smallest one of full contact, on unloading the smallest one with any
+    /// Returns an indentation in m. On loading it is the smallest one with full contact, on unloading the smallest one with any
     /// contact. For the stepwise solver it is the indentation reached so far.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Returns the number of bytes in memory that this leg holds itself, without its contact.
+    /// Returns the memory of this leg in bytes, without the memory of its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => size_of::<f64>() * thresholds.capacity(),

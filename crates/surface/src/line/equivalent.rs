@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 /// Relative excess of a wavelength over the length of the scan that counts as rounding.
 const ROUNDING: f64 = 1.0e-9;
 
-/// Equivalent line of measured surfaces: a random profile with their spectrum. The surfaces belong to one or two faces in
-/// contact; the spectra of two faces are added.
+/// Equivalent line of measured surfaces: a random profile with their spectrum. One or both of the two faces in contact are
+/// measured; the spectra of two faces are added.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, EquivalentLine, Topography, analyse};
@@ -40,17 +40,17 @@ impl From<&Analysis> for EquivalentLine {
 }
 
 impl EquivalentLine {
-    /// Analyses the surfaces in the files of all faces.
+    /// Analyses the surfaces in the files of one or two faces.
     ///
     /// # Errors
-    /// [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
+    /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let spectra = faces.iter().map(|face| Ok(options.analyse(face)?.isotropic));
         Ok(EquivalentLine { faces: spectra.collect::<Result<_, SurfaceError>>()? })
     }
 
-    /// Computes the heights in m of a random profile of the line, at the middles of `points` equal cells of this length in m.
-    /// The seed gives the random phases.
+    /// Computes the heights in m of a random profile of this length in m, at the middles of `points` equal cells. The seed
+    /// gives the random phases.
     ///
     /// # Errors
     /// No wave of the spectrum fits the length with these points, or the memory is too small.
@@ -112,13 +112,15 @@ impl EquivalentLine {
         EquivalentLine { faces: self.faces.iter().map(|face| face.up_to(wave_number)).collect() }
     }
 
-    /// Returns the amplitude A_k in m of mode k on a line of this length in m: A_k² = 4 C_line(q_k)/L, with the PSD C_line.
+    /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k² = 4 C_line(q_k)/L, with the
+    /// power spectral density C_line of the line.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Returns the part in m² that k waves over the side of a square (m) have in the mean square height of a surface with these
-    /// spectra: A_k²/(4πk). k need not be a whole number. The part is zero half a wave beyond the first and the last wave.
+    /// Returns the part in m² of one wave in the mean square height of a surface with these spectra: A_k²/(4πk). The wave has k
+    /// = `waves` waves over the side of a square in m, which need not be a whole number. The part is zero more than half a wave
+    /// beyond the first and the last wave.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
         if waves < first - 0.5 || waves > last + 0.5 {
@@ -137,7 +139,7 @@ impl EquivalentLine {
         4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
 
-    /// Computes the roughness amplitude of the modes `first..=last` on a line of this length in m.
+    /// Computes the rms height, gradient and curvature of the modes `first..=last` on a line of this length in m.
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.

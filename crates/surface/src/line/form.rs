@@ -81,7 +81,7 @@ impl Form {
         Err(in_file(refused(Place::File, fault, format!("length at most {most:e} m"))))
     }
 
-    /// Returns the table of a form that has one and has read it.
+    /// Returns the table of the form, if the form has a table that is read.
     pub fn table(&self) -> Option<&FormTable> {
         if let Form::Table { rows, .. } = self { rows.0.get() } else { None }
     }
@@ -92,16 +92,16 @@ impl Form {
         points / 2
     }
 
-    /// Returns the displacement of the body along the foundation, in cells, that moves its axis from L/2 onto a spring: ½ for
-    /// an even number of springs, 0 for an odd one. Form and roughness are displaced together, so that their relative position
-    /// does not depend on the number of springs. A punch has no tip and is not displaced.
+    /// Returns the displacement of the body along the foundation in cells. It moves the axis from L/2 onto a spring: by ½ for
+    /// an even number of springs, and by 0 for an odd one. Form and roughness are displaced together, so that their relative
+    /// position does not depend on the number of springs. A punch has no tip and is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }
 
-    /// Returns the range of indices of the springs under the form, for `points` springs on `length` in m. All springs count,
-    /// except for a punch. A punch covers its diameter, rounded to whole cells and centred on the axis to half a cell. The
-    /// range is empty for a diameter below half a cell.
+    /// Returns the range of indices of the springs under the form, for `points` springs on `length` in m. All forms except a
+    /// punch lie above all springs. A punch covers its diameter, rounded to whole cells and centred on the axis to half a cell.
+    /// The range is empty for a diameter below half a cell.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -161,7 +161,7 @@ impl Form {
     }
 
     /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a punch
-    /// it is the depth under the flat face, where [`Form::springs_under`] are the springs.
+    /// it is 0, the depth of the flat face above the springs of [`Form::springs_under`].
     ///
     /// g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr. A paraboloid r²/2R becomes x²/R, and a cone r tan θ becomes (π/2)|x| tan θ. A power
     /// law b rⁿ becomes κₙ b |x|ⁿ, with the factor κₙ of [`power_law_factor`]. Waves A (1 − cos 2πr/λ) become (π²A/λ)|x|
@@ -225,7 +225,7 @@ impl Form {
         }
     }
 
-    /// Returns an upper bound of the depth in m that the waves add to the profile at a distance r from the axis in m: π A √(r/λ).
+    /// Returns an upper bound π A √(r/λ), in m, of the depth that the waves add to the profile at a distance r (m) from the axis.
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere { amplitude, wavelength, .. } => {

@@ -40,8 +40,8 @@ pub struct MeasuredProfile {
 }
 
 impl MeasuredProfile {
-    /// Reads a profile, or a row or column of a map, from the content of a file. Only from equally spaced points can a
-    /// polynomial be removed.
+    /// Reads a profile, or a row or column of a map, from the content of a file. A polynomial can be removed only from equally
+    /// spaced points.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {

@@ -1,5 +1,5 @@
-//! Random phases of modes, independent of the grid, the number of modes and the platform. Also the Fourier coefficients of a
-//! self-affine profile, 64 modes at a time, in loops without branches, so that the compiler computes several modes in one
+//! Random phases of modes, which do not depend on the grid, the number of modes or the platform. The Fourier coefficients of a
+//! self-affine profile are computed 64 at a time in loops without branches, so that the compiler computes several in one
 //! instruction.
 
 use super::spectrum::SelfAffine;

@@ -26,7 +26,7 @@ pub struct Line {
 
 impl Line {
     /// Creates the profile of a form (`None`: flat) plus roughness (`None`: smooth). The roughness has one height for each
-    /// point, in units of `scale` in m. The axis of the form is on the spring ⌊N/2⌋, at x = L/2 for odd N and half a cell
+    /// point, in units of `scale` (m). The axis of the form is on the spring ⌊N/2⌋, at x = L/2 for odd N and half a cell
     /// further for even N. Roughness has to be sampled with the same [`Form::shift`]. For a punch see [`Form::springs_under`].
     ///
     /// # Errors
@@ -89,7 +89,7 @@ impl Line {
         Ok(Line { gaps: Arc::new(gaps), first, points, length, spacing, summit, deepest })
     }
 
-    /// Returns the heights z in m of the points under the body. `summit` − z is the gap of each, bit for bit.
+    /// Returns the heights z in m of the points under the body. The gap of a point is `summit` − z, bit for bit.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps.iter().map(|gap| self.height(*gap))
     }

@@ -41,7 +41,7 @@ impl Transform {
 
 impl Synthesizer {
     /// Synthesises the profile of [`SelfAffine::heights`], displaced by `shift` cells along the springs: heights at x = (i + ½
-    /// − `shift`)L/N. The heights take the memory `memory`.
+    /// − `shift`)L/N. The heights are stored in the memory of `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,

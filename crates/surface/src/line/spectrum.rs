@@ -20,7 +20,7 @@ pub struct SelfAffine {
 }
 
 impl SelfAffine {
-    /// Returns the amplitude of mode k over the amplitude A₁ that mode 1 has in the same spectrum without a roll-off.
+    /// Returns the amplitude of mode k over A₁, the amplitude of mode 1 without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
@@ -34,9 +34,9 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the part that k waves per length have in the mean square height of a surface, over A₁²: A_k²/(4πk). The
-    /// equivalent profile of the surface has this spectrum, so that C₁D = πq C₂D. Waves of a surface lie in all directions, and
-    /// k need not be a whole number. The part is zero half a wave beyond the first and the last mode.
+    /// Returns the part of one wave in the mean square height of a surface, over A₁²: A_k²/(4πk). The wave has k = `waves` waves
+    /// per length, not always a whole number, because waves of a surface lie in all directions. The equivalent profile of the
+    /// surface has this spectrum, and C₁D = πq C₂D. The part is zero more than half a wave beyond the first and the last mode.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -51,8 +51,8 @@ impl SelfAffine {
         (self.moment(0) / 2.0).sqrt()
     }
 
-    /// Returns the rms gradient over the rms height in 1/m, for a profile of length L in m: ⟨∇z⟩/h = √(Σ A_k² q_k² / Σ A_k²),
-    /// summed over the modes of the profile.
+    /// Returns the rms gradient over the rms height, ⟨∇z⟩/h in 1/m, of a profile of length L in m. It is √(Σ A_k² q_k² / Σ
+    /// A_k²), summed over the modes of the profile.
     ///
     /// These sums are finite and have positive terms. So H → 1 is no special case, unlike in the integrals of eqs. (12) and
     /// (13) of Popov and Filippov (2012).
@@ -87,11 +87,11 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio of [`Self::gradient_per_height`] in 1/m over a continuum of modes, by the integrals of eqs. (5)–(7)
-    /// and (12): ⟨∇z⟩²/h² = ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
+    /// Returns the ratio ⟨∇z⟩/h in 1/m for a continuum of modes. By eqs. (5)–(7) and (12) of Popov and Filippov (2012) its
+    /// square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq between q_min and q_max.
     ///
-    /// It differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. It is zero for a
-    /// single mode.
+    /// The ratio differs from [`Self::gradient_per_height`] because the first few modes carry most of the height. It is zero
+    /// for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
         let (low, high) = (self.first as f64, self.last as f64);
         let between = self.roll_off_mode.max(low).min(high);

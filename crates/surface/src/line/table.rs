@@ -35,7 +35,7 @@ const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0
 /// Quadrature over the angle of a wider interval, in which f′ is a polynomial of the sine of the angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
-/// A form f(r) that rows (r, f) describe, with the radii r ascending from 0.
+/// A body of revolution f(r), given by rows of a radius r and a depth f. The radii ascend from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormTable {
     radii: Vec<f64>,
@@ -43,7 +43,7 @@ pub struct FormTable {
     slopes: Vec<[f64; 3]>,
 }
 
-/// Rows of a form, which its clones share once the rows are read. Rows that are not read equal any others.
+/// Rows of a form, which its clones share once the rows are read. In a comparison, rows that are not read equal all others.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
@@ -66,7 +66,7 @@ impl FormTable {
         FormTable::new(radii, &depths)
     }
 
-    /// Creates a form of depths in m at two or more radii in m, ascending from 0.
+    /// Creates a form from depths in m at two or more radii in m, ascending from 0.
     ///
     /// # Errors
     /// The error names the row at fault and the allowed values.
@@ -188,10 +188,11 @@ impl FormTable {
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Returns the depths g in m of the equivalent profile at `count` multiples of `spacing` (m) from the axis, beginning on it.
+    /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing` (m) from the axis, the first
+    /// on the axis.
     ///
-    /// One depth takes a square root for each row below it. Where many points lie between two rows, a polynomial therefore
-    /// interpolates the contribution of all rows at least one interval away.
+    /// One depth takes a square root for each row nearer the axis. Where many points lie between two rows, a polynomial
+    /// therefore interpolates the contribution of all rows at least one interval away.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {

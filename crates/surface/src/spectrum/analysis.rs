@@ -68,14 +68,14 @@ pub struct Analysis {
     pub power_law: Option<SelfAffineFit>,
     /// Moments of the equivalent line, such as its rms height.
     pub line: LineMoments,
-    /// Shortest wavelength in m that the tip resolves reliably, the largest of all surfaces. `None` without a tip radius, or if
-    /// the tip resolves all waves.
+    /// Shortest wavelength in m that the tip resolves reliably; of several surfaces the largest. `None` without a tip radius,
+    /// or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of profiles among the surfaces.
     pub profiles: u64,
     /// Number of maps among the surfaces.
     pub maps: u64,
-    /// Largest length along a row of all surfaces in m.
+    /// Length of the longest row of all surfaces in m.
     pub length: f64,
     /// End of the spectrum, as the options state it.
     pub end: End,
@@ -84,11 +84,11 @@ pub struct Analysis {
     /// True if the waves parallel to one axis of a map are left out. The rows or columns of such a map are offset against each
     /// other, or were levelled one by one.
     pub offsets: bool,
-    /// Share of the squared gradient by which waves parallel to an axis differ from waves in neighbouring directions, if they are
-    /// not left out. It is 0 if the difference may be chance.
+    /// Difference between waves parallel to an axis of a map and waves in neighbouring directions, as a share of the squared
+    /// gradient. It is 0 if such waves are left out, or if the difference is small or may be chance.
     pub apart: f64,
-    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. The largest of
-    /// all maps; `None` if no map shows it.
+    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. Of several
+    /// maps it is the largest; `None` if no map has such a displacement.
     pub displaced: Option<f64>,
 }
 
@@ -107,7 +107,8 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// [`SurfaceError`] for a surface with uneven or few points or without roughness, and for an [`End`] that is already resolved.
+/// Returns an error for a surface with uneven or few points or without roughness, and for an [`End::Continues`] that the
+/// surfaces already resolve.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};

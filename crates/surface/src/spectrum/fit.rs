@@ -3,7 +3,7 @@
 //! The sum Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised over the values x = ln C2D at the nodes. P are the
 //! observed powers of w waves each, and m(x) their means. Steps follow Fisher's scoring and are halved until the sum falls.
 //!
-//! Also the self-affine fit: C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
+//! In the self-affine fit C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
 
 use super::isotropic::{End, IsotropicSpectrum, Nodes, Term, ValueWithError, cut};
 use super::observation::Observation;
@@ -216,8 +216,8 @@ pub struct SelfAffineFit {
 }
 
 impl SelfAffineFit {
-    /// Returns the power spectral density of a cut through the surface in m³ at a wave number. The spectrum lies between the
-    /// first and the last wave number; all wave numbers are in rad/m.
+    /// Returns the power spectral density in m³ of a cut through the surface at a wave number, for a spectrum between two wave
+    /// numbers. All wave numbers are in rad/m.
     pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
         let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);

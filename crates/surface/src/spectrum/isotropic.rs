@@ -49,7 +49,7 @@ pub enum End {
     /// The surface has no waves beyond the last resolved one.
     #[default]
     Ends,
-    /// Waves continue up to this wave number in rad/m, by the power law of the last resolved part of a decade.
+    /// Waves continue up to this wave number in rad/m, by the power law between the last two nodes of the spectrum.
     Continues(f64),
 }
 
@@ -68,9 +68,9 @@ pub struct ValueWithError {
 pub struct Moment {
     /// Value of the moment.
     pub value: f64,
-    /// Standard error of likelihood and method together.
+    /// Standard error of the value, from `statistical` and `method` together.
     pub error: f64,
-    /// Standard error of the likelihood, which results from the finite number of measured waves.
+    /// Standard error that results from the finite number of measured waves.
     pub statistical: f64,
     /// Error of the method: the difference between the fit and the moments of the measured powers, and the error of interpolated
     /// points.
@@ -203,14 +203,14 @@ pub struct Node {
     pub wave_number: f64,
     /// Spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
-    /// Standard error of ln C2D(q).
+    /// Standard error of ln C2D(q), about the relative error of C2D(q).
     pub relative_error: f64,
     /// Power spectral density of the equivalent line at q in m³.
     pub line: f64,
 }
 
-/// Isotropic power spectral density C2D(q) of a surface in m⁴. It is given at nodes, wave numbers between which ln C2D is linear
-/// in ln q.
+/// Isotropic power spectral density C2D(q) of a surface in m⁴. It is given at nodes; between these wave numbers ln C2D is
+/// linear in ln q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,

@@ -10,14 +10,14 @@ use std::ops::RangeInclusive;
 /// Number of bins per decade of wave numbers, for display.
 const BINS_PER_DECADE: f64 = 10.0;
 
-/// Direction of the waves of a spectrum, and the spectral density that it shows in m³.
+/// Direction of the waves of a spectrum. Each direction has its own spectral density in m³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Waves along a profile or along the rows of a map: the density C1D.
+    /// Waves along a profile or along the rows of a map, with the spectral density C1D.
     X,
-    /// Waves between the rows of a map: the density C1D.
+    /// Waves between the rows of a map, with the spectral density C1D.
     Y,
-    /// Waves in all directions of a map: q C2D/π, at the wave number q.
+    /// Waves in all directions of a map, with the spectral density q C2D/π at the wave number q.
     Radial,
 }
 
@@ -66,7 +66,7 @@ impl ProfilePower {
 }
 
 /// Computes the power spectral density C1D in m³ of heights (m) at equal distances `spacing` (m), averaged in bins of the wave
-/// number. `windowed` is true for heights that are not periodic, to which a window function is then applied.
+/// number. `windowed` is true for heights that are not periodic; a window function is then applied.
 ///
 /// ```
 /// use asperity_surface::line_spectrum;

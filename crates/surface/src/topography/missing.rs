@@ -1,5 +1,5 @@
-//! Interpolation of missing points from their neighbours. Also outliers, heights far from the heights around them, such as spikes
-//! of an instrument and grains of dust.
+//! Interpolation of missing points from their neighbours, and removal of outliers. Outliers are heights far from the heights
+//! around them, such as spikes of an instrument and grains of dust.
 
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{OutOfMemory, gathered};

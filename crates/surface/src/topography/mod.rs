@@ -1,9 +1,9 @@
 //! Measured surfaces: files of instruments and programs, read into heights in m.
 //!
 //! [`read`](crate::read) recognises the format by the content, not by the name. Units are never guessed: if a file states none,
-//! [`ReadOptions`](crate::ReadOptions) has to. Every error names the place in the file and what is allowed there. A file of n
-//! bytes after decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes for each byte of
-//! the file, or at the number of heights that a header states, at most 1 GiB.
+//! [`ReadOptions`](crate::ReadOptions) has to state one. Every error names the place in the file and what is allowed there. A
+//! file of n bytes after decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes for
+//! each byte of the file, or at the number of heights that a header states, at most 1 GiB.
 
 pub(crate) mod bytes;
 pub(crate) mod container;

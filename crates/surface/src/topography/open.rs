@@ -28,7 +28,7 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
 /// Reads a surface from a regular file of at most 1 GiB. From a container it reads all measurements of a surface.
 ///
 /// # Errors
-/// [`SurfaceError`] if the file cannot be read or holds no surface.
+/// Returns [`SurfaceError`] if the file cannot be read or holds no surface.
 ///
 /// ```
 /// use asperity_surface::{Cut, ReadOptions, read};
@@ -52,7 +52,7 @@ pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
 /// Reads the only surface from the content of a file.
 ///
 /// # Errors
-/// The errors of [`read`], and an error for several measurements.
+/// Returns the errors of [`read`], and an error for a file with several measurements.
 ///
 /// ```
 /// use asperity_surface::{ReadOptions, parse};

@@ -14,7 +14,7 @@ pub(super) const MOST_POINTS: usize = 1 << 28;
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
     pub unit: Option<Unit>,
-    /// Unit of the heights if the file states none; `None` for the same unit as `unit`.
+    /// Unit of the heights if the file states none; `None` means the unit in `unit`.
     pub height_unit: Option<Unit>,
     /// Unit to assume if neither the file nor the user states one.
     pub convention: Option<Unit>,
@@ -26,7 +26,7 @@ pub struct ReadOptions {
     pub channel: Option<u32>,
     /// Row or column of a map to read as a profile.
     pub cut: Option<Cut>,
-    /// True if a profile with uneven distances between points is interpolated at its mean distance.
+    /// True if a profile with uneven distances between points is interpolated at evenly spaced points.
     pub resample: bool,
     /// True if the median height of each row of a map is subtracted, for rows that are offset against each other.
     pub align_rows: bool,
@@ -233,7 +233,7 @@ impl Reading {
 }
 
 impl Topography {
-    /// Creates a profile of heights in m at an equal distance in m.
+    /// Creates a profile from heights in m at equal distances `spacing` in m.
     ///
     /// # Errors
     /// There are fewer than two points, a height is not finite, or the distance is not above 0.
@@ -249,11 +249,11 @@ impl Topography {
         Topography::from_map(heights, heights.len(), [spacing; 2])
     }
 
-    /// Creates a map of heights in m, row by row in rows of `columns` points. `spacing` has the distances in m along and between
-    /// rows. A map of a single row or a single column is a profile.
+    /// Creates a map from heights in m, row by row in rows of `columns` points. `spacing` has the distances in m along and
+    /// between rows. A map of a single row or a single column is a profile.
     ///
     /// # Errors
-    /// As for [`Topography::from_profile`], or the number of heights is no multiple of `columns`.
+    /// Returns the errors of [`Topography::from_profile`], and an error for a number of heights that is no multiple of `columns`.
     ///
     /// ```
     /// let map = asperity_surface::Topography::from_map(&[0.0, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9], 3, [1e-6, 2e-6])?;

@@ -38,8 +38,8 @@ pub(super) enum Layout {
     Even([f64; 2]),
 }
 
-/// Numbers of columns and rows without a measured point that are left out before and after the measured part of a map. For a
-/// profile they are numbers of points at its ends.
+/// Borders of a map without a measured point, which are left out: numbers of columns and rows before and after the measured
+/// part. For a profile they are numbers of points at its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -226,8 +226,8 @@ impl Topography {
     /// Returns the distances between points in m, along and between rows. Both are equal for a profile.
     ///
     /// # Errors
-    /// A profile has uneven spacing. The error names the first point that lies off the even grid from the first to the last point
-    /// by more than 0.1 % of the mean distance.
+    /// The profile has uneven spacing. The error names the first point that is off an even grid by more than 0.1 % of the mean
+    /// distance. This grid runs from the first to the last point.
     ///
     /// ```
     /// use asperity_surface::{ReadOptions, parse};

@@ -169,7 +169,7 @@ impl TextHeader {
         true
     }
 
-    /// Returns the distances in m along and between the rows of a map of so many columns and rows.
+    /// Returns the distances in m along and between the rows of a map with these numbers of columns and rows.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         let metres = |lengths: &[Option<Length>; 2], axis: usize, usual: Option<Unit>| {
             let (length, unit) = lengths[axis]?;
@@ -199,9 +199,9 @@ impl TextHeader {
         of_column.or(of_axis).or(self.unit)
     }
 
-    /// Returns the names and units of the columns, from the last line with a name for each of `count` columns, and a row of
-    /// units. Lines of numbers may end with further separators, up to `cells` cells. Without such a line nothing is known of the
-    /// columns.
+    /// Returns the names and units of the columns. They are from the last line with a name for each of `count` columns, and
+    /// from a row of units. Lines of numbers may end with further separators, up to `cells` cells. Without such a line nothing
+    /// is known of the columns.
     pub fn columns(
         &self,
         count: usize,
@@ -212,7 +212,7 @@ impl TextHeader {
         columns_of(&self.lines, (count, cells), separator, is_unit)
     }
 
-    /// Returns true if one of the last lines that are no entries equals this text.
+    /// Returns true if a line of the header that is no entry equals this text.
     pub fn has_line(&self, text: &str) -> bool {
         self.lines.iter().any(|line| line == text)
     }

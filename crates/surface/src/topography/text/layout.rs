@@ -24,8 +24,8 @@ impl Separator {
         [';', '\t', ','].into_iter().find(is_in_line).map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line without spaces around it into columns. Separators within quotation marks do not count. A separator other
-    /// than spaces has a column on both sides, which may be empty.
+    /// Splits a line into columns; the line has no spaces at its ends. Separators within quotation marks do not count. A
+    /// separator other than spaces has a column on both sides, which may be empty.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -64,8 +64,8 @@ pub enum TextCell {
     Number(f64),
     /// The cell is a mark of a missing point, or empty.
     Missing,
-    /// The decimal mark of the cell differs from the mark of the text, such as a decimal comma among decimal points. Or it may
-    /// also separate thousands, as a comma in a cell between commas.
+    /// The decimal mark of the cell differs from the mark of the text, such as a decimal comma among decimal points. The other
+    /// case is a comma that may separate thousands, in a text whose columns are separated by commas.
     OtherMark,
     /// The cell is a text that is no number.
     NoNumber,
@@ -136,8 +136,8 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if each comma of the numbers read may be a decimal mark or separate thousands. Then all have three digits
-    /// behind the comma, and others have no comma.
+    /// Returns an error if the commas of the numbers read are ambiguous: each may be a decimal mark or separate thousands. Then
+    /// all commas have three digits behind them, and other numbers have no comma.
     pub fn check(&self) -> Result<(), SurfaceError> {
         if self.mark == Some(',') && self.has_whole && !self.is_certain {
             let fault = "each comma in a number may be a decimal mark or separate thousands, as in 1,234";
