@@ -102,8 +102,8 @@ impl ClosedForm {
     }
 }
 
-/// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall (1971). E* is the effective
-/// modulus in Pa, γ the work of adhesion in J/m².
+/// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall (1971). Here E* is the
+/// effective modulus in Pa and γ the work of adhesion in J/m².
 ///
 /// ```
 /// use asperity_contact::{flat_punch, ideal_adhesion_force};
@@ -116,8 +116,8 @@ pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) ->
     (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
 }
 
-/// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). γ is the work of adhesion in J/m²,
-/// E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
+/// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L (m). Here γ is the work of adhesion in
+/// J/m² and E* the effective modulus in Pa. References are eq. (14) of Popov and Filippov (2012), and Kendall (1971).
 pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
     (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
 }

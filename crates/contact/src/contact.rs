@@ -1,4 +1,5 @@
-//! The contact of a rigid profile with an elastic half-space: all that stays the same while the body moves.
+//! The contact of a rigid profile with an elastic half-space: profile, modulus and adhesion, which remain the same while the
+//! body moves.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::loading::Closing;

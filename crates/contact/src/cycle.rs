@@ -11,7 +11,7 @@ use super::target::Move;
 /// Number of samples of the force curve of a stage, if none is given.
 const SAMPLES: usize = 512;
 
-/// Options of [`Contact::load_with`].
+/// Options of [`Contact::load_with`]: samples and further indentations of the force curve, and a function before each stage.
 ///
 /// ```
 /// use asperity_contact::{Contact, ContactError, LoadOptions, Modulus, Move, Profile};
@@ -297,8 +297,8 @@ impl Cycle {
         curve
     }
 
-    /// Returns the points of a stage at those [`LoadOptions::indentations`] that the stage passes, in ascending order. The
-    /// slice is empty for a stage that does not exist.
+    /// Returns the points of a stage at all [`LoadOptions::indentations`] that the stage passes, in ascending order. The slice
+    /// is empty for a stage that does not exist.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)

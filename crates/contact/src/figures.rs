@@ -102,7 +102,7 @@ pub enum Mark {
     JumpIn,
     /// Point of the preload; see [`preload_point`].
     Preload,
-    /// Point of the pull-off, if its force is tensile; see [`pull_off_point`].
+    /// Point of the pull-off, if the force there is tensile; see [`pull_off_point`].
     PullOff,
     /// Last point in contact after the pull-off, if the contact is lost there in a jump.
     JumpOut,

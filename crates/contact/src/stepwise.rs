@@ -1,4 +1,5 @@
-//! The stepwise solver, which works as the paper does: it moves by a small step, relaxes to equilibrium and repeats.
+//! The stepwise solver, which works as Popov and Filippov (2012) do: it moves by a small step, relaxes to equilibrium and
+//! repeats.
 //!
 //! The error is of the order of the step Δd, and each step costs a few sweeps over the whole profile. This solver shares only
 //! the rules and the sums with the exact solver.

@@ -48,7 +48,7 @@ pub struct Pressed {
     pub residual: f64,
     /// True if the residual reached the required tolerance; false if the solver used up its steps before.
     pub is_reached: bool,
-    /// Number of convolutions on the finest grid.
+    /// Number of convolutions computed on the finest grid.
     pub convolutions: u64,
 }
 

@@ -73,8 +73,8 @@ impl Operators {
     }
 
     /// Computes approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E. D is E*|q|/2, and E
-    /// extends displacements smoothly beyond the contact, because zeros there would act as a wall at each edge. The
-    /// operator is symmetric. As it is approximate, single precision is enough. `outside` is 1 off the contact and 0 on it.
+    /// extends displacements smoothly beyond the contact, because zeros there would act as a wall at each edge. The operator is
+    /// symmetric. It is only approximate, so single precision is enough. `outside` is 1 off the contact and 0 on it.
     pub fn precondition(&mut self, residual: &[f32], outside: &[f32], pressure: &mut [f32]) {
         let Operators { cells, stiffness, extended, other, off, .. } = self;
         // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways back.

@@ -97,7 +97,7 @@ pub enum SurfaceError {
     OutOfMemory {
         /// Surface or field of the scene that takes the memory.
         place: Place,
-        /// The missing memory.
+        /// Number of bytes that the system cannot provide.
         error: OutOfMemory,
     },
 }

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
-    /// Rule of the paper: a patch of n springs has the length n Δx.
+    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx.
     Grid,
     /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. The error
     /// falls with Δx².
@@ -356,7 +356,8 @@ impl Slider {
     /// Returns the derivative of the compression of the edge cells with respect to the indentation (m), in cells.
     ///
     /// The edges move with the indentation. The derivative is therefore ℓ (2y − 3k)/(2y − k) minus the number of whole cells,
-    /// with y = √ℓ and k = stretch × growth. It only grows with the indentation, so the force is convex between events.
+    /// with y = √ℓ and k = stretch × growth. The derivative only grows with the indentation, so the force is convex between
+    /// events.
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let (levels, above) = (self.levels, indentation - self.levels.gap);
         let (rise, fall) = (levels.free_rise(self.stretch, above), self.stretch * levels.growth);

@@ -5,7 +5,8 @@
 //! the spring that attaches next. The level gives the length ℓ, the only input of the rule of Hess. The largest stretch is
 //! Δl_max = s √ℓ, eq. (10), with the stretch s of a patch of unit length.
 //!
-//! * Whole springs, as the paper counts them: a patch of n springs has the length n Δx at all levels of its span.
+//! * Whole springs, as Popov and Filippov (2012) count them: a patch of n springs has the length n Δx at all levels of its
+//!   span.
 //! * Edges that slide between springs: the profile is straight between neighbouring springs, and a patch ends where the profile
 //!   crosses the level of the patch. A patch at the level t is in equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). It
 //!   grows while φ(t) ≤ d and recedes while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest

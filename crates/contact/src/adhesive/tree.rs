@@ -134,8 +134,8 @@ impl ContactTree {
         ]
     }
 
-    /// Returns the sums of the gaps and of their squares over all springs (or cells) before this spring. Their units are those
-    /// of [`ContactTotals`](crate::totals::ContactTotals).
+    /// Returns the sums of the gaps and of their squares over all springs (or cells) before this spring. They have the units of
+    /// [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let block = spring / BLOCK;

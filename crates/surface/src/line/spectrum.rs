@@ -34,9 +34,10 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the part of one wave in the mean square height of a surface, over A₁²: A_k²/(4πk). The wave has k = `waves` waves
-    /// per length, not always a whole number, because waves of a surface lie in all directions. The equivalent profile of the
-    /// surface has this spectrum, and C₁D = πq C₂D. The part is zero more than half a wave beyond the first and the last mode.
+    /// Returns the part of one wave in the mean square height of a surface, over A₁²: A_k²/(4πk). The wave has k = `waves`
+    /// waves per length, not always a whole number, because waves of a surface lie in all directions. The equivalent profile of
+    /// the surface has this spectrum C₁D = πq C₂D, with the spectrum C₂D of the surface. The part is zero more than half a wave
+    /// beyond the first and the last mode.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -46,7 +47,7 @@ impl SelfAffine {
         square / (4.0 * std::f64::consts::PI * waves)
     }
 
-    /// Returns the root mean square √(Σ A_k²/2) of the sum of cosines with the relative amplitudes.
+    /// Returns the root mean square √(Σ A_k²/2) of the sum of cosines with the amplitudes of [`Self::relative_amplitude`].
     pub fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()
     }

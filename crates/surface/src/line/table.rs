@@ -1,7 +1,7 @@
 //! A body of revolution from a table of radii and depths, and its equivalent profile.
 //!
 //! Between two rows the depth is a cubic with limited slopes at the rows. So f′ = a + b s + c s² at the distance s behind a
-//! row, and g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is a sum over the intervals between rows.
+//! row. The profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum over the intervals between rows.
 
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::Unit;

@@ -211,7 +211,7 @@ pub struct SelfAffineFit {
     pub hurst: ValueWithError,
     /// Roll-off wave number in rad/m; `None` without a roll-off.
     pub roll_off: Option<ValueWithError>,
-    /// Spectral density C2D in m⁴ at the roll-off, or at the first wave number if there is no roll-off.
+    /// Two-dimensional spectral density C2D in m⁴ at the roll-off, or at the first wave number if there is no roll-off.
     pub level: ValueWithError,
 }
 

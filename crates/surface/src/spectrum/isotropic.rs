@@ -72,12 +72,12 @@ pub struct Moment {
     pub error: f64,
     /// Standard error that results from the finite number of measured waves.
     pub statistical: f64,
-    /// Error of the method: the difference between the fit and the moments of the measured powers, and the error of interpolated
-    /// points.
+    /// Error of the method: the difference between the moments of the fit and of the measured powers, and the error of
+    /// interpolated points.
     pub method: f64,
     /// Largest change of the value if the spectrum continues as a power law down to a quarter of the last resolved wavelength.
     /// Short waves are then missing, and by aliasing they add to the power of longer waves. The change is zero for a spectrum
-    /// that ends inside the scan or is continued.
+    /// that ends inside the scan, and with [`End::Continues`].
     pub missing_short_waves: f64,
 }
 
@@ -201,7 +201,7 @@ impl Term {
 pub struct Node {
     /// Wave number q of the node in rad/m.
     pub wave_number: f64,
-    /// Spectral density C2D(q) of the surface in m⁴.
+    /// Two-dimensional spectral density C2D(q) of the surface in m⁴.
     pub c2d: f64,
     /// Standard error of ln C2D(q), about the relative error of C2D(q).
     pub relative_error: f64,
@@ -209,8 +209,8 @@ pub struct Node {
     pub line: f64,
 }
 
-/// Isotropic power spectral density C2D(q) of a surface in m⁴. It is given at nodes; between these wave numbers ln C2D is
-/// linear in ln q.
+/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at nodes; between these wave numbers
+/// ln C2D is linear in ln q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
@@ -225,8 +225,8 @@ pub struct IsotropicSpectrum {
 }
 
 impl IsotropicSpectrum {
-    /// Returns the spectral density C2D in m⁴ at a wave number in rad/m. It is constant below the first node and zero beyond the
-    /// end.
+    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is constant below the first node
+    /// and zero beyond the end.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end { 0.0 } else { self.value(wave_number.ln()) }
     }

@@ -13,11 +13,11 @@ const BINS_PER_DECADE: f64 = 10.0;
 /// Direction of the waves of a spectrum. Each direction has its own spectral density in m³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Waves along a profile or along the rows of a map, with the spectral density C1D.
+    /// Waves along a profile or along the rows of a map, with the one-dimensional spectral density C1D.
     X,
-    /// Waves between the rows of a map, with the spectral density C1D.
+    /// Waves between the rows of a map, with the one-dimensional spectral density C1D.
     Y,
-    /// Waves in all directions of a map, with the spectral density q C2D/π at the wave number q.
+    /// Waves in all directions of a map, with q C2D/π at the wave number q. C2D is the two-dimensional spectral density.
     Radial,
 }
 
@@ -65,8 +65,8 @@ impl ProfilePower {
     }
 }
 
-/// Computes the power spectral density C1D in m³ of heights (m) at equal distances `spacing` (m), averaged in bins of the wave
-/// number. `windowed` is true for heights that are not periodic; a window function is then applied.
+/// Computes the one-dimensional power spectral density C1D in m³ of heights (m) at equal distances `spacing` (m), averaged in
+/// bins of the wave number. `windowed` is true for heights that are not periodic; a window function is then applied.
 ///
 /// ```
 /// use asperity_surface::line_spectrum;
@@ -100,8 +100,8 @@ pub(super) struct MapPower {
     /// True if the waves parallel to one axis are left out, because rows or columns are offset against each other or were
     /// levelled one by one.
     pub offsets: bool,
-    /// Largest share of the squared gradient by which waves parallel to an axis, which are not left out, depart from neighbouring
-    /// waves.
+    /// Largest departure of waves parallel to an axis from neighbouring waves, as a share of the squared gradient. Waves that
+    /// are left out do not count.
     pub apart: f64,
 }
 

@@ -212,7 +212,7 @@ impl TextHeader {
         columns_of(&self.lines, (count, cells), separator, is_unit)
     }
 
-    /// Returns true if a line of the header that is no entry equals this text.
+    /// Returns true if the header has a line with this text alone.
     pub fn has_line(&self, text: &str) -> bool {
         self.lines.iter().any(|line| line == text)
     }

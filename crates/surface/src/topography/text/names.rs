@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 /// Limit of the number of characters of an unknown unit in round brackets.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column of a text with a surface, as its name states it.
+/// Meaning of a column in a text file of a surface, by the name of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
     /// The name states no meaning.
