@@ -57,5 +57,5 @@ pub use text::{
 #[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
 
-/// First characters of a CSV file that begins with its scene.
+/// First characters of a CSV file of results. The comments that begin with them state the program and the scene.
 pub const PROVENANCE: &str = "# asperity ";
