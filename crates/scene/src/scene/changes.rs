@@ -62,9 +62,9 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 }
 
 impl Document {
-    /// Lists the fields whose values differ in another scene. Title and notice do not count. A group, such as the form, is
-    /// one entry if both scenes have different variants. The loading is one entry unless both scenes have equally many
-    /// stages.
+    /// Lists the fields whose values differ in another scene. Title, notes and version do not count. A group, such as the
+    /// form, is one entry if its variants differ. The loading is one entry, or one for each changed stage where that is
+    /// shorter.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;

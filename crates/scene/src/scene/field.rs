@@ -11,8 +11,7 @@ use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
     pub path: &'static str,
-    /// Variant that has this field: `Paraboloid` for the field `form.radius` of a paraboloid. `None` if all variants have the
-    /// field.
+    /// Variant that has this field: `Paraboloid` for the radius of a paraboloid. `None` if the field depends on no variant.
     pub variant: Option<&'static str>,
     /// Name of the field in words: `Hurst exponent`.
     pub name: &'static str,

@@ -126,8 +126,8 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
 /// Lists all scenes: the built-in ones in their order, then the folder `own` of the user, then the folder `working`. Both
 /// folders are sorted by name.
 ///
-/// A file is listed if its name ends in `.ron`, also if it is no scene or cannot be read. Plans of studies, subfolders and
-/// files that are not regular are left out.
+/// A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no scene or cannot be read is
+/// listed with its error. Only regular files are opened, and subfolders are not searched.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
     let built_in = presets()
         .iter()

@@ -62,7 +62,7 @@ impl Text {
     /// Reads a text and finds the places of its values.
     ///
     /// # Errors
-    /// Returns an error if a bracket, a quote or a comment is not closed.
+    /// Returns an error if brackets do not match, or if a quote or a comment is not closed.
     pub fn new(source: impl Into<String>) -> Result<Text, Unreadable> {
         let source = source.into();
         let Scan { tokens, comments } = scan(&source)?;

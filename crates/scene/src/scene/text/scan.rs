@@ -29,7 +29,7 @@ pub(super) struct Token {
 /// Reason why a text cannot be divided into tokens, and its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unreadable {
-    /// Byte offset of the bracket, quote or comment that is not closed.
+    /// Byte offset of the bracket, quote or comment without its counterpart.
     pub offset: usize,
     /// Reason in words, such as `this bracket is not closed`.
     pub reason: &'static str,
