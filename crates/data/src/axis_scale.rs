@@ -24,8 +24,8 @@ impl AxisScale {
         if self == AxisScale::Logarithmic { number.log10() } else { number }
     }
 
-    /// Returns where `number` lies among ascending `values`, as a fractional index: 1.5 is in the middle between the values 1
-    /// and 2. Beyond the ends it extrapolates with the nearest two values. Fewer than two values give 0.
+    /// Returns where `number` lies among ascending `values`, as a fractional index: 1.5 is in the middle between the values
+    /// with the indices 1 and 2. Beyond the ends it extrapolates with the nearest two values. Fewer than two values give 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);

@@ -2,8 +2,8 @@
 
 use crate::parallel;
 
-/// Settings of a long computation: number of threads, stop, and progress. The default uses all cores, never stops early and
-/// reports nothing.
+/// Settings of a long computation: the number of threads, when to stop, and where to report progress. The default uses all
+/// cores, never stops early and reports nothing.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -29,7 +29,7 @@ impl Default for Control<'_> {
 }
 
 impl<'a> Control<'a> {
-    /// Sets the number of threads, at least 1. The result is the same to the bit for any number.
+    /// Sets the number of threads, at least 1. The result is the same to the bit for any number of threads.
     #[must_use]
     pub fn on_threads(self, threads: usize) -> Self {
         Control { threads, ..self }
@@ -41,8 +41,8 @@ impl<'a> Control<'a> {
         Control { stop, ..self }
     }
 
-    /// Sets the function that receives the progress, on the calling thread: the number of profiles, records or curves done so
-    /// far.
+    /// Sets the function that receives the progress. It is called on the calling thread with the number of finished profiles,
+    /// records or curves, depending on the computation.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
         Control { report: Some(report), ..self }

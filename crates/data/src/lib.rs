@@ -57,5 +57,5 @@ pub use text::{
 #[cfg(feature = "files")]
 pub use write::{WriteError, check_writable, sync_folder, write_new, write_new_file};
 
-/// First characters of a CSV file of results. The comments that begin with them state the program and the scene.
+/// First characters of a CSV file of results. The comments that begin in this way state the program and the scene.
 pub const PROVENANCE: &str = "# asperity ";

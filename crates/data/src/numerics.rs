@@ -66,8 +66,8 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
 }
 
-/// Returns the quantile `share` of ascending values, by linear interpolation: 0 is the first value, 0.5 the median, 1 the
-/// last value. The slice must not be empty.
+/// Returns a quantile of ascending values by linear interpolation. A `share` of 0 gives the first value, 0.5 the median, 1
+/// the last value. The slice must not be empty.
 ///
 /// ```
 /// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), 5.0);

@@ -2,7 +2,7 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A JSON object made by the macro `object!`. Its entries are nested pairs.
+/// A JSON object made by the macro `object!`. `E` is `()`, or a pair of the first entry and the others.
 pub struct Object<E>(pub E);
 
 /// Entries of an object: none, or the first entry and a pair of the others.

@@ -39,7 +39,8 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the results in order. Each thread
-/// makes its own `worker`. The system may refuse threads; then fewer do all the work.
+/// first calls `worker` and then computes its results with the function that it gets. If the system refuses some threads, the
+/// others do all the work.
 ///
 /// # Errors
 /// Returns the error of the smallest number that fails.
@@ -83,7 +84,8 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Number of threads for a computation started on this thread: one for each core, or 1 if this thread is one of several.
+/// Returns the number of threads for a computation: one for each core, or 1 inside [`on_this_thread`] and on threads that
+/// this module has started.
 pub fn threads() -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     if ONE_OF_MANY.get() { 1 } else { cores() }

@@ -49,7 +49,7 @@ pub fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
 /// Returns ∫ q^power dq from `low` to `high`, which is also accurate for a power near −1.
 ///
 /// With s = power + 1 the integral is (high^s − low^s)/s. Where both powers nearly agree, it is computed as low^s `expm1`(s
-/// ln(high/low))/s; for s = 0 it is the logarithm.
+/// ln(high/low))/s; for s = 0 it is ln(high/low).
 pub fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
     let s = power + 1.0;
     // For neighbouring ends their quotient would lose significant digits.

@@ -47,10 +47,10 @@ impl QuantityError {
 
 /// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
 ///
-/// The number may have a unit and blanks. A lone `m` is the prefix milli, but in a field of unit `m` it is the metre: there
-/// `50m` is fifty metres and `50mm` fifty millimetres. An angle may be in degrees, `30°` or `30 deg`. A number without a unit
-/// may have `%`, or `Ki`, `Mi` and `Gi` for powers of 1024. A decimal prefix loses no digit: the result is the `f64` nearest
-/// to the typed value.
+/// The unit and blanks are optional. A lone `m` is the prefix milli. If `unit` is `m`, it is the metre: `50m` is then fifty
+/// metres, and `50mm` fifty millimetres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in
+/// `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024. A decimal prefix loses no digit: the result is the `f64` nearest to the
+/// typed value.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.
@@ -197,7 +197,8 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     }
 }
 
-/// Formats a range with its unit: `0.33 to 35 µN`, or `26 nN to 35 µN` where the ends have different prefixes.
+/// Formats a range with its unit, to `digits` significant digits: `0.33 to 35 µN`, or `26 nN to 35 µN` where the ends have
+/// different prefixes.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");

@@ -197,7 +197,7 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 /// Number of characters after which a message cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Prepares text from a file or a user for a message: one line of at most 80 characters, with control characters escaped.
+/// Prepares text from a file or a user for a message: cut after 80 characters, on one line, with control characters escaped.
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

@@ -23,7 +23,7 @@ pub enum WriteError {
     Unsuitable {
         /// Path of the file.
         path: PathBuf,
-        /// Reason why it cannot be written.
+        /// Reason why the file cannot be written.
         fault: String,
     },
     /// The system refused to write.
@@ -51,7 +51,8 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
 
-/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. A pipe waits for its reader.
+/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. Writing into a pipe waits until
+/// another program reads it.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -68,7 +69,7 @@ pub fn write_new(
 /// and a failure leaves nothing behind. An existing file is replaced only with `overwrite`.
 ///
 /// On Linux the temporary file has no name until it is complete, so a process that is killed while it writes leaves nothing
-/// behind. On other systems, and on file systems without such files, it may leave a file `.asperity-….tmp`.
+/// behind. On other systems, and on file systems without such files, a killed process may leave a file `.asperity-….tmp`.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,

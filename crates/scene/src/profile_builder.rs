@@ -178,8 +178,8 @@ impl ProfileBuilder {
         Ok(self.simulation().profile(&scene)?)
     }
 
-    /// Makes the profile of the form with these heights in m as its roughness, one height for each point. Point ⌊N/2⌋ is on
-    /// the axis of the form.
+    /// Makes the profile of the form with these heights in m as its roughness, one height for each point. Of N points, point
+    /// ⌊N/2⌋ is on the axis of the form.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -253,7 +253,7 @@ impl ProfileBuilder {
     }
 
     /// Loads a contact with this profile and computes all results of a scene. These are the force curve, forces and energies,
-    /// κ, e_el/γ, Tabor number and F_a,max, the adhesion forces F_a(d=0) and F_a(F=0), and both regimes.
+    /// κ, e_el/γ, the Tabor number, F_a,max, F_a(d=0), F_a(F=0) and both regimes.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};

@@ -43,8 +43,8 @@ pub struct Choice {
     pub points: u64,
     /// Edge model: edges between springs, or whole springs.
     pub edges: Edges,
-    /// Relative error of the quantity. It is exact if there is a closed form. Otherwise it is an estimate that includes the
-    /// estimated error of the finest solution.
+    /// Relative error of the quantity. The error is exact if there is a closed form. Otherwise it is an estimate, which
+    /// includes the estimated error of the finest solution.
     pub error: f64,
     /// True if the error is relative to an exact formula.
     pub closed_form: bool,
@@ -56,7 +56,7 @@ impl Choice {
     /// Returns the scene with this number of springs and this edge model.
     ///
     /// # Errors
-    /// Returns an error if `scene` is not the scene of the choice and does not allow these values.
+    /// Returns an error if another scene is given that does not allow these values.
     pub fn apply(&self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         refined(scene, self.points, self.edges)
     }
@@ -126,11 +126,11 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// error concerns the adhesion force, or the force curve if there is no tensile force. The measured files of the scene are in
 /// `folder`.
 ///
-/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. It is the
-/// error under three loads, unless there is a closed form: the scene's own loads, half of them, and twice of them. It
-/// includes the estimated error of the finest solution. At the same number of springs edges between springs are preferred,
-/// because their error falls faster. The choice does not depend on times. `stop` is asked between solutions; true ends the
-/// search. `trying` receives the next number of springs.
+/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. The error
+/// is the largest under three loads, unless there is a closed form: the loads of the scene, half of them, and twice of them.
+/// The error includes the estimated error of the finest solution. At the same number of springs edges between springs are
+/// preferred, because their error falls faster. The choice does not depend on the speed of the machine. `stop` is asked
+/// between solutions; true ends the search. `trying` receives the next number of springs.
 ///
 /// # Errors
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, or if the scene cannot be computed.

@@ -29,7 +29,7 @@ const STEP: f64 = 0.05;
 /// Factors between the loads of a scene and loads near them.
 const NEAR: [f64; 2] = [0.95, 1.05];
 
-/// Estimated relative error of an outcome by its finite number of springs.
+/// Estimated relative error of an outcome that results from its finite number of springs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Quantity whose error is estimated.
@@ -39,7 +39,7 @@ pub struct Estimate {
     /// True if the preload F_n lies near a step of the adhesion force F_a(F_n). Another number of springs then moves the step
     /// and gives another adhesion force. The error includes the step.
     pub near_step: bool,
-    /// Basis of the estimate.
+    /// Basis of the estimate: a formula or further solutions.
     pub evidence: Evidence,
 }
 
@@ -82,9 +82,9 @@ pub enum Evidence {
 /// of the springs, with edges between springs. The estimate is four times the larger difference. A profile whose modes need
 /// more springs is solved with about 3/2 and twice as many instead. Differences are relative to the smaller of two values.
 ///
-/// Returns `None` if there is neither an adhesion force nor a force curve, or if the two further solutions are impossible.
-/// They may need a number of springs that is not allowed, or may not reach the end of a loading stage. Also returns `None` if
-/// `stop` returns true.
+/// Returns `None` if there is neither an adhesion force nor a force curve, or if the two further solutions are impossible. A
+/// further solution may need a number of springs that is not allowed, or may not reach the end of a loading stage. Also
+/// returns `None` if `stop` returns true.
 ///
 /// ```
 /// use asperity_contact::{Modulus, Move};

@@ -53,9 +53,9 @@ struct Ladder<'a> {
     table: CostTable,
 }
 
-/// Measures errors and times of a checked scene from coarse to fine within a budget of time. The measured files of the scene
-/// are in `folder`. `stop` is asked between solutions; true ends the measurement. `watch` receives each setting and the table
-/// so far.
+/// Measures errors and times of a checked scene for ever more springs and ever smaller steps, within a budget of time. The
+/// measured files of the scene are in `folder`. `stop` is asked between solutions; true ends the measurement. `watch`
+/// receives each setting and the table so far.
 ///
 /// # Errors
 /// Returns the reason as a sentence: the scene cannot be computed, the budget is too small for two solutions, or `stop`

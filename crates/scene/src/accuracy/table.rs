@@ -86,7 +86,7 @@ pub struct Row {
     pub setting: f64,
     /// Number of springs N.
     pub springs: u64,
-    /// Times of whole runs in which nothing is reused; `None` if no run was timed.
+    /// Times of whole runs that reuse no earlier result; `None` if no run was timed.
     pub seconds: Option<Timing>,
     /// Shortest time over the time of one Fourier transform, [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
@@ -95,7 +95,7 @@ pub struct Row {
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Solution to which errors are relative.
+/// Reference of the errors: the finest solution, whose adhesion force a formula may replace.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution with edges between springs.
@@ -122,7 +122,7 @@ pub struct CostTable {
     pub spent: f64,
     /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. It serves as a unit of time.
     pub transform_seconds: f64,
-    /// Solution to which the errors are relative.
+    /// Reference of the errors.
     pub reference: CostReference,
     /// Rows of the settings, one [`Knob`] after the other, each from coarse to fine.
     pub rows: Vec<Row>,
@@ -149,8 +149,8 @@ impl CostTable {
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite()).then_some((seconds, figure))
     }
 
-    /// Returns the coarsest row of a setting whose main error is within `bound`, if the errors of all finer rows are too.
-    /// There must be at least two finer rows.
+    /// Returns the coarsest row of a setting from which on the main errors of all rows are within `bound`. At least two finer
+    /// rows must follow.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
@@ -158,7 +158,7 @@ impl CostTable {
     }
 
     /// Returns the time in s and the main error of a scene with these numerics. Between two rows both are interpolated.
-    /// Returns `None` outside the rows, and for a step that was only tried with another number of springs.
+    /// Returns `None` outside the range of the rows, and for a step that was only tried with another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),

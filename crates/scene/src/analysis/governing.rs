@@ -117,7 +117,7 @@ impl Governing {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// Begins the contact of a profile with this modulus and these works of adhesion.
+    /// Returns a builder of a contact of this profile, with this modulus and these works of adhesion.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] if the effective modulus is out of its range.
@@ -189,8 +189,8 @@ fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus:
 pub struct SteepWaves {
     /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R; below [`SteepWaves::LEAST_RATIO`].
     pub ratio: f64,
-    /// Factor (1 + A√(πE*/2λγ))² by which waves raise the pull-off force in JKR theory. It holds for waves that are short
-    /// against the contact radius (Kesari and Lew 2011).
+    /// Factor (1 + A√(πE*/2λγ))² by which waves raise the pull-off force in JKR theory. It holds for waves much shorter than
+    /// the contact radius (Kesari and Lew 2011).
     pub jkr_factor: f64,
 }
 
@@ -198,7 +198,7 @@ impl SteepWaves {
     /// Smallest ratio λ²/(AR) for which the equivalent profile rises everywhere.
     pub const LEAST_RATIO: f64 = 12.391;
 
-    /// Returns the waves of a scene with adhesion if they are too steep; `None` for any other scene.
+    /// Returns the waves of a scene with adhesion if its equivalent profile does not rise everywhere; otherwise `None`.
     pub fn of(scene: &Scene, governing: &Governing) -> Option<Self> {
         let &Form::WavySphere { radius, amplitude, wavelength } = scene.form.as_ref()? else {
             return None;

@@ -17,8 +17,8 @@ pub struct DisplacementPoint {
     pub force: f64,
 }
 
-/// Force curve of one loading stage over the displacement of the instrument. It is exact at the points of the stage and
-/// linear between them. Its computation takes a time in proportion to the number of points.
+/// Force curve of one loading stage over the displacement of the instrument. The curve is exact at the points of the stage
+/// and linear between them. Its computation takes a time in proportion to the number of points.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -120,7 +120,7 @@ impl DisplacementPoint {
 }
 
 /// Returns the displacement of the instrument in m for each point of a stage: the running maximum (on unloading minimum) of d
-/// + F/k. The stiffness k is in N/m. If the body passes the point in a jump, it is the displacement of the jump.
+/// + F/k. The stiffness k is in N/m. A point that the body passes in a jump has the displacement of the jump.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve.iter().scan(f64::NEG_INFINITY, move |reached, point| {

@@ -4,16 +4,16 @@ use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Least ratio of adhesion without a preload to adhesion after the preload in the pressure-insensitive regime. Half of the
-/// adhesion then needs no pressing.
+/// A contact is pressure-insensitive if its adhesion force without a preload is at least this share of its adhesion force
+/// after the preload.
 pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-/// Ratio to the adhesion force of the smooth body below which adhesion has vanished. From above one half to below one
-/// twentieth κ changes by a factor of about three, so this choice hardly moves the boundary.
+/// Adhesion without a preload counts as vanished below this share of the adhesion force of the smooth body. The transition
+/// from one half to one twentieth takes a factor of about three in κ. The exact share therefore hardly moves the boundary.
 pub const VANISHING_SHARE: f64 = 0.05;
 
-/// Largest adhesion coefficient F_a/F_n in the non-adhesive regime: the bodies adhere with a hundredth of the force that
-/// pressed them together.
+/// A contact is non-adhesive if its adhesion coefficient F_a/F_n is at most this number. The bodies then adhere with at most
+/// a hundredth of the force that pressed them together.
 pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
 /// Regime of adhesion of a loading (Fig. 4): how the adhesion depends on the preload.
@@ -49,10 +49,10 @@ impl Regime {
     /// `turned` is F_a(d=0) for the regime turned at first touch, or F_a(F=0) for the regime turned at zero force. `smooth`
     /// is the adhesion force of the same body without roughness. Both are in N, and `None` without adhesion.
     ///
-    /// The regime is pressure-insensitive if `turned` is at least [`INSENSITIVE_SHARE`] of the adhesion force F_a after the
-    /// preload F_n, and at least [`VANISHING_SHARE`] of `smooth`. Otherwise it is non-adhesive if F_a/F_n is at most
-    /// [`NEGLIGIBLE_COEFFICIENT`], or if there is no preload and F_a is below [`VANISHING_SHARE`] of `smooth`. All other
-    /// cases are pressure-sensitive.
+    /// F_a is the adhesion force after the preload F_n. The regime is pressure-insensitive if `turned` is at least
+    /// [`INSENSITIVE_SHARE`] of F_a and at least [`VANISHING_SHARE`] of `smooth`. Otherwise it is non-adhesive in two cases:
+    /// if F_a/F_n is at most [`NEGLIGIBLE_COEFFICIENT`], or if there is no preload and F_a is below [`VANISHING_SHARE`] of
+    /// `smooth`. All other cases are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
@@ -85,8 +85,8 @@ impl Regime {
         self.into()
     }
 
-    /// Returns the name of this regime, turned at first touch, with the regime turned at zero force: `pressure-sensitive
-    /// (d=0), insensitive (F=0)`.
+    /// Returns the names of both regimes as text: `pressure-sensitive (d=0), insensitive (F=0)`. This regime is the one
+    /// turned at first touch.
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

@@ -33,7 +33,7 @@ impl Scene {
 
 impl Scene {
     /// Removes what the forces and energies do not depend on: title, notes, recorded quantities, and points of the force
-    /// curve. At most `samples` points remain on each stage. Forces and energies are exact with any number of points.
+    /// curve. At most `samples` points remain on each stage. Forces and energies do not depend on the number of points.
     pub fn strip(&mut self, samples: u64) {
         self.title.clear();
         self.notice.clear();

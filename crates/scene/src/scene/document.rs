@@ -49,7 +49,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads and checks the text of a scene. Errors name the scene `name`, a file or a built-in scene.
+    /// Reads and checks the text of a scene. Errors state `name`, the name of a file or of a built-in scene.
     ///
     /// # Errors
     /// Returns the first syntax error or all invalid values, each with line and column. If the version is not supported, this
@@ -140,8 +140,8 @@ impl Document {
         self.scene.loading.iter().enumerate().map(|(place, stage)| (Some(place), *stage)).collect()
     }
 
-    /// Returns this document with other loading stages. A stage with an index is that stage of the present loading; its text
-    /// and its comments stay. A stage without an index is new.
+    /// Returns this document with other loading stages. A stage with an index keeps the text and the comments of that stage
+    /// in the present loading. A stage without an index is new.
     ///
     /// # Errors
     /// Returns the same errors as [`Document::set`].
@@ -230,8 +230,7 @@ impl Document {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// Returns this document with another record of its past: `opened` is the text that was opened, `overrides` are the
-    /// changes since.
+    /// Returns this document as if `opened` had been its first text and these overrides had led to its present text.
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document { opened, overrides, ..self }
     }

@@ -20,13 +20,13 @@ use asperity_surface::Form;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
-    /// A macroscopic form. Without it the body is nominally flat.
+    /// A macroscopic form. Without a form the body is nominally flat.
     Form,
-    /// Roughness. Without it the profile is smooth.
+    /// Roughness. Without roughness the profile is smooth.
     Roughness,
-    /// Adhesion. Without it the bodies do not attract each other.
+    /// Adhesion. Without adhesion the bodies do not attract each other.
     Adhesion,
-    /// Unloading. Without it the body is only pressed.
+    /// Unloading. Without unloading the body is only pressed.
     Unloading,
 }
 
@@ -44,7 +44,7 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field of the effect in a scene: `loading` for unloading, otherwise its name.
+    /// Returns the path of the field that holds the effect: `loading` for unloading, otherwise the name of the effect.
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self { "loading" } else { self.name() }
     }

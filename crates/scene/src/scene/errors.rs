@@ -13,7 +13,7 @@ pub(super) const MOST_LISTED: usize = 100;
 /// Source of an invalid value.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Origin {
-    /// The text of a scene.
+    /// A scene file or a built-in scene.
     File {
         /// Name of the file or of the built-in scene.
         name: String,

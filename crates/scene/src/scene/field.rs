@@ -19,7 +19,7 @@ pub struct Field {
     pub symbol: &'static str,
     /// SI unit of the field; `1` for a number without a unit, empty for other values.
     pub unit: &'static str,
-    /// Allowed values.
+    /// Allowed values of the field.
     pub range: Range,
     /// How one press of a key changes the value.
     pub step: Step,
@@ -39,8 +39,8 @@ pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 pub enum Step {
     /// Adds the first number, or the second for a large step. The result is a multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number. A small step has twenty numbers per decade (Renard series R20), a large step 1, 2
-    /// and 5.
+    /// Goes to the next preferred number. For a small step there are twenty such numbers per decade (Renard series R20), for
+    /// a large step 1, 2 and 5.
     Logarithmic,
     /// Adds the first integer, or the second for a large step.
     Integer(u64, u64),

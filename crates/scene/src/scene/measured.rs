@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::Not;
 
-/// A measured surface, profile or map, as the roughness of a scene. Its fields without `skip` are also options of `asperity
+/// A measured surface, profile or map, as the roughness of a scene. Many of its fields are also options of `asperity
 /// surface`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,7 +17,7 @@ pub struct Measured {
     /// Name of the measured file, relative to the scene file.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub file: String,
-    /// Names of further files of the same face. The spectrum is estimated from all files of the face.
+    /// Names of files with further measurements of the same surface. The spectrum is estimated from all of them together.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,
@@ -25,8 +25,8 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub as_line: bool,
-    /// Name of the file of the opposite face, relative to the scene file; `None` if it is smooth. The spectra of both faces
-    /// add.
+    /// Name of the file of the opposite surface, relative to the scene file; `None` if that surface is smooth. The spectra of
+    /// both surfaces add.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opposite: Option<String>,
@@ -90,8 +90,8 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub periodic: bool,
-    /// Wavelength in m down to which the measured spectrum continues as a power law; `None` if it ends at its shortest
-    /// resolved wave.
+    /// Wavelength in m down to which the measured spectrum continues as a power law; `None` if the spectrum ends at its
+    /// shortest resolved wave.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continue_to: Option<f64>,

@@ -247,8 +247,8 @@ impl Scene {
         files
     }
 
-    /// Returns the paths in `folder` of the measured files of each face: first the rough face, then the opposite one, if it
-    /// is given.
+    /// Returns the paths in `folder` of the measured files of each surface: first of the rough body, then of the opposite
+    /// body, if they are given.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()

@@ -50,7 +50,7 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     Some((text.nearest_value("version"), error))
 }
 
-/// First byte of the error, and the byte that the reader has reached.
+/// Returns the first byte of the error, and the byte that the reader has reached.
 fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
@@ -63,7 +63,7 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     (if text[start..end].contains(something) { start } else { end }, end)
 }
 
-/// First byte of an error in a text, and the error in plain words.
+/// Returns the first byte of an error in a text, and the error in plain words.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
     let is_lost = matches!(error.code, Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment);

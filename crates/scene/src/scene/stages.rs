@@ -18,12 +18,12 @@ pub struct StageKind {
     word: &'static str,
     /// SI unit of the number that ends the stage; empty for a kind without a number.
     pub unit: &'static str,
-    /// Function that returns the stage with a number. A kind without a number ignores it.
+    /// Function that makes the stage from its number. A kind without a number ignores the argument.
     pub stage: fn(f64) -> Move,
 }
 
-/// All kinds of loading stages, in the order in which a key changes them. In text a force and an indentation are only a
-/// number with a unit; a displacement, which is also in metres, has its word before the number.
+/// All kinds of loading stages, in the order in which a key changes them. In text, a force or an indentation is only a number
+/// with a unit. A displacement is in metres too, so its word precedes the number.
 pub const STAGE_KINDS: [StageKind; 6] = [
     StageKind { example: "ToForce(1.0e-5)", word: "force", unit: "N", stage: Move::ToForce },
     StageKind {
@@ -88,9 +88,8 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// Formats a loading as text for readers: `10 µN, 3 loops 0 N to 10 µN, separation`. Stages that alternate become one item
-/// with the number of loops. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] returns the
-/// same loading.
+/// Formats a loading as text for readers: `10 µN, 3 loops 0 N to 10 µN, separation`. Repeated loops between two stages become
+/// one item. If `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] returns the same loading.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -118,7 +117,7 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
     items.join(", ")
 }
 
-/// Reads a loading as [`loading_text`] writes it. The list may be in brackets, and a stage may also be in RON.
+/// Reads a loading as [`loading_text`] writes it. The text may be in square brackets, and a stage may also be in RON.
 ///
 /// # Errors
 /// Returns an error if a part of the text is no stage, or if there are more than 100 000 stages.
@@ -144,8 +143,8 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// Reads a loading stage as [`loading_text`] writes it. `usual` is the index in [`STAGE_KINDS`] of the kind that a number
-/// without a unit has; `None` is a force.
+/// Reads a loading stage as [`loading_text`] writes it. A number without a unit has the kind `usual`, an index in
+/// [`STAGE_KINDS`]; `None` is a force.
 ///
 /// # Errors
 /// Returns an error if the text is no stage.

@@ -43,8 +43,8 @@ impl Tree {
         self.at(path)?.as_f64()
     }
 
-    /// Sets the number at a path, valid or not. A number that the selected variant omits is added. To set a number of a
-    /// missing adhesion adds the adhesion.
+    /// Sets the number at a path, valid or not. A number that the selected variant omits is added. A number of a missing
+    /// adhesion adds the adhesion.
     ///
     /// Returns false, with the tree unchanged, if the scene can have no number there.
     pub fn set(&mut self, path: &str, value: f64) -> bool {

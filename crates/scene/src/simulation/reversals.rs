@@ -17,7 +17,7 @@ use std::ops::RangeInclusive;
 pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
 /// Largest number of grid points of a map below its first turning point, over the number of turning points.
 const MOST_BELOW: usize = 4;
-/// Number of curve points of a loading stage whose curve is not used.
+/// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
 
 /// Function that receives each unloading with the index of its turning point.
@@ -62,7 +62,8 @@ impl Simulation {
 
     /// Unloads a checked scene from `count` turning points, and returns the unloading curves (first-order reversal curves).
     /// The turning points are equally spaced between the indentations at two preloads in N. Without `preloads` they lie
-    /// between first touch and the preload of the scene. `count` is brought into [`TURNING_POINTS`].
+    /// between first touch and the preload of the scene. A `count` outside [`TURNING_POINTS`] becomes the nearest allowed
+    /// number.
     ///
     /// # Errors
     /// Returns the same errors as [`Simulation::reverse`], and an error if the loading never presses.

@@ -30,8 +30,8 @@ const SMALL: u64 = 32 << 20;
 /// Computes scenes. It keeps the profile and the contact tree from run to run, and repeats only the parts of the computation
 /// that depend on a changed parameter. Repeated parts reuse their memory.
 ///
-/// Between runs it keeps at most four times the memory of the last scene, or 32 MiB. The memory of a scene is
-/// [`Workload::peak_bytes`] and 20 bytes per spring for a Fourier transform. Released memory returns to the allocator. The
+/// Between runs it keeps at most four times the memory of the last scene, but always up to 32 MiB. The memory of a scene is
+/// [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory returns to the allocator. The
 /// allocator of glibc keeps blocks of less than 32 MiB, up to 64 MiB for each thread.
 ///
 /// ```
@@ -135,8 +135,8 @@ impl Simulation {
         self.line.as_ref().map(|(_, line)| line)
     }
 
-    /// Makes the profile of a checked scene, unless the last scene had the same profile. Returns it with the numbers that
-    /// describe it and with κ and e_el/γ.
+    /// Makes the profile of a checked scene, unless the last scene had the same profile. Returns the profile, the numbers
+    /// that describe it, and its governing parameters.
     ///
     /// # Errors
     /// Returns an error for lack of memory, or if a measured file or a form cannot be used.
@@ -189,7 +189,7 @@ impl Simulation {
         Ok((line, facts, governing))
     }
 
-    /// Returns the profile of a checked scene as the profile of a contact.
+    /// Returns the profile of a checked scene for use in a [`Contact`].
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`].

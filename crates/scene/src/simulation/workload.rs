@@ -29,7 +29,8 @@ const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its ow
 const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
-/// A part of the computation from a scene to its force curve, in the order of execution. It is no loading stage.
+/// A part of the computation from a scene to its force curve, in the order of execution. Loading stages are something else;
+/// see [`Scene::loading`](crate::Scene::loading).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
@@ -39,7 +40,7 @@ pub enum Stage {
     Synthesis,
     /// Reading of a measured profile.
     MeasuredProfile,
-    /// Contact tree of the gaps, by which the exact solver finds all events.
+    /// Contact tree: the tree of the gaps from which the exact solver finds where patches form, merge, split and detach.
     Tree,
     /// Rule of Hess, which limits the stretch of contact patches.
     RuleOfHess,

@@ -42,9 +42,9 @@ impl Text {
         self.spliced(splices, &path, value)
     }
 
-    /// Returns the text with other elements in the list at a path. An element with an index is that element of the present
-    /// list; it keeps its text and its comments. An element without an index is new, with the given text. Returns `None` for
-    /// an empty list, or if a comment would make the text unreadable.
+    /// Returns the text with other elements in the list at a path. An element with an index keeps the text and the comments
+    /// of that element in the present list. An element without an index is new, with the given text. Returns `None` for an
+    /// empty list, or if a comment would make the text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
         let (old, mut start) = (self.inside(list), inside.start);
