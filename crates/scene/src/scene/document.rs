@@ -85,7 +85,7 @@ impl Document {
         })
     }
 
-    /// Creates a document with a new text for a scene that has none. The text is as [`to_ron`](crate::to_ron) writes it.
+    /// Creates a document with a new text for a scene that has none. The text is as [`to_ron`] writes it.
     ///
     /// # Errors
     /// Returns an error for each invalid value.

@@ -24,7 +24,7 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Makes [`Preset`](crate::Preset)s of the built-in files of a folder, by their names.
+/// Makes [`Preset`]s of the built-in files of a folder, by their names.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {

@@ -13,7 +13,7 @@ use asperity_contact::Move;
 use asperity_contact::{Body, ContactError, Reversal};
 use std::ops::RangeInclusive;
 
-/// Allowed numbers of turning points of a [`ReversalMap`](crate::ReversalMap).
+/// Allowed numbers of turning points of a [`ReversalMap`].
 pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
 /// Largest number of grid points of a map below its first turning point, over the number of turning points.
 const MOST_BELOW: usize = 4;
