@@ -1,18 +1,18 @@
 //! Linear and logarithmic scales of axes.
 
-/// Scale of an axis, linear or logarithmic. It maps each number to a coordinate along the axis.
+/// Scale of an axis, which maps each number to a coordinate along the axis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
     /// Linear scale: the coordinate is the number.
     #[default]
     Linear,
-    /// Logarithmic scale for positive numbers: the coordinate is the decimal logarithm.
+    /// Logarithmic scale: the coordinate is the decimal logarithm of the number.
     Logarithmic,
 }
 
 impl AxisScale {
-    /// Returns the coordinate of a number. On a logarithmic scale it is not finite for numbers that are not positive.
+    /// Returns the coordinate of a number. A number that is not positive has no finite coordinate on a logarithmic scale.
     ///
     /// ```
     /// use asperity_data::AxisScale;

@@ -41,8 +41,8 @@ impl<'a> Control<'a> {
         Control { stop, ..self }
     }
 
-    /// Sets the function that receives the progress. It is called on the calling thread with the number of finished profiles,
-    /// records or curves, depending on the computation.
+    /// Sets the function that receives the progress. The function is called on the calling thread. Its argument is the number
+    /// of finished profiles, records or curves, depending on the computation.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
         Control { report: Some(report), ..self }

@@ -41,7 +41,8 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     Ok(())
 }
 
-/// Returns an empty vector with room for `count` values. It reuses the memory of `values` if that is large enough.
+/// Returns an empty vector with room for `count` values. The vector reuses the memory of `values` if this memory is large
+/// enough.
 pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
@@ -49,7 +50,7 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
     Ok(values)
 }
 
-/// Returns a vector of `count` values: the previous ones, then copies of `fill`. It reuses the memory of `values` if
+/// Returns a vector of `count` values: the previous ones, then copies of `fill`. The vector reuses the memory of `values` if
 /// possible.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);

@@ -197,8 +197,8 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     }
 }
 
-/// Formats a range with its unit, to `digits` significant digits: `0.33 to 35 µN`, or `26 nN to 35 µN` where the ends have
-/// different prefixes.
+/// Formats a range with its unit, to `digits` significant digits: `0.33 to 35 µN`. Ends with different prefixes both have a
+/// unit: `26 nN to 35 µN`.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");

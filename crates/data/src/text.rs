@@ -49,8 +49,8 @@ pub fn rounded_up(value: f64) -> f64 {
     if nearest >= value { nearest } else { round_to(value + last_digit, 4) }
 }
 
-/// Returns true for a character that could change how other text is displayed. These are control characters (C0, DEL, C1),
-/// bidirectional controls, separators of lines and paragraphs, and invisible characters of uncertain width.
+/// Returns true for a character that could change how other text is displayed. Such characters are control characters (C0,
+/// DEL, C1), bidirectional controls, separators of lines and paragraphs, and invisible characters of uncertain width.
 pub fn is_control(c: char) -> bool {
     let bidirectional =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

@@ -71,7 +71,7 @@ impl ProfileBuilder {
     }
 
     /// Sets a random self-affine roughness with the Hurst exponent H: cosines with amplitudes ∝ k^(−H−1/2) and random phases.
-    /// It also needs an amplitude and waves. [`Self::rms_height`] or [`Self::rms_gradient`] sets the amplitude,
+    /// The roughness also needs an amplitude and waves. [`Self::rms_height`] or [`Self::rms_gradient`] sets the amplitude,
     /// [`Self::modes`] or [`Self::wavelengths`] the waves.
     #[must_use]
     pub fn self_affine(self, hurst: f64) -> Self {
@@ -252,8 +252,8 @@ impl ProfileBuilder {
         Ok(self.simulation().make_line(&scene)?.2)
     }
 
-    /// Loads a contact with this profile and computes all results of a scene. These are the force curve, forces and energies,
-    /// κ, e_el/γ, the Tabor number, F_a,max, F_a(d=0), F_a(F=0) and both regimes.
+    /// Loads a contact with this profile and computes all results of a scene. The results are the force curve, forces and
+    /// energies, κ, e_el/γ, the Tabor number, F_a,max, F_a(d=0), F_a(F=0) and both regimes.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};

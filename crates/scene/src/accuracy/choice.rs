@@ -126,10 +126,10 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// error concerns the adhesion force, or the force curve if there is no tensile force. The measured files of the scene are in
 /// `folder`.
 ///
-/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. The error
-/// is the largest under three loads, unless there is a closed form: the loads of the scene, half of them, and twice of them.
-/// The error includes the estimated error of the finest solution. At the same number of springs edges between springs are
-/// preferred, because their error falls faster. The choice does not depend on the speed of the machine. `stop` is asked
+/// The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Unless
+/// there is a closed form, the error is the largest under three loads: the loads of the scene, half of them, and twice of
+/// them. The error includes the estimated error of the finest solution. At the same number of springs edges between springs
+/// are preferred, because their error falls faster. The choice does not depend on the speed of the machine. `stop` is asked
 /// between solutions; true ends the search. `trying` receives the next number of springs.
 ///
 /// # Errors

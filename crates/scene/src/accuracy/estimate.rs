@@ -55,8 +55,8 @@ impl Estimate {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }
 
-    /// Returns the error as text to follow the adhesion force, such as `grid ± 0.1 %`. It has one significant digit, or two
-    /// if the first digit is 1.
+    /// Returns the error as text to follow the adhesion force, such as `grid ± 0.1 %`. The error has one significant digit,
+    /// or two if the first digit is 1.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),

@@ -120,7 +120,8 @@ pub struct CostTable {
     pub budget: f64,
     /// Time that was used in s.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. It serves as a unit of time.
+    /// Shortest time in s of one real Fourier transform of 2^20 points, without its planning. This time serves as the unit of
+    /// time.
     pub transform_seconds: f64,
     /// Reference of the errors.
     pub reference: CostReference,

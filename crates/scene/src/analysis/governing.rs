@@ -11,8 +11,8 @@ use asperity_surface::Form;
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. Each is given or
-/// derived.
+/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ. Each parameter is
+/// either given or derived.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -151,7 +151,7 @@ fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64
     Some(parameter.of_energy_over_work(energy / work)).filter(|value| work > 0.0 && value.is_finite())
 }
 
-/// Range of attraction z₀ in m of a scene that states none. It is an interatomic distance.
+/// Range of attraction z₀ in m of a scene that states none, which is an interatomic distance.
 pub const DEFAULT_RANGE: f64 = 0.3e-9;
 
 /// Tabor number below which the model overestimates the dissipated energy.
@@ -189,8 +189,8 @@ fn tabor_number(curvature_radius: f64, work_of_adhesion: f64, effective_modulus:
 pub struct SteepWaves {
     /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R; below [`SteepWaves::LEAST_RATIO`].
     pub ratio: f64,
-    /// Factor (1 + A√(πE*/2λγ))² by which waves raise the pull-off force in JKR theory. It holds for waves much shorter than
-    /// the contact radius (Kesari and Lew 2011).
+    /// Factor (1 + A√(πE*/2λγ))² by which waves raise the pull-off force in JKR theory. The formula holds for waves much
+    /// shorter than the contact radius (Kesari and Lew 2011).
     pub jkr_factor: f64,
 }
 

@@ -18,7 +18,7 @@ pub struct DisplacementPoint {
 }
 
 /// Force curve of one loading stage over the displacement of the instrument. The curve is exact at the points of the stage
-/// and linear between them. Its computation takes a time in proportion to the number of points.
+/// and linear between them. The time of the computation is proportional to the number of points.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
@@ -86,8 +86,8 @@ impl DisplacementCurve {
         self.points.windows(2).filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// Returns the point at a displacement in m. At a jump it is the point before the jump. Beyond the ends of the stage it
-    /// is a point of the separated body, or `None` if the body is in contact there.
+    /// Returns the point at a displacement in m; at a jump, the point before the jump. Beyond the ends of the stage the
+    /// function returns a point of the separated body, or `None` if the body is in contact there.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;

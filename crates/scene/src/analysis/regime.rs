@@ -47,12 +47,12 @@ impl Regime {
     /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force.
     ///
     /// `turned` is F_a(d=0) for the regime turned at first touch, or F_a(F=0) for the regime turned at zero force. `smooth`
-    /// is the adhesion force of the same body without roughness. Both are in N, and `None` without adhesion.
+    /// is the adhesion force of the same body without roughness. Both forces are in N, and `None` without adhesion.
     ///
     /// F_a is the adhesion force after the preload F_n. The regime is pressure-insensitive if `turned` is at least
-    /// [`INSENSITIVE_SHARE`] of F_a and at least [`VANISHING_SHARE`] of `smooth`. Otherwise it is non-adhesive in two cases:
-    /// if F_a/F_n is at most [`NEGLIGIBLE_COEFFICIENT`], or if there is no preload and F_a is below [`VANISHING_SHARE`] of
-    /// `smooth`. All other cases are pressure-sensitive.
+    /// [`INSENSITIVE_SHARE`] of F_a and at least [`VANISHING_SHARE`] of `smooth`. Otherwise the regime is non-adhesive if
+    /// F_a/F_n is at most [`NEGLIGIBLE_COEFFICIENT`]. Without a preload it is non-adhesive if F_a is below
+    /// [`VANISHING_SHARE`] of `smooth`. All other cases are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {

@@ -25,7 +25,7 @@ pub enum RoughnessParameter {
 }
 
 impl RoughnessParameter {
-    /// Both parameters.
+    /// Both parameters, κ and e_el/γ.
     pub const ALL: [RoughnessParameter; 2] =
         [RoughnessParameter::Kappa, RoughnessParameter::ElasticEnergyRatio];
 
@@ -144,12 +144,13 @@ impl Adhesion {
         }
     }
 
-    /// Returns this adhesion with another work of adhesion on opening in J/m². Its range and its work on closing stay.
+    /// Returns this adhesion with another work of adhesion on opening in J/m². The range of the attraction and the work of
+    /// adhesion on closing stay.
     pub fn with_work(self, work: f64) -> Self {
         Adhesion { strength: Strength::Work { opening: work, closing: self.closing_work() }, ..self }
     }
 
-    /// Returns this adhesion with a value of a parameter in place of its strength. Its range stays.
+    /// Returns this adhesion with a value of a parameter in place of its strength. The range of the attraction stays.
     pub fn with_parameter(self, parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion { strength: Strength::Parameter(parameter, value), ..self }
     }

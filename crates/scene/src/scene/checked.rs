@@ -9,7 +9,7 @@ use super::model::{Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values are valid. It can be read like a [`Scene`]. A changed scene is checked anew.
+/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`]. A changed scene is checked anew.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -22,7 +22,7 @@ use serde::Serialize;
 pub struct CheckedScene(Scene);
 
 impl Scene {
-    /// Checks this scene.
+    /// Checks all values of this scene.
     ///
     /// # Errors
     /// Returns all invalid values, each with its field and its allowed range.

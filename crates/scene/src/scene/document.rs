@@ -213,8 +213,8 @@ impl Document {
         Document { table_head: head.to_string(), ..self }
     }
 
-    /// Returns the lines above the scene in the table of results from which the scene was read. They are empty for other
-    /// sources.
+    /// Returns the lines above the scene in the table of results from which the scene was read. Scenes from other sources
+    /// have no such lines.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
@@ -256,7 +256,7 @@ impl Document {
         if scene == *self.scene { Ok(self.clone()) } else { Document::from_scene(&scene, &self.name) }
     }
 
-    /// Returns the path of a file that the scene names. Such names are relative to the folder of the scene file.
+    /// Returns the path of a file that the scene names. File names in a scene are relative to the folder of the scene file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name).parent().unwrap_or(Path::new("")).join(file)
     }

@@ -20,13 +20,13 @@ use asperity_surface::Form;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effect {
-    /// A macroscopic form. Without a form the body is nominally flat.
+    /// Macroscopic form of the body. Without a form the body is nominally flat.
     Form,
-    /// Roughness. Without roughness the profile is smooth.
+    /// Roughness of the body. Without roughness the profile is smooth.
     Roughness,
-    /// Adhesion. Without adhesion the bodies do not attract each other.
+    /// Adhesion between the bodies. Without adhesion the bodies do not attract each other.
     Adhesion,
-    /// Unloading. Without unloading the body is only pressed.
+    /// Loading stages that may pull the body back. Without unloading the body is only pressed.
     Unloading,
 }
 

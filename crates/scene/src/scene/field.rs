@@ -6,7 +6,8 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// A field of a scene, as a row of the table [`FIELDS`](crate::FIELDS). It describes the field and does not hold its value.
+/// A field of a scene, as a row of the table [`FIELDS`](crate::FIELDS). A row describes the field and does not hold its
+/// value.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.

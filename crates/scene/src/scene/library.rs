@@ -78,7 +78,7 @@ pub fn typed_path(text: &str) -> PathBuf {
     }
 }
 
-/// Source of a scene.
+/// Place from which a scene comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// Built into the program.
@@ -95,7 +95,7 @@ pub struct Entry {
     /// Name of the scene. A file of the working folder has the ending `.ron` in its name, a scene of the user's own folder
     /// has not.
     pub name: String,
-    /// Source of the scene.
+    /// Place from which the scene comes.
     pub origin: Source,
     /// Path of the file; `None` for a built-in scene.
     pub path: Option<PathBuf>,
@@ -105,8 +105,9 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes, which open by their names. It is `asperity/presets` in the configuration
-/// folder: `$XDG_CONFIG_HOME` or `~/.config`, on Windows the roaming application data. The folder may not exist.
+/// Returns the folder of the user's own scenes, which open by their names. The folder is `asperity/presets` in the
+/// configuration folder: `$XDG_CONFIG_HOME` or `~/.config`, on Windows the roaming application data. The folder may not
+/// exist.
 pub fn own_folder() -> Option<PathBuf> {
     Some(choose_base_strategy().ok()?.config_dir().join("asperity").join("presets"))
 }

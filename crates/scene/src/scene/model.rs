@@ -31,7 +31,7 @@ pub struct Scene {
     pub notice: String,
     /// Elastic constants of the half-space.
     pub material: Material,
-    /// Apparent diameter L of the contact in m. It is also the length of the profile.
+    /// Apparent diameter L of the contact in m, which is also the length of the profile.
     pub length: f64,
     /// Macroscopic form of the rigid body; `None` for a nominally flat body.
     pub form: Option<Form>,
@@ -53,8 +53,7 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants as a scene states them. They are either E and ν of a half-space under a rigid body, or the effective
-/// modulus E*.
+/// Elastic constants as a scene states them: E and ν of a half-space under a rigid body, or the effective modulus E*.
 ///
 /// ```
 /// use asperity_scene::Material;
@@ -191,7 +190,7 @@ impl Scene {
         Some(SelfAffine { hurst, first, last, roll_off_mode })
     }
 
-    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs. Such a scene is allowed.
+    /// Returns a warning if the shortest wave has fewer than [`SPRINGS_PER_WAVE`] springs. A scene with a warning is allowed.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
@@ -237,8 +236,8 @@ impl Scene {
         self.measured().map_or_else(MeasuredOptions::default, Measured::options)
     }
 
-    /// Returns the names of all files that the scene needs: measured surfaces, and the table of the form. They are relative
-    /// to the scene file.
+    /// Returns the names of all files that the scene needs: measured surfaces, and the table of the form. The names are
+    /// relative to the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
         let mut files = self.measured().map_or_else(Vec::new, |measured| measured.faces().concat());
         if let Some(Form::Table { file, .. }) = &self.form {
@@ -247,8 +246,8 @@ impl Scene {
         files
     }
 
-    /// Returns the paths in `folder` of the measured files of each surface: first of the rough body, then of the opposite
-    /// body, if they are given.
+    /// Returns the paths of the measured files in `folder`: first all files of the rough body, then the file of the opposite
+    /// body, if it is given.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces.into_iter().map(|face| face.into_iter().map(|file| folder.join(file)).collect()).collect()

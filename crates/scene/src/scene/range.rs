@@ -26,11 +26,11 @@ pub enum Range {
         /// True if line breaks are allowed.
         lines: bool,
     },
-    /// One of these values. Each is written in RON, with example numbers.
+    /// One of these values. Each value is written in RON, with example numbers.
     Choice(&'static [&'static str]),
     /// A list of values.
     List {
-        /// Allowed kinds of elements. Each is written in RON, with example numbers.
+        /// Allowed kinds of elements. Each kind is written in RON, with example numbers.
         of: &'static [&'static str],
         /// Smallest allowed number of elements.
         least: usize,

@@ -15,8 +15,8 @@ const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
 const SAME: f64 = 1e-9;
 
 impl Field {
-    /// Returns the value of this field after `steps` presses of a key, each a large step if `coarse` is true. Both values are
-    /// RON text. Returns `None` at the end of the range, or if keys cannot change the field.
+    /// Returns the value of this field after `steps` presses of a key, each a large step if `coarse` is true. The given and
+    /// the returned value are RON text. Returns `None` at the end of the range, or if keys cannot change the field.
     ///
     /// Numbers stay within the range of the field. Choices repeat in a circle. The circle includes `None` for an optional
     /// field, and leaves out choices that need a text, such as the name of a file.

@@ -66,7 +66,7 @@ pub struct LineFacts {
     pub length: f64,
     /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Index of the first spring under the body. It is above zero only for a punch.
+    /// Index of the first spring under the body, which is above zero only for a punch.
     pub first: usize,
     /// Height of the highest point in m. The apex of the form without roughness has the height zero.
     pub summit: f64,

@@ -25,12 +25,12 @@ pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError
 
 impl Simulation {
     /// Loads a checked scene from separation to each of the stages `ends` and unloads it to separation again. `see` receives
-    /// each unloading with the index of its stage, the shallowest first. Each has its forces at the indentations `points`,
-    /// which are in m and ascend. `stop` is asked after each unloading.
+    /// each unloading with the index of its stage, the shallowest first. Each unloading has its forces at the indentations
+    /// `points`, which are in m and ascend. `stop` is asked after each unloading.
     ///
     /// # Errors
-    /// Returns an error if the scene has the stepwise solver, if the profile cannot be made, if the contact cannot reach a
-    /// stage, or if `stop` returns true.
+    /// Returns an error if the scene has the stepwise solver, if the profile cannot be made, or if the contact cannot reach a
+    /// stage. A stopped computation is also an error.
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
@@ -61,9 +61,9 @@ impl Simulation {
     }
 
     /// Unloads a checked scene from `count` turning points, and returns the unloading curves (first-order reversal curves).
-    /// The turning points are equally spaced between the indentations at two preloads in N. Without `preloads` they lie
-    /// between first touch and the preload of the scene. A `count` outside [`TURNING_POINTS`] becomes the nearest allowed
-    /// number.
+    /// The turning points are equally spaced between the indentations at two preloads in N. Without `preloads` the turning
+    /// points lie between first touch and the preload of the scene. A `count` outside [`TURNING_POINTS`] becomes the nearest
+    /// allowed number.
     ///
     /// # Errors
     /// Returns the same errors as [`Simulation::reverse`], and an error if the loading never presses.

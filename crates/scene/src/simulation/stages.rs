@@ -27,8 +27,8 @@ const MOST_SPARE: u64 = 4;
 /// Number of bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
-/// Computes scenes. It keeps the profile and the contact tree from run to run, and repeats only the parts of the computation
-/// that depend on a changed parameter. Repeated parts reuse their memory.
+/// Computes scenes. A simulation keeps the profile and the contact tree from run to run. It repeats only the parts of the
+/// computation that depend on a changed parameter. Repeated parts reuse their memory.
 ///
 /// Between runs it keeps at most four times the memory of the last scene, but always up to 32 MiB. The memory of a scene is
 /// [`Workload::peak_bytes`] plus 20 bytes per spring for a Fourier transform. Released memory returns to the allocator. The

@@ -12,7 +12,8 @@ pub(crate) mod edit;
 pub(crate) mod index;
 pub(crate) mod scan;
 
-/// Reads a value from RON text. An optional value needs no `Some`, and a variant with one group needs no second brackets.
+/// Reads a value from RON text. An optional value needs no `Some`, and a variant that holds one struct needs only one pair of
+/// brackets.
 pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
     let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
     ron::Options::default().with_default_extension(extensions).from_str(text)
