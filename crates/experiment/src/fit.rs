@@ -1,5 +1,5 @@
-//! Fit of the parameters of a scene to a measured curve, with their errors, and the parameters that the curve cannot
-//! separate.
+//! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit also finds the
+//! parameters that the curve cannot separate.
 
 use crate::baseline::dot;
 use crate::curve::MeasuredCurve;
@@ -18,32 +18,33 @@ use asperity_scene::Simulation;
 use asperity_scene::scene_tabor_number;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Correlation above which parameters are not separated, and half width of a 95 % interval of a logarithm above which it is
-/// undetermined.
+/// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
+/// parameter is undetermined.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
-/// Number of points that are enough for a curve whose residuals are no noise.
+/// Number of points that are enough for a curve whose residuals are more than noise.
 const ENOUGH: usize = 400;
-/// Half width of the 95 % interval of a normal distribution, in standard deviations.
+/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// A fitted parameter with its errors.
+/// Fitted parameter with its errors. All values are in the SI unit of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct FittedParameter {
-    /// Which parameter it is.
+    /// Fitted parameter of the scene or the curve.
     #[serde(skip)]
     pub parameter: Parameter,
-    /// Value of the smallest residuals; all values are in the SI unit of the parameter.
+    /// Value of the parameter at which the residuals are smallest.
     pub value: f64,
-    /// Ends of the 95 % interval; the whole range where the profile is random and the model does not describe the curve.
+    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, the interval of a parameter
+    /// above 0 is the whole range of the search.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
-    /// Standard error due to the noise.
+    /// Standard error due to the noise of the curve. It is larger where the residuals exceed the noise.
     pub noise_error: f64,
     /// Value at which the search began.
     pub start: f64,
-    /// Range in which the value was searched.
+    /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
 }
 
@@ -55,7 +56,7 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// A value of the parameter in words, with the digits that its interval determines, unless it is the whole range.
+    /// Writes a value of the parameter with its unit, and with the digits that the interval determines.
     pub fn text(&self, value: f64) -> String {
         let half = 0.5 * (self.interval.1 - self.interval.0);
         format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
@@ -69,37 +70,37 @@ pub struct FitResult {
     /// The free parameters with their errors.
     #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
-    /// Root mean square residual of all points, N.
+    /// Root mean square residual of all points, in N.
     pub residual: f64,
-    /// Root mean square residual over the noise.
+    /// Root mean square residual of all points divided by the noise.
     pub residual_over_noise: f64,
     /// Share of the points whose residual exceeds 5 times the noise.
     pub beyond_five_sigma: f64,
-    /// Root mean square residual of the points in contact over the noise; points inside a jump of the model count as
-    /// described, and other single points count as 5 times that root mean square.
+    /// Root mean square residual of the points in contact divided by the noise. A point inside a jump of the model counts
+    /// as described. Another single point counts as at most 5 times the root mean square.
     pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve
-    /// equally well.
+    /// Upper end of the interval of the work of adhesion in J/m², if a scene without adhesion describes the curve equally
+    /// well; otherwise `None`.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values.
+    /// Tabor number of the scene with the fitted values; `None` if it is not defined.
     pub tabor: Option<f64>,
-    /// Why the model does not describe the curve; `None` if it does.
+    /// Reason why the model does not describe the curve; `None` if it does.
     pub reason: Option<Reason>,
     /// Correlation of each pair of parameters.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs of parameters that the curve cannot separate; a pair of the same parameter for one that the curve does not
-    /// determine.
+    /// Pairs of parameters that the curve cannot separate. A pair of the same parameter twice means that the curve does not
+    /// determine this parameter.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Change of the scene by the file of the curve, in words.
+    /// Change that the file of the curve makes to the scene, in words; `None` if there is none.
     #[serde(skip)]
     pub instrument: Option<String>,
-    /// Number of curves computed by the fit.
+    /// Number of curves that the fit computed.
     pub evaluations: usize,
-    /// Force of the model at each point, N, including the zero and the drift of the curve, which the fit refines.
+    /// Force of the model at each point in N, including the zero, drift and tilt that the fit refines.
     #[serde(skip)]
     pub model: Vec<f64>,
-    /// The scene with the fitted values, loaded as the measured curve was.
+    /// Scene with the fitted values, loaded as the body was in the measurement.
     #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
 }
@@ -118,14 +119,14 @@ impl FitResult {
         self.misfit <= MISFIT
     }
 
-    /// Returns true if the model does not describe the curve and the profile of the scene is random: the specimen has another
-    /// one, and the values found say nothing about it.
+    /// Returns true if the model does not describe the curve and the profile of the scene is random. The specimen then has
+    /// another profile, so the fitted values are meaningless.
     pub fn has_other_profile(&self) -> bool {
         !self.describes() && self.document.scene().seed().is_some()
     }
 }
 
-/// A fit to be made: a scene and its free parameters.
+/// Fit of a scene, with its free parameters, to a measured curve.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -154,37 +155,40 @@ pub struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// A fit of this scene, without a free parameter so far.
+    /// Makes a fit of a scene without free parameters.
     pub fn of(document: &'a Document) -> Self {
         Fit { document, free: Vec::new() }
     }
 
-    /// Frees a parameter, in a range of its own if it is a [`Free::within`].
+    /// Adds a free parameter, which is searched in its own range if it comes from [`Free::within`].
     #[must_use]
     pub fn free(mut self, free: impl Into<Free>) -> Self {
         self.free.push(free.into());
         self
     }
 
-    /// Fits the free parameters to a curve, on one thread. The progress is the number of curves computed so far.
+    /// Fits the free parameters to a curve on one thread. The reported progress is the number of curves computed so far.
     ///
-    /// A population of parameter sets is drawn over the ranges, evenly in their logarithms. The assumed noise starts large,
-    /// where jumps count little, and is lowered to the noise of the curve. At each step likely sets are copied, unlikely
-    /// sets are dropped, and all are moved (sequential Monte Carlo). A point on the wrong side of a jump counts by the
-    /// logarithm of its residual. Zero, drift and tilt are estimated anew with each model. The population is drawn twice if
-    /// the residual remains above the noise, and the better one is kept. Residuals that are no noise are divided into four
-    /// parts of each segment; the errors are then the scatter of the values if parts are weighted anew (jackknife).
+    /// The search is a sequential Monte Carlo method. A population of parameter sets is drawn over the ranges, evenly in
+    /// the logarithms of most parameters. The assumed noise starts large, so that jumps count little, and is lowered to the
+    /// noise of the curve. At each step likely sets are copied, unlikely sets are dropped, and all sets are moved. A point
+    /// on the wrong side of a jump counts by the logarithm of its residual.
+    ///
+    /// Each model comes with its own estimate of zero, drift and tilt of the force. Another population is drawn if the
+    /// residual remains above the noise, and the better population is kept. If the residuals are more than noise, each
+    /// segment is divided into four parts. The errors then come from the scatter of the values as the weights of the parts
+    /// change (jackknife).
     ///
     /// # Errors
-    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. A value of the curve is not allowed,
-    /// a computation fails, or `stop` returns true.
+    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. The curve is unsuitable, a
+    /// computation fails, or the fit is stopped.
     pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
         find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))
     }
 }
 
-/// Fits parameters of a scene to a curve; `report` receives the number of computed curves.
+/// Fits parameters of a scene to a curve. `report` receives the number of curves computed so far.
 fn find(
     curve: &MeasuredCurve,
     document: &Document,
@@ -275,7 +279,7 @@ fn find(
     })
 }
 
-/// The result of the search, with the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
+/// Result of a search: the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
 /// computed.
 struct Searched {
     found: Found,
@@ -284,8 +288,8 @@ struct Searched {
     evaluations: usize,
 }
 
-/// Searches the parameters. If the residuals of a part of the points are no noise, the search uses these points alone: more of
-/// them would not average the residuals out.
+/// Searches the parameters. If the residuals of a part of the points are more than noise, the search uses only these
+/// points, because further points would not reduce the residuals.
 fn searched(
     curve: &MeasuredCurve,
     document: &Document,

@@ -1,4 +1,4 @@
-//! Content of a figure: charts with axes and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
+//! Content of a figure: charts with axes, and layers of data in SI units. Each output format (SVG, PNG, PDF, terminal)
 //! decides on the appearance.
 
 use super::axis::ChartAxis;
@@ -10,32 +10,34 @@ use asperity_data::AxisScale;
 /// Charts in rows under one title, with one legend.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// Title; may be empty.
+    /// Title of the figure; may be empty.
     pub title: String,
-    /// Lines below the title.
+    /// Lines of text below the title.
     pub notes: Vec<Label>,
     /// Charts of the figure, side by side or below each other.
     pub charts: Vec<Chart>,
-    /// Size of the frame of each chart, px; only the proportion counts in a figure with a given width.
+    /// Width and height of the frame of each chart in px (1/96 inch). Only the ratio counts in a figure with a given width.
     pub size: (f64, f64),
-    /// Provenance for the metadata of a document: version, command and scene.
+    /// Origin of the figure for the metadata of an SVG document: version, command and scene.
     pub origin: String,
-    /// Lines in a box below the legend.
+    /// Lines of text in a box below the legend.
     pub parameters: Vec<Label>,
-    /// Width of a picture, px of 1/96 inch; letters and lines keep their size. `None`: the width that its frames need.
+    /// Width of the picture in px (1/96 inch); `None` for the width that its frames need. Letters and lines keep their
+    /// size.
     pub width: Option<f64>,
-    /// Height of a picture, px of 1/96 inch; `None`: the height that its frames need, with a given width at most a page.
+    /// Height of the picture in px (1/96 inch); `None` for the height that its frames need. With a given width this height
+    /// is at most a page.
     pub height: Option<f64>,
-    /// True for a picture without the title, which a caption has instead.
+    /// True if the picture is drawn without its title, because a caption has it.
     pub untitled: bool,
 }
 
 impl Figure {
-    /// Size of the frame of a map, or of one of several charts, px.
+    /// Width and height of the frame of a map, or of one of several charts, in px.
     pub const SMALL: (f64, f64) = (330.0, 270.0);
-    /// Size of the frame of a single chart, px.
+    /// Width and height of the frame of a single chart, in px.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Size of the frame of a chart with the position along its horizontal axis, px.
+    /// Width and height of the frame of a chart with the position along its horizontal axis, in px.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart.
@@ -60,7 +62,7 @@ impl Figure {
         Figure { title: title.to_owned(), charts: vec![chart], size: Figure::WIDE, ..Figure::default() }
     }
 
-    /// Creates a figure of the charts of several figures, whose titles and notes become headings.
+    /// Creates a figure of the charts of several figures, whose titles and notes become headings of the charts.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let panels = figures.into_iter().flat_map(|Figure { title, notes, charts, .. }| {
@@ -74,10 +76,11 @@ impl Figure {
         Figure { charts: panels.collect(), size, ..Figure::default() }
     }
 
-    /// The figure with only the chosen panels, which get the letters from `a` on.
+    /// Keeps the charts with the given letters, such as `ac`, in this order. The charts of the result have new letters from
+    /// `a` on.
     ///
     /// # Errors
-    /// The letters of the panels, if one of the chosen letters is not among them.
+    /// A letter belongs to no chart, or no letter is given. The error is the text of all letters of the figure.
     pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
         let panel =
             |letter: char| (letter as usize).checked_sub('a' as usize).and_then(|at| self.charts.get(at));
@@ -88,29 +91,29 @@ impl Figure {
         }
     }
 
-    /// Heading of a chart, with its letter; `None` in a figure of one chart.
+    /// Returns the heading of a chart with its letter; `None` in a figure of one chart.
     pub(super) fn heading(&self, index: usize) -> Option<Label> {
         let chart = self.charts.get(index).filter(|_| self.charts.len() > 1)?;
         let letter = char::from(b'a' + (index % 26) as u8);
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend: each name once, with all layers of that name.
+    /// Returns the entries of the legend. Each name occurs once, with samples of all layers of this name.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
 }
 
-/// Data over two axes.
+/// Chart with two axes and layers of data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Heading, shown in figures of several charts; may be empty.
+    /// Heading of the chart, shown in figures of several charts; may be empty.
     pub heading: Label,
     /// Horizontal axis.
     pub x: ChartAxis,
     /// Vertical axis.
     pub y: ChartAxis,
-    /// Layers, the lowest first.
+    /// Layers of data. Later layers are drawn over earlier ones.
     pub layers: Vec<Layer>,
 }
 
@@ -120,7 +123,7 @@ impl Chart {
         Chart { heading: Label::default(), x, y, layers }
     }
 
-    /// The chart with only the symbol on each axis that has a symbol.
+    /// Removes the name of each axis that has a symbol.
     pub fn with_symbols(mut self) -> Chart {
         for axis in [&mut self.x, &mut self.y].into_iter().filter(|axis| !axis.symbol.is_empty()) {
             axis.name.clear();
@@ -128,7 +131,7 @@ impl Chart {
         self
     }
 
-    /// The chart with the numbers on its axes divided by units, each with its symbol; `None` for an axis that stays.
+    /// Divides the numbers on the axes by units, each given with its symbol; `None` leaves an axis as it is.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
             *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
@@ -161,7 +164,7 @@ impl Chart {
         self
     }
 
-    /// Returns the first map of the chart.
+    /// Returns the first heat map of the chart.
     pub fn map(&self) -> Option<&HeatMap> {
         self.layers.iter().find_map(|layer| match &layer.shape {
             Shape::Map(map) => Some(map.as_ref()),
@@ -169,7 +172,7 @@ impl Chart {
         })
     }
 
-    /// Returns the first map of the chart, to change it.
+    /// Returns the first heat map of the chart, so that it can be changed.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
         self.layers.iter_mut().find_map(|layer| match &mut layer.shape {
             Shape::Map(map) => Some(map.as_mut()),
@@ -178,12 +181,12 @@ impl Chart {
     }
 }
 
-/// One kind of data, and its entry in the legend. Layers with the same name share an entry.
+/// Data of one kind with an entry in the legend. Layers of the same name share an entry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Name in the legend; no entry if empty.
+    /// Name in the legend. A layer with an empty name has no entry.
     pub name: Label,
-    /// Ink of the layer.
+    /// Ink of the layer, which decides on its colour.
     pub ink: Ink,
     /// Shape of the data.
     pub shape: Shape,
@@ -200,7 +203,7 @@ impl Shape {
         Shape::Curve { points, stroke: None, sign: Some(sign) }
     }
 
-    /// Points of a curve or the ends of the columns of an envelope.
+    /// Returns the points of a curve, or both ends of each column of an envelope; empty for other shapes.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
