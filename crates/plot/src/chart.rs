@@ -230,43 +230,44 @@ impl Layer {
     }
 }
 
-/// Data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or a band.
+/// Shape of the data of a layer, in numbers on the axes. A point without a coordinate on an axis interrupts a curve or a
+/// band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A line through points, signs at the points, or both.
+    /// Line through points, signs at the points, or both.
     Curve {
-        /// Points of the curve in SI units.
+        /// Points of the curve as (x, y).
         points: Vec<(f64, f64)>,
-        /// Stroke of the line; `None`: no line.
+        /// Stroke of the line; `None` for no line.
         stroke: Option<Stroke>,
-        /// Sign at each point; `None`: no signs.
+        /// Sign at each point; `None` for no signs.
         sign: Option<Sign>,
     },
-    /// An area between two curves, as points (x, lower y, upper y). An end beyond the axis is drawn at the end of the axis.
+    /// Area between two curves, as points (x, lower y, upper y). An end beyond the axis is drawn at the end of the axis.
     Band(Vec<(f64, f64, f64)>),
-    /// A line with more points than a picture resolves, given by the lowest and the highest y in columns of equal width.
+    /// Line with more points than a picture resolves, as the lowest and the highest y in columns of equal width.
     Envelope {
-        /// Outer edges of the first and the last column, in x.
+        /// Left edge of the first column and right edge of the last column, in x.
         x: (f64, f64),
         /// Lowest and highest y of each column; `None` where the line is interrupted.
         columns: Vec<Option<(f64, f64)>>,
     },
-    /// The area inside a closed line.
+    /// Area inside a closed line through these points.
     Inside(Vec<(f64, f64)>),
-    /// Filled rectangles, each with its ends in x and in y.
+    /// Filled rectangles, each as its two ends in x and its two ends in y.
     Boxes(Vec<((f64, f64), (f64, f64))>),
-    /// A vertical line across the chart at this x.
+    /// Vertical line across the chart at this x.
     Upright(f64),
-    /// A horizontal line across the chart at this y.
+    /// Horizontal line across the chart at this y.
     Level(f64),
-    /// A heat map: one coloured cell for each pair of values of the axes.
+    /// Heat map with one coloured cell for each pair of values of the axes.
     Map(Box<HeatMap>),
 }
 
 /// Pattern of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
-    /// Without gaps.
+    /// Line without gaps.
     Solid,
     /// Long dashes.
     Dashed,
@@ -278,7 +279,7 @@ pub enum Stroke {
     Sparse,
 }
 
-/// Shape of the sign at a point.
+/// Sign at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// Filled circle.
@@ -301,59 +302,60 @@ pub enum Sign {
     Cross,
     /// Open diamond.
     HollowDiamond,
-    /// The smallest mark of the output: a single Braille dot in cells. Thousands of them leave the lines above legible.
+    /// Smallest mark of the output, which is a single Braille dot in a terminal. Thousands of these marks leave the lines
+    /// above them legible.
     Point,
 }
 
 impl Sign {
-    /// Sign of a curve among several, by its number from 0.
+    /// Returns the sign of a curve among several, by the number of the curve from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
 }
 
-/// Values on a grid, row by row from the lower left.
+/// Heat map: values on a grid, with the scale of their colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// Values of the columns on the horizontal axis, ascending.
+    /// Values of the horizontal axis at the columns, ascending.
     pub columns: Vec<f64>,
-    /// Values of the rows on the vertical axis, ascending.
+    /// Values of the vertical axis at the rows, ascending.
     pub rows: Vec<f64>,
-    /// Values of the cells in SI units, row by row; `None` for a cell without a value.
+    /// Values of the cells, row by row from the lower left; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
-    /// Axis of the colour scale of the values.
+    /// Axis of the colour scale, with the quantity and the range of the values.
     pub key: ChartAxis,
-    /// Colours of the values.
+    /// Colours of the values, from low to high.
     pub shades: Shades,
-    /// Class of each cell as an index of `class_names`; empty if the values have no classes.
+    /// Class of each cell as an index into `class_names`; empty if the values have no classes.
     pub classes: Vec<Option<usize>>,
-    /// Classes of the values; empty for a quantity with continuous values.
+    /// Names and signs of the classes; empty for a quantity with continuous values.
     pub class_names: Vec<Class>,
-    /// Level line of another field on the same grid.
+    /// Line on which another field on the same grid has a given value; `None` for no line.
     pub contour: Option<Contour>,
 }
 
-/// A class of map cells, such as a regime of adhesion.
+/// Class of cells in a heat map, such as a regime of adhesion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Class {
-    /// Sign of the class in a picture.
+    /// Sign of the class in an SVG, PNG or PDF figure.
     pub sign: Sign,
-    /// Letter of the class in wide cells of a terminal; `None` if the shade shows the class.
+    /// Letter of the class in wide cells of a terminal; `None` if the colour shows the class.
     pub letter: Option<char>,
     /// Name of the class in the legend.
     pub name: String,
-    /// Ink of the class in a terminal without fixed colours.
+    /// Ink of the class in a terminal without colours.
     pub ink: Ink,
 }
 
-/// Line on which a field has a given value.
+/// Line in a heat map on which a field has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
     /// Values of the field, in the order of [`HeatMap::values`].
     pub field: Vec<Option<f64>>,
-    /// Value along the contour, in the SI unit of the map.
+    /// Value of the field along the line, in the unit of the field.
     pub level: f64,
-    /// Name in the legend.
+    /// Name of the line in the legend.
     pub name: Label,
 }
 
@@ -363,12 +365,13 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
-    /// Number of the band of equal shade that a value belongs to; see [`Shades::of_band`].
+    /// Returns the number of the band of colours to which a value belongs; see [`Shades::of_band`].
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Borders, as coordinates, of cells around these values on an axis: halfway between neighbouring values.
+    /// Returns the borders of the cells around these values of an axis, as coordinates. Inner borders are halfway between
+    /// neighbouring values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values.iter().map(|value| scale.coordinate(*value)).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { return vec![0.0, 1.0] };
@@ -380,7 +383,7 @@ impl HeatMap {
         [vec![before], between, vec![after]].concat()
     }
 
-    /// Range of coordinates of an axis with a cell around each of these values.
+    /// Returns the range of coordinates of an axis that has a cell around each of these values.
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
         Span { low: borders[0], high: borders[borders.len() - 1] }
@@ -390,7 +393,7 @@ impl HeatMap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     pub name: Label,
-    /// Samples of all layers of this name: several for layers in several colours.
+    /// Samples of all layers of this name; several if the layers have different colours.
     pub samples: Vec<(Ink, Sample)>,
 }
 
@@ -411,7 +414,7 @@ pub enum Sample {
 }
 
 impl Entry {
-    /// Entries for the layers of charts: each name once, in the order of drawing, areas last.
+    /// Returns the entries for the layers of charts. Each name occurs once, in the order of drawing, with areas last.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         let mut add = |name: &Label, ink: Ink, sample: Sample| {
