@@ -27,24 +27,23 @@ const ENOUGH: usize = 400;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Fitted parameter with its errors. All values are in the SI unit of the parameter.
+/// A fitted parameter with its errors.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct FittedParameter {
-    /// Fitted parameter of the scene or the curve.
+    /// Which parameter it is.
     #[serde(skip)]
     pub parameter: Parameter,
-    /// Value of the parameter at which the residuals are smallest.
+    /// Value of the smallest residuals; all values are in the SI unit of the parameter.
     pub value: f64,
-    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, the interval of a parameter
-    /// above 0 is the whole range of the search.
+    /// Ends of the 95 % interval; the whole range where the profile is random and the model does not describe the curve.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
-    /// Standard error due to the noise of the curve. It is larger where the residuals exceed the noise.
+    /// Standard error due to the noise.
     pub noise_error: f64,
     /// Value at which the search began.
     pub start: f64,
-    /// Lower and upper end of the range in which the value was searched.
+    /// Range in which the value was searched.
     pub range: (f64, f64),
 }
 
@@ -56,7 +55,7 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// Writes a value of the parameter with its unit, and with the digits that the interval determines.
+    /// A value of the parameter in words, with the digits that its interval determines, unless it is the whole range.
     pub fn text(&self, value: f64) -> String {
         let half = 0.5 * (self.interval.1 - self.interval.0);
         format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
@@ -70,37 +69,37 @@ pub struct FitResult {
     /// The free parameters with their errors.
     #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
-    /// Root mean square residual of all points, in N.
+    /// Root mean square residual of all points, N.
     pub residual: f64,
-    /// Root mean square residual of all points divided by the noise.
+    /// Root mean square residual over the noise.
     pub residual_over_noise: f64,
     /// Share of the points whose residual exceeds 5 times the noise.
     pub beyond_five_sigma: f64,
-    /// Root mean square residual of the points in contact divided by the noise. A point inside a jump of the model counts
-    /// as described. Another single point counts as at most 5 times the root mean square.
+    /// Root mean square residual of the points in contact over the noise; points inside a jump of the model count as
+    /// described, and other single points count as 5 times that root mean square.
     pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion in J/m², if a scene without adhesion describes the curve equally
-    /// well; otherwise `None`.
+    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve
+    /// equally well.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values; `None` if it is not defined.
+    /// Tabor number of the scene with the fitted values.
     pub tabor: Option<f64>,
-    /// Reason why the model does not describe the curve; `None` if it does.
+    /// Why the model does not describe the curve; `None` if it does.
     pub reason: Option<Reason>,
     /// Correlation of each pair of parameters.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs of parameters that the curve cannot separate. A pair of the same parameter twice means that the curve does not
-    /// determine this parameter.
+    /// Pairs of parameters that the curve cannot separate; a pair of the same parameter for one that the curve does not
+    /// determine.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Change that the file of the curve makes to the scene, in words; `None` if there is none.
+    /// Change of the scene by the file of the curve, in words.
     #[serde(skip)]
     pub instrument: Option<String>,
-    /// Number of curves that the fit computed.
+    /// Number of curves computed by the fit.
     pub evaluations: usize,
-    /// Force of the model at each point in N, including the zero, drift and tilt that the fit refines.
+    /// Force of the model at each point, N, including the zero and the drift of the curve, which the fit refines.
     #[serde(skip)]
     pub model: Vec<f64>,
-    /// Scene with the fitted values, loaded as the body was in the measurement.
+    /// The scene with the fitted values, loaded as the measured curve was.
     #[serde(rename = "scene", serialize_with = "scene_of")]
     pub document: Document,
 }
@@ -119,8 +118,8 @@ impl FitResult {
         self.misfit <= MISFIT
     }
 
-    /// Returns true if the model does not describe the curve and the profile of the scene is random. The specimen then has
-    /// another profile, so the fitted values are meaningless.
+    /// Returns true if the model does not describe the curve and the profile of the scene is random: the specimen has another
+    /// one, and the values found say nothing about it.
     pub fn has_other_profile(&self) -> bool {
         !self.describes() && self.document.scene().seed().is_some()
     }
