@@ -57,7 +57,8 @@ pub struct MeasuredCurve {
     pub(crate) stiffness: Option<(String, f64)>,
     /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
     pub(crate) of_body: Option<String>,
-    /// Sentences about what was assumed about the curve and done to it. The first sentence names columns, units and points.
+    /// Sentences about the assumptions and changes made when the curve was read. The first sentence names columns, units
+    /// and points.
     pub statements: Vec<String>,
 }
 
@@ -95,7 +96,7 @@ impl MeasuredCurve {
     /// is left out. Options that describe a file have no effect: columns, units and the travel of the piezo.
     ///
     /// # Errors
-    /// Both slices differ in length, or an error of [`MeasuredCurve::read`].
+    /// The slices differ in length. The errors of [`MeasuredCurve::read`] are possible too.
     ///
     /// ```
     /// use asperity_experiment::{CurveOptions, MeasuredCurve};

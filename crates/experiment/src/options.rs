@@ -93,9 +93,9 @@ pub struct CurveOptions {
     /// A number is the value of 1 in the column: 3.01nN for a deflection in nm with 3.01 N/m.
     #[cfg_attr(feature = "clap", arg(long, value_name = "UNIT,UNIT", value_delimiter = ','))]
     pub units: Vec<String>,
-    /// Travel of the piezo for a file with one column of forces: 500nm
+    /// Travel of the piezo, such as 500nm, for a file with one column of forces
     ///
-    /// The forces are evenly spaced over it, there and back. By default the file gives the travel.
+    /// The forces are evenly spaced over the travel, there and back. By default the file gives the travel.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
     /// Segments that are used: 2 is the retraction without the approach
@@ -109,10 +109,10 @@ pub struct CurveOptions {
             value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..))
     )]
     pub segments: Vec<usize>,
-    /// Reverse none, displacement, force or both; default: by the approach
+    /// Reverse none, displacement, force or both; default: automatic
     #[cfg_attr(feature = "clap", arg(long, value_name = "QUANTITY", hide_possible_values = true))]
     pub negate: Option<Negate>,
-    /// Measured force that is zero: 2nN; default: the mean before contact
+    /// Measured force that counts as zero: 2nN; default: mean before contact
     #[cfg_attr(feature = "clap", arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = force))]
     pub zero: Option<f64>,
     /// Drift over time: keep (default), remove, or a force over the curve
@@ -133,11 +133,11 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument of the scene in N/m. With it, a displacement of the body is converted to the
-    /// displacement of the instrument.
+    /// Stiffness of the instrument of the scene in N/m. It serves to convert a displacement of the body to the displacement
+    /// of the instrument.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
-    /// Number of points before contact; default: up to the first change
+    /// Number of points before contact; default: found from the force
     #[cfg_attr(feature = "clap", arg(long, value_name = "COUNT"))]
     pub free_points: Option<usize>,
 }

@@ -48,7 +48,7 @@ pub enum Reason {
         "Few springs are in contact, {0} at most: the profile needs more numerics.points, or a smaller length."
     )]
     CoarseProfile(u64),
-    /// The force jumps by this difference in N between two points, but the scene assumes a rigid instrument.
+    /// The force jumps by this value in N between two points, but the scene assumes a rigid instrument.
     #[error(
         "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
         format_quantity(*.0, "N")
@@ -65,7 +65,7 @@ pub enum Reason {
         "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
     )]
     DriftAndTilt,
-    /// The forces before and after contact differ by this difference in N.
+    /// The forces before and after contact differ by this value in N.
     #[error(
         "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
          alone.",

@@ -82,8 +82,8 @@ pub(crate) fn with_values(
 
 impl MeasuredCurve {
     /// Returns the scene file with the stiffness of the instrument that the file of the curve states, if the scene states
-    /// none. The stiffness is removed if the displacement is the displacement of the body. The second value says in words
-    /// what the file of the curve changes.
+    /// none. If the measured displacement excludes the deflection of the instrument, a stiffness in the scene is removed.
+    /// The second value says in words what the file of the curve changes.
     ///
     /// # Errors
     /// The scene does not allow this stiffness.

@@ -50,7 +50,7 @@ impl ChartAxis {
 
     /// Returns the divisor of the numbers on the axis, and the unit with the corresponding SI prefix, such as 1e-6 and
     /// `µN`. If the numbers of a linear axis would still have too many digits, the divisor is a power of ten, which
-    /// precedes the unit. The divisor is 1 for a logarithmic axis that needs powers of ten with any prefix.
+    /// precedes the unit. A logarithmic axis with powers of ten has the divisor 1.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);

@@ -331,7 +331,7 @@ pub struct HeatMap {
     pub classes: Vec<Option<usize>>,
     /// Names and signs of the classes; empty for a quantity with continuous values.
     pub class_names: Vec<Class>,
-    /// Line on which another field on the same grid has a given value; `None` for no line.
+    /// Line on which another quantity on the same grid has a given value; `None` for no line.
     pub contour: Option<Contour>,
 }
 
@@ -348,12 +348,12 @@ pub struct Class {
     pub ink: Ink,
 }
 
-/// Line in a heat map on which a field has a given value.
+/// Line in a heat map on which another quantity has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Values of the field, in the order of [`HeatMap::values`].
+    /// Values of this quantity, in the order of [`HeatMap::values`].
     pub field: Vec<Option<f64>>,
-    /// Value of the field along the line, in the unit of the field.
+    /// Value of this quantity along the line, in its unit.
     pub level: f64,
     /// Name of the line in the legend.
     pub name: Label,

@@ -218,14 +218,13 @@ pub fn number(value: f64, step: f64) -> String {
     format!("{}{whole}{fraction}", if value < 0.0 && !zero { "-" } else { "" })
 }
 
-/// Creates a label of a value with its unit after a symbol, or after a name if `symbol` is empty: `H = 0.3`,
-/// `preload 12.5 µN`.
+/// Creates a label of a value with its unit, such as `H = 0.3` with a symbol, or `preload 12.5 µN` if `symbol` is empty.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     statement(name, symbol, &if is_count { grouped(value as u64) } else { format_rounded(value, 3, unit) })
 }
 
-/// Creates a label of a value in words after a symbol, or after a name if `symbol` is empty.
+/// Creates a label of a value in words, with a symbol as in `H = 0.3`, or with a name if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     match symbol {

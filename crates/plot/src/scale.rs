@@ -16,7 +16,7 @@ const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
     /// Returns the range of the finite coordinates, widened at each end by the share `room` of its width. The range around
-    /// a single coordinate has some width. Without coordinates the range is 0 to 1.
+    /// a single coordinate is wider than zero. Without coordinates the range is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);

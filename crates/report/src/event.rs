@@ -6,8 +6,8 @@ use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 /// force.
 const NEAR: f64 = 0.01;
 
-/// Returns the event at a point of a loading or unloading in words, such as `pull-off`, short enough for the title of a
-/// chart; `None` while the body does not move.
+/// Returns the event at a point of a loading or unloading in words, such as `pull-off`; `None` while the body does not
+/// move. The words are short enough for the title of a chart.
 pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
     let stages = &legs[branch.stages.clone()];
     let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);

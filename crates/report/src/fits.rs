@@ -25,9 +25,9 @@ pub struct CurveRow {
     pub points: Option<u64>,
     /// True if the model describes the curve; `None` without a fit.
     pub described: Option<bool>,
-    /// Reason why the model does not describe the curve; empty if it does.
+    /// Reason why the model does not describe the curve; empty if the model does.
     pub reason: String,
-    /// Reason why the curve was not read or not fitted; empty if it was.
+    /// Reason why the curve was not read or not fitted; empty if the curve was fitted.
     pub error: String,
 }
 

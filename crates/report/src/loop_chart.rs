@@ -99,8 +99,8 @@ impl LoopUnits {
         self.force.map_or_else(|| format_rounded(force, 3, "N"), |unit| format_rounded(force / unit, 3, "1"))
     }
 
-    /// Returns true if a marked point, such as the pull-off, lies on the drawn curve. Over the displacement, the two states
-    /// inside a jump of a compliant instrument do not.
+    /// Returns true if a marked point, such as the pull-off, lies on the drawn curve. Over the displacement of the
+    /// instrument, the points of the jumps into and out of contact do not.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
@@ -157,19 +157,19 @@ impl LoopUnits {
     }
 }
 
-/// Loop of loading and unloading in a chart. Without a name, ink or stroke of its own, it is drawn in two inks for loading
-/// and unloading.
+/// Loop of loading and unloading in a chart. A loop without its own name, ink or stroke has different ones for loading and
+/// unloading.
 #[derive(Clone, Debug, Default)]
 pub struct ForceLoop<'a> {
     /// Force curve of each loading stage, with its direction.
     pub curves: Vec<(Direction, &'a [CurvePoint])>,
-    /// Stiffness of the instrument in N/m, which makes the curves jump; `None` for a rigid instrument.
+    /// Stiffness of the instrument in N/m, which causes jumps over the displacement; `None` for a rigid instrument.
     pub stiffness: Option<f64>,
     /// Marked points of the curves, such as preload and pull-off. The legend names them if the loop has no name.
     pub marks: Vec<(Mark, CurvePoint)>,
     /// Name of the loop in the legend; `None` for entries of loading and unloading.
     pub name: Option<Label>,
-    /// True if the legend omits the forces of the marks, because several charts share it.
+    /// True if the legend omits the forces of the marks, because several charts share the legend.
     pub without_forces: bool,
     /// Ink of the loop; `None` for the inks of loading and unloading.
     pub ink: Option<Ink>,
@@ -266,8 +266,8 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 }
 
 /// Returns a figure of the force curves of computed scenes, each with its title. A single scene has one colour for loading
-/// and another for unloading. Of several scenes each has a colour and a stroke, and the legend explains loading and marks
-/// once.
+/// and another for unloading. Each of several scenes has its own colour and stroke. The legend then explains loading and
+/// marks once.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         return Figure::of_chart(title, loop_chart(&[ForceLoop::new(&outcome.history.legs)], units));

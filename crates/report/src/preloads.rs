@@ -154,7 +154,8 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     table.done()
 }
 
-/// Returns a warning about the preload whose mean depends most on a single profile; `None` if no mean does.
+/// Returns a warning about the preload whose mean adhesion force depends most on a single profile. Returns `None` if no
+/// profile makes up half of a mean.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
     let (preload, most) = spread.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
@@ -271,9 +272,9 @@ pub fn preload_chart(staircase: &Staircase, spread: &[(f64, Statistics)], has_va
     )
 }
 
-/// Returns the distribution of the adhesion force over the profiles, at the computed preload nearest to `preload` in N;
-/// `None` for fewer than two profiles. Each profile adds a step to the share of profiles. `forces` is the vertical axis of
-/// a chart beside it.
+/// Returns the distribution of the adhesion force over the profiles; `None` for fewer than two profiles. The computed
+/// preload nearest to `preload` in N is used. Each profile adds a step to the share of profiles. `forces` is the vertical
+/// axis of a chart beside it.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

@@ -67,8 +67,8 @@ fn version_and_command(command: &str, hashes: &str) -> String {
     format!("asperity {version}\n{hashes}{COMMAND}{}\n", printable(&command))
 }
 
-/// Checks that the measured files of a scene have not changed since the table of results was written from which the scene
-/// was read.
+/// Checks the measured files of a scene that was read from a table of results. The files must be the same as when the table
+/// was written.
 ///
 /// # Errors
 /// A file cannot be read, or its SHA-256 differs from the one in the table.

@@ -11,12 +11,12 @@ use asperity_study::{Compared, Loaded, Reference, ReferenceEvent, SquareLoops, S
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// Report on the comparison of a scene with its contact in three dimensions.
+/// Report on the comparison of a scene as a profile and in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// Scene that is computed in both ways.
+    /// Scene that is computed as a profile and in three dimensions.
     pub scene: &'a Scene,
     /// Comparison of the profile with three dimensions.
     pub reference: &'a Reference,
@@ -35,7 +35,7 @@ fn ratio(of: &Compared) -> String {
 /// Time in s above which a comparison takes long.
 const LONG: f64 = 10.0;
 
-/// Progress of a comparison with three dimensions, which becomes words.
+/// Progress of a comparison with three dimensions, for messages to the user.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,
@@ -74,8 +74,8 @@ fn counted(count: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
-/// Returns the state of the loops of random squares in a few words. Once all are computed, the words have the ratio of both
-/// models.
+/// Returns the state of the loops of random squares in a few words. Once all loops are computed, the words have the ratio
+/// of both models.
 pub fn square_loops_words(loops: &SquareLoops) -> String {
     let SquareLoops { maps, curves, reference, .. } = loops;
     let Some((reference, compared)) = reference.as_ref().and_then(|of| Some((of, of.headline()?))) else {

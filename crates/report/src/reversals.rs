@@ -15,7 +15,8 @@ const MOST_ROWS: usize = 16;
 /// Largest number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
-/// Report on the unloadings of one profile from many turning points, and on their Everett function.
+/// Report on the unloadings of one profile from many turning points, and on their Everett function. The Everett function is
+/// half of the fall of the force from a turning point to an indentation.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
     /// Title of the scene.
@@ -27,7 +28,7 @@ pub struct ReversalReport<'a> {
     /// Adhesion force against preload, as the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the bodies
     /// together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force against preload with the exact position of each step; only the figure needs it.
+    /// Adhesion force against preload with the exact position of each step, needed only for the figure.
     pub staircase: Option<&'a Staircase>,
 }
 

@@ -23,9 +23,9 @@ pub struct SceneSpectra {
     /// Measured spectra, intended spectrum of the profile, and spectrum of its heights.
     pub spectra: Spectra,
     /// Moments, such as the rms height, of random profiles with the measured spectrum. `None` if the roughness is not
-    /// measured, or if the measured profile itself is pressed.
+    /// measured, or if a measured profile is used without change.
     pub moments: Option<LineMoments>,
-    /// Reason why some spectra are missing; `None` if none is.
+    /// Reason why some spectra are missing; `None` if no spectrum is missing.
     pub missing: Option<String>,
 }
 
@@ -34,9 +34,6 @@ impl SceneSpectra {
     ///
     /// # Errors
     /// The profile of the scene cannot be made.
-    ///
-    /// # Errors
-    /// The line of the scene cannot be made.
     pub fn new(
         scene: &CheckedScene,
         outcome: &Outcome,

@@ -26,7 +26,7 @@ pub struct Part {
     pub first: usize,
     /// Number of springs.
     pub springs: usize,
-    /// Number of columns. If it exceeds the number of springs, a spring fills several columns.
+    /// Number of columns. If there are more columns than springs, a spring fills several columns.
     pub columns: usize,
 }
 

@@ -220,8 +220,8 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// Returns a row of medians for the scene, then a row for each change of each number, with the smallest and the largest
-    /// relative change on single profiles.
+    /// Returns a row of medians for the scene, then a row for each change of each number. A row ends with the smallest and
+    /// the largest relative change on single profiles.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();

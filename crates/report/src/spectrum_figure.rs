@@ -88,7 +88,7 @@ impl Spectra {
     }
 
     /// Returns the spectra of the measured surfaces of one or two faces. One face has its fit. Two faces have the spectrum
-    /// of a profile for their sum.
+    /// of a profile for the sum of both.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),

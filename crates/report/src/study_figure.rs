@@ -37,8 +37,8 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
 }
 
 /// Returns the map of a quantity over the two axes of a grid; `None` for a grid along one axis. The map shows the regimes,
-/// and the line where adhesion without a preload vanishes. With `whole`, a cell that is not computed yet shows a computed
-/// cell near it.
+/// and the line where adhesion without a preload vanishes. With `whole`, a cell that is not computed yet shows the values
+/// of a computed cell nearby.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.statistics(quantity, whole));

@@ -23,8 +23,8 @@ const LINE_PER_DECADE: f64 = 10.0;
 
 const LINE: &str = "equivalent line";
 
-/// Returns median, quartiles and range of the adhesion forces of random profiles in words, with their error due to the fit
-/// of the spectrum; `None` for fewer than two profiles.
+/// Returns median, quartiles and range of the adhesion forces of random profiles in words; `None` for fewer than two
+/// profiles. The words end with the error due to the fit of the spectrum.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed.adhesion_force().filter(|forces| forces.count >= 2)?;
     let fit = computed.fit_interval().map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));

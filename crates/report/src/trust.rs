@@ -5,7 +5,7 @@ use asperity_data::per_cent;
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::{Budget, Criterion, Ensemble, LEAST_TABOR_NUMBER_OF_JKR, criteria};
 
-/// Returns the sentence with which a summary begins if JKR theory does not apply; `None` if it does.
+/// Returns the sentence with which a summary begins if JKR theory does not apply; `None` if JKR theory applies.
 pub fn without_jkr(outcome: &Outcome) -> Option<String> {
     let number = outcome.tabor_number.filter(|number| *number < LEAST_TABOR_NUMBER_OF_JKR)?;
     let number = asperity_data::format_rounded(number, 2, "1");

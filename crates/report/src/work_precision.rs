@@ -8,8 +8,8 @@ use asperity_study::Reference;
 /// Returns the figure of relative errors over the shortest time of a run. Each setting has a curve with its observed order
 /// of convergence. The errors are errors of the adhesion force, or of the force curve if there is no adhesion force.
 ///
-/// With a comparison in three dimensions, the curves end at the error of the model, which no number of springs reduces. A
-/// further sign has the error of squares in three dimensions, as their difference from a coarser grid.
+/// With a comparison in three dimensions, the curves end at the error of the model, which no number of springs reduces.
+/// Another sign shows the error of the contact in three dimensions, which is the difference from a coarser grid.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let model = reference.map(|reference| reference.budget.model).filter(|model| *model > 0.0);
     let floor = model.unwrap_or(0.0);

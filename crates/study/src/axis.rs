@@ -189,7 +189,7 @@ impl Axis {
     }
 
     /// Returns the value that is `steps` values above `value` on an ascending axis, or below for negative `steps`. Beyond
-    /// the ends it is the first or the last value; `None` if `value` is already there.
+    /// the ends, returns the first or the last value, or `None` if `value` is already there.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;

@@ -18,21 +18,21 @@ use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::path::Path;
 
-/// Shares of F_a,max for which boundaries are usually found.
+/// Shares of F_a,max below which adhesion usually counts as vanished.
 pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 /// Number of random selections of profiles for the confidence interval.
 const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Boundary where adhesion without a preload vanishes, for one combination of values on the other axes, one protocol and
-/// one share of F_a,max.
+/// Boundary where adhesion without a preload vanishes, for one combination of values on the other axes, one turning point
+/// and one share of F_a,max.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
     /// Values on the axes other than κ or e_el/γ, in the order of [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// Recorded quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max, which identifies the protocol: the loading turns at first
-    /// touch or at zero force.
+    /// Recorded quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max. It states where the loading turns: at first touch or at zero
+    /// force.
     pub protocol: Quantity,
     /// Share of F_a,max below which adhesion counts as vanished.
     pub level: f64,
@@ -69,19 +69,20 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries, sorted by the values on the other axes, then by protocol, then by share.
+    /// Boundaries, sorted by the values on the other axes, then by the turning point, then by the share of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
 /// F_a(d=0)/F_a,max over ascending κ or e_el/γ. Each value has the shares on the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Finds the boundaries of a merged study along its axis of κ or e_el/γ, in the parameter `over`. The study is in the
-/// folder `path`, and `levels` are shares of F_a,max.
+/// Finds the boundaries where adhesion without a preload vanishes, along the axis of κ or e_el/γ of a study. The study is
+/// in the folder `path` and was merged by [`merge`](crate::merge). `over` is the parameter of the boundaries, and `levels`
+/// are shares of F_a,max.
 ///
 /// # Errors
-/// The study has no axis of κ or e_el/γ, or recorded neither F_a(d=0)/F_a,max nor F_a(F=0)/F_a,max. The axis has the other
-/// parameter, which does not follow from a measured surface. An error of [`Results::open`].
+/// The study has no axis of κ or e_el/γ, or recorded neither F_a(d=0)/F_a,max nor F_a(F=0)/F_a,max. On a measured surface,
+/// the axis has another parameter than `over`. The errors of [`Results::open`] are possible too.
 pub fn boundaries(path: &Path, over: RoughnessParameter, levels: &[f64]) -> Result<Boundaries, StudyError> {
     let study = Results::open(path)?;
     let plan = study.plan();
@@ -158,7 +159,7 @@ fn conversion(
     Some(Box::new(move |value| to.of_energy_over_work(energies * from.energy_over_work(value))))
 }
 
-/// Returns the protocol of a recorded quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max in words.
+/// Returns in words where the loading turns for the quantity F_a(d=0)/F_a,max or F_a(F=0)/F_a,max.
 pub fn protocol_name(share: Quantity) -> &'static str {
     if share == Quantity::FirstTouchAdhesionShare { "first touch" } else { "zero force" }
 }

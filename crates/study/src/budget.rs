@@ -13,15 +13,15 @@ const FEWEST: usize = 4;
 /// approximation of the binomial distribution for 95 of 100 cases.
 const HALF: f64 = 0.98;
 
-/// Errors of the adhesion force by their sources. Each is a share of the force that the error exceeds in about 5 of 100
-/// cases; `None` for a source whose error is unknown.
+/// Errors of the adhesion force by their sources. Each error is a share of the force that the true error exceeds in about 5
+/// of 100 cases. The error of a source is `None` if it is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
-    /// Error by the finite number of springs, on the profile of the scene.
+    /// Error due to the finite number of springs, on the profile of the scene.
     pub grid: Option<f64>,
-    /// Error of the median by the finite number of random profiles.
+    /// Error of the median due to the finite number of random profiles.
     pub sample: Option<f64>,
-    /// Error of the median by the uncertainty of the spectrum of a measured surface.
+    /// Error of the median due to the uncertainty of the spectrum of a measured surface.
     pub surface: Option<f64>,
     /// Error of the model, compared with the same bodies in three dimensions.
     pub model: Option<f64>,
@@ -31,8 +31,8 @@ pub struct Budget {
 
 impl Budget {
     /// Collects the errors of a computed scene; `None` if the scene has no adhesion force above zero. `estimate` is the
-    /// error by the number of springs, and `ensemble` has results on random profiles. `deviation` is the standard deviation
-    /// of the adhesion force in N due to the spectrum of a measured surface.
+    /// error due to the number of springs, and `ensemble` has results on random profiles. `deviation` is the standard
+    /// deviation of the adhesion force in N due to the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,

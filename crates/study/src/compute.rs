@@ -72,8 +72,8 @@ impl Streaks<'_> {
     }
 }
 
-/// Computes all cells of a plan on all its profiles in memory. A cell that cannot be computed on a profile keeps the reason
-/// in place of its values. The reported progress is the number of computed pairs of a cell and a profile.
+/// Computes all records of a plan in memory: the recorded quantities of each cell on each profile. A record that cannot be
+/// computed keeps the reason in place of its values. The reported progress is the number of computed records.
 ///
 /// # Errors
 /// A measured file cannot be read, the memory or the threads do not suffice, or the computation is stopped.

@@ -18,8 +18,8 @@ const TABOR: Criterion = Criterion::new(
 const THIS_PROGRAM: Criterion =
     Criterion::new("this program", "", "Popov, Filippov: Phys. Mesomech. 15 (2012)", VANISHING_SHARE);
 
-/// Returns the criteria of adhesion for a computed scene, with this program as the last one. The numbers are medians over
-/// the profiles of an ensemble, or the numbers of the scene's own profile if no ensemble is given.
+/// Returns the criteria of adhesion for a computed scene, by other theories and last by this program. The numbers are
+/// medians over the profiles of an ensemble, or the numbers of the scene's own profile if no ensemble is given.
 ///
 /// A smooth body has no criteria of roughness, and a scene without adhesion has no criteria. Criteria of roughness do not
 /// include the form of the body.

@@ -6,23 +6,24 @@ use serde::Serialize;
 /// Tabor number below which JKR theory and the rule of Hess do not apply.
 pub const LEAST_TABOR_NUMBER_OF_JKR: f64 = 1.0;
 
-/// Criterion by which one theory decides whether bodies adhere without a preload.
+/// Criterion by which a theory decides whether bodies adhere without a preload. It compares a number with a threshold.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {
     /// Name of the theory.
     pub name: &'static str,
-    /// Symbol of the number that decides.
+    /// Symbol of the number.
     pub symbol: &'static str,
     /// Publication of the criterion.
     pub reference: &'static str,
-    /// Value of the number that decides; `None` if the scene does not determine it.
+    /// Value of the number; `None` if the scene does not determine it.
     pub value: Option<f64>,
-    /// Value of the number at which the verdict changes.
+    /// Threshold at which the verdict changes.
     pub threshold: f64,
     /// True if the bodies adhere without a preload; `None` if the criterion does not hold or does not decide.
     pub sticks: Option<bool>,
-    /// Reason why there is no verdict. With a verdict, how the loading turns and which profiles gave the number.
+    /// Reason why there is no verdict. A verdict of this program has a note here on where the loading turns and which
+    /// profiles are used.
     pub reason: Option<String>,
 }
 

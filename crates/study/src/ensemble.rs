@@ -33,7 +33,7 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Further quantities of a table of profiles.
+    /// Quantities that a table of profiles contains in addition.
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -52,8 +52,8 @@ impl Ensemble {
     /// Computes a checked scene on `profiles` profiles: the quantities [`Ensemble::NUMBERS`] and `further`, and the regimes
     /// turned at first touch and at zero force. A profile that cannot follow the loading has no values.
     ///
-    /// `jobs` threads share the profiles, and `simulation` serves the first thread. The results do not depend on the number
-    /// of threads. After each profile `report` receives the results so far.
+    /// `workers` are the simulation of the first thread and the number of threads, which share the profiles. The results do
+    /// not depend on this number. After each profile `report` receives the results so far.
     ///
     /// # Errors
     /// Several profiles are requested of a scene whose profile is fixed, the memory does not suffice, or `stop` returned
@@ -93,8 +93,8 @@ impl Ensemble {
         &self.results
     }
 
-    /// Returns median, quartiles, range and mean of a quantity over the computed profiles that have it; `None` if none has
-    /// it.
+    /// Returns median, quartiles, range and mean of a quantity over the computed profiles that have it; `None` if no
+    /// profile has it.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }
@@ -104,17 +104,18 @@ impl Ensemble {
         (0..self.profiles()).map(|line| self.results.value(0, line, quantity)).collect()
     }
 
-    /// Returns the number of profiles in each regime, turned at first touch and turned at zero force.
+    /// Returns the numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero
+    /// force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         self.results.regimes(0)
     }
 }
 
-/// Computes a scene on this number of random profiles. Its files are found relative to the scene file. The reported
-/// progress is the number of computed profiles.
+/// Computes a scene on this number of random profiles. Files of the scene are found relative to the scene file. The
+/// reported progress is the number of computed profiles.
 ///
 /// # Errors
-/// Zero profiles or zero threads are requested, or an error of [`Ensemble::of`].
+/// Zero profiles or zero threads are requested. The errors of [`Ensemble::of`] are possible too.
 ///
 /// ```
 /// use asperity_data::Control;

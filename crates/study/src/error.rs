@@ -44,7 +44,7 @@ pub enum StudyError {
         /// Reason why the computation failed.
         error: RunError,
     },
-    /// A body in three dimensions is not allowed.
+    /// The computation in three dimensions is refused.
     #[error(transparent)]
     HalfSpace(#[from] HalfSpaceError),
     /// A value or a request is not allowed.
@@ -83,7 +83,7 @@ pub enum StudyError {
         /// Memory that the study needs, in bytes.
         bytes: u64,
     },
-    /// The system starts no thread. The value is its reason.
+    /// The system starts no thread, for the contained reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }

@@ -22,16 +22,16 @@ pub struct Found {
     pub question: Question,
     /// Answers of the profiles, in the order of their seeds.
     pub answers: Vec<Answer>,
-    /// Reason why the scene does not allow some number of the searched range; `None` if it allows all.
+    /// Reason why the scene does not allow a number of the searched range; `None` if all numbers are allowed.
     pub refused: Option<String>,
 }
 
-/// Finds the value of a number of a scene at which a quantity has a given value in its SI unit. `path` is the path of the
-/// number, or `preload`. Each of `profiles` random profiles is searched within the range of [`Question::new`]. The reported
-/// progress is the number of finished profiles.
+/// Finds the value of a number of a scene at which a quantity has a given value. `condition` is the quantity with this
+/// value in its SI unit. `path` is the path of the number, or `preload`. Each of `profiles` random profiles is searched
+/// within the range of [`Question::new`]. The reported progress is the number of finished profiles.
 ///
 /// # Errors
-/// No threads are allowed, or an error of [`Question::new`] or [`Found::of`].
+/// No threads are allowed. The errors of [`Question::new`] and [`Found::of`] are possible too.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -119,9 +119,8 @@ impl Found {
         Ok(())
     }
 
-    /// Returns for each profile the number at which the quantity reaches the target. It is the first crossing, or the
-    /// smallest preload that reaches the target. It is `None` for a profile on which the quantity does not cross the
-    /// target.
+    /// Returns for each profile the number at which the quantity reaches the target: the first crossing, or the smallest
+    /// preload that reaches the target. A profile on which the quantity does not cross the target has `None`.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers.iter().map(|answer| answer.value(&self.question)).collect()
     }
@@ -157,7 +156,7 @@ impl Found {
         Some(value).filter(|value| value.is_finite())
     }
 
-    /// Returns the smallest and the largest number of the profiles that have one.
+    /// Returns the smallest and the largest number that was found on a profile.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = || self.values().into_iter().flatten();
         values().reduce(f64::min).zip(values().reduce(f64::max))

@@ -14,13 +14,13 @@ const LOGARITHMIC_RATIO: f64 = 50.0;
 pub struct GridCell {
     /// Statistics of the quantity of each layer, in the order of [`Grid::layers`]; `None` if no profile has a value.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime, turned at first touch and turned at zero force.
+    /// Numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero force.
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the number of profiles in each regime. The loading turns at zero force if `quantity` is this regime,
-    /// otherwise at first touch.
+    /// Returns the numbers of profiles in each regime. The loading turns at zero force if `quantity` is the regime turned
+    /// at zero force, otherwise at first touch.
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -78,7 +78,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid that shows each cell itself.
+    /// Creates a grid in which no cell is shown in place of another.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -129,7 +129,7 @@ impl Grid {
 
     /// Returns the statistics of a quantity in all cells, row by row. With `whole`, a cell that is not computed yet has the
     /// statistics of the cell shown in its place. A regime counts as 0 (non-adhesive), ½ or 1 (pressure-insensitive). If
-    /// profiles disagree, it counts as the mean of the two most frequent regimes.
+    /// profiles disagree, the cell has the mean of the two most frequent regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self.layers.iter().position(|layer| layer.quantity == quantity);
         let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;

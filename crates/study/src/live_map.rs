@@ -71,7 +71,8 @@ impl LiveMap {
         self.results.plan()
     }
 
-    /// Returns the numbers of the cells on a level. Each group has one H and all κ or e_el/γ.
+    /// Returns the numbers of the cells on a level in groups. Each group has one H and all values of κ or e_el/γ of the
+    /// level.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| plan.axes.get(axis).map_or(vec![0], |axis| level.places(axis));

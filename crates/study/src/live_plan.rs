@@ -37,12 +37,11 @@ fn kappas() -> Vec<f64> {
     (0..KAPPAS).map(|index| round_to(exact(index), 3)).collect()
 }
 
-/// Returns the study of all cells in the map of a checked scene: over κ, and over H if the roughness has it. Scenes that
-/// differ only in these numbers or in the number of curve points have the same map.
+/// Returns the plan of the map of a checked scene, over κ, and over the Hurst exponent H if the roughness has one. Scenes
+/// that differ only in these numbers or in the number of curve points have the same map.
 ///
 /// # Errors
-/// The scene has no map, for the given reason.
-/// The reason why the scene has no map.
+/// The scene has no map, for the returned reason.
 ///
 /// ```
 /// use asperity_study::{MAP_LINES, live_plan};

@@ -38,7 +38,8 @@ pub struct ProfileAdhesion {
 }
 
 impl ProfileAdhesion {
-    /// Solves a scene on the random profile of this seed. `line` has the spectrum of its measured surface.
+    /// Computes the adhesion of a scene on the random profile of this seed. `line` has the spectrum of the measured
+    /// surface.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -76,13 +77,13 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Solves a scene on `count` random profiles with the spectrum of its measured surface, beginning with the seed of the
-    /// scene. The files are read with the options of the scene, relative to the folder of the scene file. `jobs` threads
-    /// share the profiles. The results do not depend on the number of threads.
+    /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface, beginning
+    /// with the seed of the scene. The files are read with the options of the scene, relative to the folder of the scene
+    /// file. `jobs` threads share the profiles. The results do not depend on the number of threads.
     ///
     /// # Errors
-    /// The scene makes no random profiles from a measured surface, a file cannot be read, or a profile fails; then the
-    /// first error is returned.
+    /// The scene makes no random profiles from a measured surface, a file cannot be read, or a profile fails. Of several
+    /// errors the first is returned.
     ///
     /// ```
     /// let folder = tempfile::tempdir()?;
@@ -111,8 +112,8 @@ impl MeasuredAdhesion {
         MeasuredAdhesion::solve(scene, &line, count, jobs)
     }
 
-    /// Solves a scene as [`MeasuredAdhesion::of`] does. `line` has the spectrum of its measured surface, analysed with the
-    /// options of the scene.
+    /// Does the same as [`MeasuredAdhesion::of`] for a checked scene. `line` has the spectrum of its measured surface,
+    /// analysed with the options of the scene.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -136,15 +137,15 @@ impl MeasuredAdhesion {
         Statistics::of(forces, Quantity::AdhesionForce.bounds())
     }
 
-    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the spectrum. It is the root
-    /// mean square of the changes on all profiles. It is `None` for fewer than two profiles.
+    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the spectrum; `None` for fewer
+    /// than two profiles. It is the root mean square of the changes on all profiles.
     pub fn fit_deviation(&self) -> Option<f64> {
         rms(self.profiles.iter().filter_map(|profile| profile.fit_change))
     }
 
     /// Returns an interval around the median adhesion force in N that shows the uncertainty of the spectrum; `None` for
-    /// fewer than two profiles. Its ends are the median divided and multiplied by one factor, from the root mean square of
-    /// the relative changes.
+    /// fewer than two profiles. Its ends are the median divided by a factor and multiplied by this factor, which follows
+    /// from the relative changes of the forces.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
@@ -154,7 +155,8 @@ impl MeasuredAdhesion {
         Some((median / factor, median * factor))
     }
 
-    /// Returns the numbers of profiles in each regime, turned at first touch and turned at zero force.
+    /// Returns the numbers of profiles in each regime: first if the loading turns at first touch, then if it turns at zero
+    /// force.
     pub fn regimes(&self) -> [RegimeCounts; 2] {
         let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
         [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))

@@ -8,8 +8,8 @@ use asperity_scene::{
 };
 
 impl Axis {
-    /// Returns the value of the quantity in a scene; `None` if the scene has none. `computed` has κ, γ and others of a
-    /// scene whose file must be read to obtain them.
+    /// Returns the value of the quantity in a scene; `None` if the scene has none. `computed` has parameters such as κ,
+    /// which for a measured surface follow only from its file.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -121,8 +121,8 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
     }
 }
 
-/// Returns the scene file with other values on axes. A scene with a work of adhesion keeps this form at another κ or
-/// e_el/γ: its work changes. A preload replaces the loading.
+/// Returns the scene file with other values on axes. A scene that states a work of adhesion gets the work that belongs to
+/// another κ or e_el/γ. A preload replaces the loading of the scene.
 ///
 /// # Errors
 /// A value is not allowed.

@@ -31,8 +31,8 @@ const SAME: [&[&str]; 3] = [
     &["adhesion.work", "adhesion.kappa", "adhesion.elastic_energy_ratio"],
 ];
 
-/// Checked plan of a study. A *cell* is a combination of one value on each axis, and a *record* has the recorded quantities
-/// of a cell on one random profile.
+/// Checked plan of a study. A *cell* is a combination of one value on each axis. A *record* has the recorded quantities of
+/// a cell on one random profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Title of the study in one line.
@@ -41,8 +41,8 @@ pub struct Plan {
     pub notice: String,
     /// Scene whose numbers vary. Its files have absolute paths.
     pub scene: Scene,
-    /// Axes of the study; cells are counted with the last axis fastest. An axis of preloads in units of E* h L is the last
-    /// one, and replaces the loading of the scene.
+    /// Axes of the study; cells are counted with the last axis fastest. An axis of preloads is the last one, and replaces
+    /// the loading of the scene. Its unit is E* h L with the rms height h.
     pub axes: Vec<Axis>,
     /// Number of random profiles on which each cell is computed.
     pub lines: u64,
@@ -50,13 +50,13 @@ pub struct Plan {
     pub seed: u64,
     /// Quantities that are recorded for each cell and profile.
     pub record: Vec<Quantity>,
-    /// Range of forces for the exponents of force and stiffness without adhesion.
+    /// Range of forces over which the exponents of force and stiffness without adhesion are fitted.
     pub stiffness: StiffnessRange,
     /// SHA-256 of the content of the measured file as 64 hexadecimal digits; `None` outside the folder of a study.
     pub measured_sha256: Option<String>,
 }
 
-/// Range of forces for the exponents of force and stiffness without adhesion, in units of E* h L.
+/// Range of forces over which the exponents of force and stiffness without adhesion are fitted, in units of E* h L.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -142,14 +142,14 @@ impl Plan {
         (0..self.axes.len()).map(|axis| self.value(cell, axis)).collect()
     }
 
-    /// Returns the values of the axes in a cell in words.
+    /// Returns the values of the axes in a cell as text.
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
         if all.is_empty() { "the scene itself".into() } else { all.join(", ") }
     }
 
-    /// Returns the scene of a cell. Its loading is the loading of the scene of the plan, without the preload of the cell.
+    /// Returns the scene of a cell. Its loading is the one in the plan, without the preload of the cell.
     ///
     /// # Errors
     /// The scene lacks the number of an axis, or values are out of their ranges.

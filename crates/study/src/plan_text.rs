@@ -66,8 +66,8 @@ struct PlanText {
 }
 
 impl Plan {
-    /// Opens and checks a plan. It is a file if one of this name exists or if the name looks like a path; otherwise it is a
-    /// built-in plan. The path of a scene is relative to the file of the plan.
+    /// Opens and checks a plan. `name_or_path` means a file if the file exists or if the text looks like a path. Otherwise
+    /// the text is the name of a built-in plan. The path of a scene is relative to the file of the plan.
     ///
     /// # Errors
     /// The plan cannot be read, or has errors, possibly in the scenes of its cells. All errors are returned.

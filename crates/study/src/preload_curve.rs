@@ -39,7 +39,7 @@ impl PreloadCurve {
     /// receives the curve.
     ///
     /// # Errors
-    /// The scene has no such curve, a profile or contact fails, or `stop` returned true.
+    /// The scene has no adhesion force over the preload, a profile or contact fails, or `stop` returned true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
@@ -113,8 +113,8 @@ impl PreloadCurve {
         self.results.records_of(0).count()
     }
 
-    /// Returns statistics of the adhesion force in N over the computed profiles, at a preload of the axis in N; `None` for
-    /// fewer than two profiles.
+    /// Returns statistics of the adhesion force in N over the computed profiles; `None` for fewer than two profiles.
+    /// `preload` is a preload of the axis in N.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         let spread = self.results.spread_of_adhesion().into_iter();
         let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();

@@ -128,7 +128,7 @@ impl Staircase {
     /// halved.
     ///
     /// # Errors
-    /// A preload is below the force at first touch, or an error of [`Simulation::reverse`].
+    /// A preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.
     ///
     /// ```
     /// use asperity_data::AxisScale;

@@ -60,7 +60,6 @@ pub(super) fn on_profiles<R: Send>(
 ///
 /// # Errors
 /// A number fails. The error belongs to the smallest number that fails.
-/// The error of the smallest number that fails.
 pub(super) fn on_threads_received<M: Send, R: Send, W: FnMut(u64) -> Result<R, StudyError>>(
     count: u64,
     jobs: usize,

@@ -188,10 +188,10 @@ impl Quantity {
     pub const ADHESION_SHARES: [Quantity; 2] =
         [Quantity::FirstTouchAdhesionShare, Quantity::ZeroForceAdhesionShare];
 
-    /// Regimes of adhesion, turned at first touch and turned at zero force.
+    /// Regimes of adhesion if the loading turns at first touch, and if it turns at zero force.
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns in words where the loading turns for the regime that a map of this quantity shows: `turned at zero force` or
+    /// Returns where the loading turns for the regime in a map of this quantity: `turned at zero force` or
     /// `turned at first touch`.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce { "turned at zero force" } else { "turned at first touch" }

@@ -52,8 +52,8 @@ pub struct Question {
 pub struct Answer {
     /// Seed of the profile; `None` for a fixed profile.
     pub seed: Option<u64>,
-    /// All numbers at which the quantity crosses the target, ascending. A crossing lies between two close numbers; this is
-    /// the one at which the quantity is at least the target.
+    /// All numbers at which the quantity crosses the target, ascending. A crossing is known as two close numbers. The list
+    /// has the one at which the quantity is at least the target.
     pub crossings: Vec<f64>,
     /// Whether the quantity is at least the target, at the smallest and at the largest searched number.
     pub reached: [bool; 2],
@@ -68,7 +68,6 @@ pub struct Answer {
 ///
 /// # Errors
 /// The condition is wrong; the error says what is allowed.
-/// What is wrong with the condition, and what is allowed.
 ///
 /// ```
 /// use asperity_study::{Quantity, parse_condition};
@@ -102,7 +101,7 @@ impl Question {
     /// Preloads are searched from 0 N to a hundred times the largest force of the loading.
     ///
     /// # Errors
-    /// The scene lacks the number, or several profiles are requested of a scene that has one.
+    /// The scene lacks the number, or several profiles are requested of a scene with a fixed profile.
     pub fn new(
         scene: &CheckedScene,
         path: &str,

@@ -43,8 +43,8 @@ pub struct ReferenceOptions {
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
-    /// Returns the options for a scene with `maps` squares. By default there are 24 squares without adhesion, and 12
-    /// squares with adhesion, which take ten times as long.
+    /// Returns the options of a comparison with `maps` random squares. By default there are 24 squares without adhesion,
+    /// and 12 squares with adhesion, which take ten times as long.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions { cells: 64, maps, lines: LINES_PER_MAP * maps }
@@ -60,8 +60,8 @@ pub struct Compared {
     pub half_space: Statistics,
     /// Mean over the profiles divided by the mean over the squares.
     pub ratio: f64,
-    /// Half the width of the 95 % interval of the ratio, from the standard errors of both means; `None` for fewer than two
-    /// profiles or squares.
+    /// Half the width of the 95 % interval of the ratio, from the standard errors of both means. It is `None` for fewer
+    /// than two profiles or squares.
     pub error: Option<f64>,
 }
 
@@ -99,11 +99,11 @@ pub struct Reference {
     pub first_touch_adhesion_force: Option<Compared>,
     /// Dissipated energy, J; `None` without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// Errors of the profile by their sources.
+    /// Errors of the profile as a model of three dimensions, by their sources.
     pub budget: ReferenceBudget,
     /// Number of convolutions on the squares, the costly operation of the solver.
     pub convolutions: u64,
-    /// Computing time of the profiles and of the squares, s.
+    /// Computing times of all profiles and of all squares, s.
     pub seconds: [f64; 2],
     /// Mean computing time of one square, s.
     pub seconds_of_square: f64,
@@ -112,7 +112,7 @@ pub struct Reference {
 /// Errors by their sources, as shares of the adhesion force, or of the indentation without adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest residual of the contacts without adhesion, in units of the rms height.
+    /// Largest residual of the solver in contacts without adhesion, in units of the rms height.
     pub solver: f64,
     /// Difference from squares with half as many cells along the side; `None` if these are too few cells.
     pub grid: Option<f64>,

@@ -96,13 +96,12 @@ impl Results {
         Ok(Results { plan, values, done: vec![false; records as usize], failed: BTreeMap::new() })
     }
 
-    /// Makes a study in memory of a checked scene on `lines` random profiles, without values so far. With `preloads` in N,
-    /// each of them replaces the loading.
+    /// Makes a study in memory without values so far: a checked scene on `lines` random profiles. Each of the `preloads` in
+    /// N, if any, replaces the loading.
     ///
     /// # Errors
-    /// Several profiles are requested of a scene that has one, preloads are requested without the exact solver, or the
-    /// study is too large for the memory.
-    /// memory.
+    /// Several profiles are requested of a scene with a fixed profile, or preloads without the exact solver. The study is
+    /// too large for the memory.
     pub fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -117,11 +116,11 @@ impl Results {
         Results::empty(Plan { axes, ..Plan::of_scene(scene, lines, record) })
     }
 
-    /// Computes a study that [`Results::begin`] makes. Files of the scene are relative to `folder`. `jobs` threads share
-    /// the profiles. The results do not depend on the number of threads.
+    /// Makes a study as [`Results::begin`] does, and computes it. Files of the scene are relative to `folder`. `jobs`
+    /// threads share the profiles. The results do not depend on the number of threads.
     ///
     /// # Errors
-    /// An error of [`Results::begin`], or a profile fails.
+    /// A profile fails. The errors of [`Results::begin`] are possible too.
     pub fn of_scene(
         scene: &Scene,
         folder: &Path,
@@ -137,8 +136,8 @@ impl Results {
         Ok(results)
     }
 
-    /// Computes the missing profiles of a study that [`Results::begin`] made, on several threads, of which the first uses
-    /// the simulation of `workers`. After each profile `report` receives the results on this thread.
+    /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` are the simulation of the first
+    /// thread and the number of threads. After each profile `report` receives the results on this thread.
     ///
     /// # Errors
     /// A profile or its contact fails, or `stop` returned true.
@@ -354,7 +353,8 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a cell in each regime, turned at first touch and turned at zero force.
+    /// Returns the numbers of profiles of a cell in each regime. The first numbers are for loadings that turn at first
+    /// touch, the second for loadings that turn at zero force.
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES.map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))

@@ -66,7 +66,8 @@ impl Selection {
     /// Selects a part of a study.
     ///
     /// # Errors
-    /// The study lacks a quantity, an axis or a value; the error lists what it has. More than two axes are not fixed.
+    /// The study lacks a quantity, an axis or a value; the error lists what it has. More than two axes are left without a
+    /// fixed value.
     pub fn of(&self, study: &Results) -> Result<Selected, String> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;

@@ -58,7 +58,7 @@ pub struct Sensitivity {
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
-    /// Results that are compared.
+    /// Results whose changes are computed.
     pub const RESULTS: [Quantity; 3] =
         [Quantity::AdhesionForce, Quantity::FirstTouchAdhesionForce, Quantity::DissipatedEnergy];
 

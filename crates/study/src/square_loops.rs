@@ -6,7 +6,7 @@ use super::reference::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Loops of random squares in three dimensions, as far as they are computed.
+/// Loops of loading and unloading of random squares in three dimensions, as far as they are computed.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of squares when all are computed.
@@ -23,7 +23,7 @@ impl SquareLoops {
     /// Computes the loops of a scene. After each loop `report` receives the loops so far.
     ///
     /// # Errors
-    /// An error of [`Reference::of`].
+    /// The same as the errors of [`Reference::of`].
     pub fn of(
         scene: &CheckedScene,
         simulation: (Simulation, usize),

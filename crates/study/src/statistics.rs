@@ -25,7 +25,7 @@ pub struct Statistics {
     pub quartiles: [f64; 3],
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// Spread of the values and confidence of the mean; `None` for one value, or if the values allow no confidence.
+    /// Spread of the values and confidence of the mean; `None` for one value, or if no confidence interval can be computed.
     #[serde(flatten)]
     pub spread: Option<Spread>,
 }

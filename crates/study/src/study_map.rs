@@ -144,7 +144,7 @@ impl StudyMap {
         }
     }
 
-    /// Returns the document with the values of a map on the axes that are not axes of the map.
+    /// Returns the document with the values that a map has on the other axes of the study.
     ///
     /// # Errors
     /// The scene does not allow these values.

@@ -176,7 +176,7 @@ impl Results {
         self.with_reasons(table, |row| row.2)
     }
 
-    /// Reads the values of a merged study from its folder.
+    /// Reads the values of a study from its folder, in which [`merge`] wrote the tables.
     ///
     /// # Errors
     /// The folder contains no study, or a table is missing, was changed or belongs to another plan.

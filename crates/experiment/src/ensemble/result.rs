@@ -47,10 +47,10 @@ pub struct EnsembleFit {
     /// Standard deviation of the largest forces divided by their mean; `None` if they differ by noise only. With a value,
     /// each random profile is loaded by the preload of one of the curves.
     pub preload_scatter: Option<f64>,
-    /// Results of each curve used without the others.
+    /// Results that each single curve gives.
     pub curves: Vec<CurveOfEnsemble>,
-    /// Standard deviation of the curves divided by the standard deviation of the random profiles, expected between about
-    /// 0.8 and 1.2; `None` for fewer than 4 curves.
+    /// Scatter of the single curves divided by the scatter of the random profiles, expected between about 0.8 and 1.2. It
+    /// is `None` for fewer than 4 curves.
     pub scatter_ratio: Option<f64>,
     /// True if random profiles describe the mean of each summary, a number such as the pull-off force or the loop area.
     pub described: bool,
@@ -96,7 +96,7 @@ pub struct RoughnessShifts {
     pub modulus_by_hurst: f64,
 }
 
-/// Results of one of the compared curves.
+/// Results that one of the compared curves gives by itself.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct CurveOfEnsemble {
@@ -110,15 +110,15 @@ pub struct CurveOfEnsemble {
     pub loop_area: f64,
     /// Mean stiffness of the retraction from the preload down to half the preload, N/m.
     pub stiffness: f64,
-    /// Work of adhesion found from this curve without the others, J/m².
+    /// Work of adhesion found from this single curve, J/m².
     pub work: IntervalEstimate,
-    /// True if the interval from this curve alone reaches an end of the table of computed curves.
+    /// True if the interval from this single curve reaches an end of the table of computed curves.
     pub at_end_of_table: bool,
     /// True if at most one of a thousand curves of random profiles lies as far from the mean as this curve.
     pub foreign: bool,
 }
 
-/// Mean of a summary over the measured curves, compared with random profiles.
+/// Mean of a summary, a number such as the pull-off force, over the measured curves, compared with random profiles.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SummaryDeviation {

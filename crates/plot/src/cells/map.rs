@@ -84,8 +84,8 @@ fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
     below(cell).zip(below(other)).is_some_and(|(here, there)| here != there)
 }
 
-/// Returns the colour scale of a map, at most about `columns` wide: samples of the shades with the numbers between them,
-/// each with its style.
+/// Returns the colour scale of a map: samples of the shades with the numbers between them, each with its style. `columns`
+/// is the available width.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

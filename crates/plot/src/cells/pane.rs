@@ -48,8 +48,8 @@ pub struct ContactRow {
     pub marked: Option<(f64, f64)>,
 }
 
-/// Divides an area into the area of a chart and the area of a chart on its right; `None` if there is no room for the
-/// second.
+/// Divides an area into the area of a chart and the area of a second chart on its right. The second area is `None` if there
+/// is no room.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);

@@ -55,8 +55,8 @@ impl CellPlot {
         CellPlot { line, ..CellPlot::above(area, chart, u16::from(line)) }
     }
 
-    /// Divides an area of the screen between the plot and the scales of a chart, with `between` rows between the plot and
-    /// the numbers below it. The caller draws these rows.
+    /// Divides an area of the screen between the plot and the scales of a chart. The caller draws `between` rows between
+    /// the plot and the numbers below it.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
@@ -95,8 +95,8 @@ impl CellPlot {
         Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
 
-    /// Returns the screen cell of a point, given as numbers on both axes. For a point outside the chart it is `None`, or on
-    /// a map the nearest cell at the edge.
+    /// Returns the screen cell of a point, given as numbers on both axes. Outside the chart the cell is `None`, or on a map
+    /// the nearest cell at the edge.
     pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));

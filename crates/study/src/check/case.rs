@@ -19,13 +19,12 @@ pub(super) enum Subject {
     Bodies(fn(&Body) -> Measured),
 }
 
-/// Case of the catalogue of checks, whose result is known.
+/// Case with a known result, by which this program is checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Name of the case.
     pub name: &'static str,
-    /// Family of the case: bodies with a known loop, laws valid for every body, or input at the limits of numbers and of
-    /// the rules.
+    /// Family of the case: bodies with a known loop, laws for every body, or input at the limits of numbers and rules.
     pub family: &'static str,
     /// Statement that the case checks.
     pub holds: &'static str,

@@ -16,12 +16,12 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// Case of the catalogue, with the edge model for which it is checked.
+/// Case that is checked with one model of the edges of patches.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// Case that is checked.
     pub case: Case,
-    /// Edge model of the patches: edges at springs or between springs.
+    /// Model of the edges of patches: at springs or between springs.
     pub edges: Edges,
     /// Largest allowed error.
     pub bound: f64,
@@ -51,7 +51,7 @@ pub fn catalogue() -> Vec<Case> {
     [closed_forms::CASES, laws::CASES, hard_cases::CASES].concat()
 }
 
-/// Returns the checks of the cases that `choose` selects, one for each edge model.
+/// Returns the checks of the cases that `choose` selects, one for each model of the edges.
 ///
 /// ```
 /// use asperity_study::{checks, judge_case};
