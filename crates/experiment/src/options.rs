@@ -133,8 +133,8 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument of the scene in N/m. It serves to convert a displacement of the body to the displacement
-    /// of the instrument.
+    /// Stiffness of the instrument in N/m, as the scene states it. It serves to convert a displacement of the body to the
+    /// displacement of the instrument.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
     /// Number of points before contact; default: found from the force

@@ -25,8 +25,8 @@ pub struct Figure {
     /// Width of the picture in px (1/96 inch); `None` for the width that its frames need. Letters and lines keep their
     /// size.
     pub width: Option<f64>,
-    /// Height of the picture in px (1/96 inch); `None` for the height that its frames need. With a given width this height
-    /// is at most a page.
+    /// Height of the picture in px (1/96 inch); `None` for the height that its frames need. With a given width the picture
+    /// is at most as high as a page.
     pub height: Option<f64>,
     /// True if the picture is drawn without its title, because a caption has it.
     pub untitled: bool,

@@ -19,7 +19,7 @@ pub struct SectionContact<'a> {
     pub patches: &'a [Patch],
 }
 
-/// Range of springs that a chart shows, at least one, and number of columns of the chart.
+/// Range of springs that a chart shows, and number of columns of the chart. The range has at least one spring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
     /// Index of the first spring.

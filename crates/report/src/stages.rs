@@ -4,7 +4,7 @@ use crate::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
 use asperity_scene::{PlannedStage, Workload};
 
-/// Returns the computing stages of a scene as a table, and the memory that they need.
+/// Returns a table of the computing stages of a scene, with the memory that each stage needs.
 pub fn stages_text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     let count = |count: u64| if count > 0 { grouped(count) } else { String::new() };

@@ -43,13 +43,13 @@ pub struct AdhesionBoundary {
 /// Value of κ or e_el/γ at which the mean of F_a(d=0)/F_a,max, or of F_a(F=0)/F_a,max, falls below a share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Position of the boundary. If the boundary lies beyond the studied range, this is the end of the range.
+    /// Position of the boundary. If the boundary lies beyond the studied range, the value is the end of the range.
     pub value: f64,
     /// Side of the studied range on which the boundary lies: `Equal` within the range, `Less` below its smallest value,
     /// `Greater` above its largest value.
     pub side: Ordering,
     /// Ends of the 95 % confidence interval from random selections of profiles. `None` if there are too few profiles, or if
-    /// the share is not crossed in some selection.
+    /// the mean of a selection does not fall below the share.
     pub interval: Option<(f64, f64)>,
 }
 

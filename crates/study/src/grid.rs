@@ -172,8 +172,8 @@ impl Grid {
         )
     }
 
-    /// Returns the cell that is shown at values on the axes, with its column and row. Beyond the grid this is the cell at
-    /// its edge.
+    /// Returns the cell that is shown at values on the axes, with its column and row. Beyond the grid, returns the cell at
+    /// the edge.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest = |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;

@@ -31,9 +31,9 @@ pub struct ProfileAdhesion {
     pub adhesion_force: Option<f64>,
     /// Change of F_a in N, to first order, for a change of the spectrum drawn from the uncertainty of the fit.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion with the fitted spectrum, turned at first touch.
+    /// Regime of adhesion with the fitted spectrum, if the loading turns at first touch.
     pub regime: Option<Regime>,
-    /// Regime of adhesion with the fitted spectrum, turned at zero force.
+    /// Regime of adhesion with the fitted spectrum, if the loading turns at zero force.
     pub regime_after_zero_force: Option<Regime>,
 }
 

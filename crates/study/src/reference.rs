@@ -114,7 +114,7 @@ pub struct Reference {
 pub struct ReferenceBudget {
     /// Largest residual of the solver in contacts without adhesion, in units of the rms height.
     pub solver: f64,
-    /// Difference from squares with half as many cells along the side; `None` if these are too few cells.
+    /// Difference from squares with half as many cells along the side; `None` if the coarser squares have too few cells.
     pub grid: Option<f64>,
     /// Half the width of the 95 % interval of the ratio, due to the finite numbers of squares and profiles.
     pub sample: Option<f64>,

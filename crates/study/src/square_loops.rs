@@ -6,7 +6,7 @@ use super::reference::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Loops of loading and unloading of random squares in three dimensions, as far as they are computed.
+/// Loops of loading and unloading for random squares in three dimensions, as far as they are computed.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
     /// Number of squares when all are computed.

@@ -80,7 +80,7 @@ impl Statistics {
         Some(Statistics { count: values.len(), mean, quartiles, range, spread })
     }
 
-    /// Columns of tables of statistics: ending of the name, and function that returns the value.
+    /// Columns of a table with statistics: ending of the name, and function that returns the value.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),

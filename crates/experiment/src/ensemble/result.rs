@@ -29,7 +29,7 @@ pub struct EnsembleFit {
     pub closing_over_opening: f64,
     /// Correlation of ln γ and ln E*; 0 for a given E*.
     pub correlation: f64,
-    /// Sources of the interval of the work of adhesion.
+    /// Sources of the uncertainty of the work of adhesion.
     pub shares: Shares,
     /// Precision of the work of adhesion that more curves would give.
     pub prospects: Vec<Prospect>,
@@ -60,7 +60,7 @@ pub struct EnsembleFit {
     pub at_end_of_table: bool,
 }
 
-/// Shares of the squared half-width of the interval of the work of adhesion, by their source. Their sum is 1.
+/// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of its interval. Their sum is 1.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Shares {

@@ -73,8 +73,8 @@ impl CellPlot {
         CellPlot { plot, left, between, line: false, below, label }
     }
 
-    /// Returns the numbers on both axes at a cell of the screen. On a map they are the numbers of the value that the cell
-    /// shows; `None` outside the map. Otherwise they are the numbers at the middle of the nearest cell of the plot.
+    /// Returns the numbers on both axes at a cell of the screen. On a map they belong to the map cell behind the screen
+    /// cell; `None` outside the map. Otherwise they are the numbers at the middle of the nearest cell of the plot.
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {

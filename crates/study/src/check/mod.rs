@@ -64,7 +64,7 @@ pub fn checks(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
     catalogue().into_iter().filter(|case| choose(case)).flat_map(of).collect()
 }
 
-/// Computes a check with its error.
+/// Runs a check and measures its error.
 pub fn judge_case(check: Check) -> Verdict {
     let (clock, edges) = (Instant::now(), check.edges);
     let error = match check.case.subject {
