@@ -1,4 +1,4 @@
-//! The intervals of many fits of curves with known values hold these values.
+//! Test: the intervals of many fits hold the known values of their curves.
 
 use crate::error::ExperimentError;
 use crate::fit::{FitResult, FittedParameter};

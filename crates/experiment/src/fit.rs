@@ -1,5 +1,5 @@
-//! Fit of the parameters of a scene to a measured curve, with their errors, and the parameters that the curve cannot
-//! separate.
+//! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit also finds the
+//! parameters that the curve cannot separate.
 
 use crate::baseline::dot;
 use crate::curve::MeasuredCurve;
@@ -18,13 +18,13 @@ use asperity_scene::Simulation;
 use asperity_scene::scene_tabor_number;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// Correlation above which parameters are not separated, and half width of a 95 % interval of a logarithm above which it is
-/// undetermined.
+/// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
+/// parameter is undetermined.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
-/// Number of points that are enough for a curve whose residuals are no noise.
+/// Number of points that are enough for a curve whose residuals are more than noise.
 const ENOUGH: usize = 400;
-/// Half width of the 95 % interval of a normal distribution, in standard deviations.
+/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
 /// A fitted parameter with its errors.
@@ -125,7 +125,7 @@ impl FitResult {
     }
 }
 
-/// A fit to be made: a scene and its free parameters.
+/// Fit of a scene, with its free parameters, to a measured curve.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -154,37 +154,40 @@ pub struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// A fit of this scene, without a free parameter so far.
+    /// Makes a fit of a scene without free parameters.
     pub fn of(document: &'a Document) -> Self {
         Fit { document, free: Vec::new() }
     }
 
-    /// Frees a parameter, in a range of its own if it is a [`Free::within`].
+    /// Adds a free parameter, which is searched in its own range if it comes from [`Free::within`].
     #[must_use]
     pub fn free(mut self, free: impl Into<Free>) -> Self {
         self.free.push(free.into());
         self
     }
 
-    /// Fits the free parameters to a curve, on one thread. The progress is the number of curves computed so far.
+    /// Fits the free parameters to a curve on one thread. The reported progress is the number of curves computed so far.
     ///
-    /// A population of parameter sets is drawn over the ranges, evenly in their logarithms. The assumed noise starts large,
-    /// where jumps count little, and is lowered to the noise of the curve. At each step likely sets are copied, unlikely
-    /// sets are dropped, and all are moved (sequential Monte Carlo). A point on the wrong side of a jump counts by the
-    /// logarithm of its residual. Zero, drift and tilt are estimated anew with each model. The population is drawn twice if
-    /// the residual remains above the noise, and the better one is kept. Residuals that are no noise are divided into four
-    /// parts of each segment; the errors are then the scatter of the values if parts are weighted anew (jackknife).
+    /// The search is a sequential Monte Carlo method. A population of parameter sets is drawn over the ranges, evenly in
+    /// the logarithms of most parameters. The assumed noise starts large, so that jumps count little, and is lowered to the
+    /// noise of the curve. At each step likely sets are copied, unlikely sets are dropped, and all sets are moved. A point
+    /// on the wrong side of a jump counts by the logarithm of its residual.
+    ///
+    /// Each model comes with its own estimate of zero, drift and tilt of the force. Another population is drawn if the
+    /// residual remains above the noise, and the better population is kept. If the residuals are more than noise, each
+    /// segment is divided into four parts. The errors then come from the scatter of the values as the weights of the parts
+    /// change (jackknife).
     ///
     /// # Errors
-    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. A value of the curve is not allowed,
-    /// a computation fails, or `stop` returns true.
+    /// No parameter is free, a parameter is given twice, or the scene lacks a parameter. The curve is unsuitable, a
+    /// computation fails, or the fit is stopped.
     pub fn run(&self, curve: &MeasuredCurve, mut control: Control<'_>) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
         find(curve, self.document, &self.free, stop, &mut |computed| control.report(computed as u64))
     }
 }
 
-/// Fits parameters of a scene to a curve; `report` receives the number of computed curves.
+/// Fits parameters of a scene to a curve. `report` receives the number of curves computed so far.
 fn find(
     curve: &MeasuredCurve,
     document: &Document,
@@ -275,7 +278,7 @@ fn find(
     })
 }
 
-/// The result of the search, with the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
+/// Result of a search: the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
 /// computed.
 struct Searched {
     found: Found,
@@ -284,8 +287,8 @@ struct Searched {
     evaluations: usize,
 }
 
-/// Searches the parameters. If the residuals of a part of the points are no noise, the search uses these points alone: more of
-/// them would not average the residuals out.
+/// Searches the parameters. If the residuals of a part of the points are more than noise, the search uses only these
+/// points, because further points would not reduce the residuals.
 fn searched(
     curve: &MeasuredCurve,
     document: &Document,
