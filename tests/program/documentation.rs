@@ -10,7 +10,7 @@ use asperity::explorer::config::Config;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::row;
 use asperity::scene::Simulation;
-use asperity::scene::{Document, FIELDS, Field, LEG_FIELDS, LEG_FORCE, Range, presets};
+use asperity::scene::{Document, FIELDS, Field, LEG_FIELDS, LEG_FORCE, Range};
 use asperity::scene::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::{RngExt, SeedableRng};
@@ -24,7 +24,7 @@ const LONGEST_README: usize = 200;
 /// Pages of the documentation and their contents, in the order of the README's table.
 const PAGES: [(&str, &str); 17] = [
     ("learn.md", "the model by hand: springs, the rule of Hess, a loop, five springs, regimes, limits"),
-    ("scene-file.md", "fields of a scene, waves, loading, forms, built-in scenes"),
+    ("scene-file.md", "fields of a scene, waves, loading, forms"),
     ("results.md", "summary, JSON, tables, figures"),
     ("keys.md", "panes and keys of the explorer, typed values, configuration"),
     ("studies.md", "inverse questions, parameter studies, statistics, clusters"),
@@ -90,23 +90,12 @@ fn tables_are_those_of_the_program() {
     let panes = Pane::ALL.iter().flat_map(|pane| row(*pane).help);
     let panes = panes.map(|(name, content)| [(*name).to_owned(), content.replace('|', "\\|")]);
     check("docs/keys.md", "panes", &markdown(["pane", "content"], panes));
-    let plans = asperity::study::PLANS.iter().map(|plan| {
-        let read = Plan::open(plan.name, &Changes::default()).unwrap();
-        let cells = read.cells();
-        [format!("`{}`", plan.name), cells.to_string(), read.lines.to_string(), read.title.clone()]
-    });
-    check("docs/studies.md", "plans", &markdown(["plan", "cells", "random profiles", "title"], plans));
     let quantities = Quantity::ALL.iter().map(|one| {
         let unit = [one.symbol(), one.unit()].into_iter().filter(|word| !["", "1"].contains(word));
         let unit = escaped(&unit.collect::<Vec<_>>().join(", "));
         [format!("`{}`", one.name()), unit, escaped(one.meaning())]
     });
     check("docs/studies.md", "quantities", &markdown(["quantity", "symbol, unit", "meaning"], quantities));
-    let scenes = presets().iter().map(|preset| {
-        let document = asperity::scene::open(preset.name).unwrap();
-        [format!("`{}`", preset.name), document.title().to_owned()]
-    });
-    check("docs/scene-file.md", "scenes", &markdown(["scene", "title"], scenes));
     for (page, part, is_measured) in
         [("docs/scene-file.md", "fields", false), ("docs/surfaces.md", "measured fields", true)]
     {
@@ -172,13 +161,15 @@ fn pictures_are_those_of_their_commands() {
     for inside in ["docs/learn", "docs/examples", "docs/particles"] {
         std::fs::create_dir_all(folder.path().join(inside)).unwrap();
     }
-    for file in ["docs/examples/five-springs.ron", "docs/examples/five-springs.txt"] {
-        std::fs::write(folder.path().join(file), read(file)).unwrap();
+    for file in ["five-springs.ron", "five-springs.txt", "turned-at-first-touch.ron", "turned-at-zero-force.ron"]
+    {
+        let file = format!("docs/examples/{file}");
+        std::fs::write(folder.path().join(&file), read(&file)).unwrap();
     }
     let sphere =
         "asperity run jkr-sphere --set \"material=(effective_modulus:1e6)\" -o docs/learn/sphere.svg";
-    let protocols = "asperity run pressure-sensitive --set \
-                     \"loading=[ToTouch,ToSeparation,ToZeroForce,ToSeparation]\" -o docs/learn/protocols.svg";
+    let protocols = "asperity run docs/examples/turned-at-first-touch.ron docs/examples/turned-at-zero-force.ron \
+                     -o docs/learn/protocols.svg";
     let of_particles =
         |scene, file| format!("asperity run {scene} --set numerics.samples=64 -o docs/particles/{file}.csv");
     let staircase = "asperity run docs/examples/five-springs.ron --preloads 0nN..40nN:41 \

@@ -180,20 +180,11 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
             let per_cent = |value: f64| format!("{:.1}", 100.0 * value);
             let [one, four, many] = spreads.map(per_cent);
             if hurst != 0.5 {
-                let waves = format!("{waves:.0}");
-                rows.push([hurst.to_string(), name.to_owned(), waves, per_cent(least), one, four, many]);
+                rows.push([hurst.to_string(), name.to_owned(), one, four, many]);
             }
         }
     }
-    let header = [
-        "H",
-        "quantity",
-        "independent waves",
-        "least spread, %",
-        "1 profile, %",
-        "4 profiles, %",
-        "16 profiles, %",
-    ];
+    let header = ["H", "quantity", "1 profile, %", "4 profiles, %", "16 profiles, %"];
     check("docs/surface-estimate.md", "profiles", &markdown(header, rows.into_iter()));
 }
 
@@ -216,7 +207,7 @@ fn a_spectrum_that_continues_keeps_the_gradient_of_point_samples() {
     check(
         "docs/surface-estimate.md",
         "ends",
-        &markdown(["H", "`Ends`, %", "continued, %"], rows.into_iter()),
+        &markdown(["H", "without, %", "with `--continue-to`, %"], rows.into_iter()),
     );
 }
 
