@@ -91,7 +91,7 @@ fn tables_are_those_of_the_program() {
         let unit = [one.symbol(), one.unit()].into_iter().filter(|word| !["", "1"].contains(word));
         let unit = unit.collect::<Vec<_>>().join(", ");
         let unit = if unit.is_empty() { unit } else { format!(" ({unit})") };
-        escaped(&format!("* `{}`{unit}: {}\n", one.name(), one.meaning()))
+        format!("* `{}`{}: {}\n", one.name(), escaped(&unit), escaped(one.meaning()))
     });
     check("docs/studies.md", "quantities", &format!("\n{}\n", quantities.collect::<String>()));
     for (page, part, is_measured) in
