@@ -27,7 +27,7 @@ pub static ROW: PaneRow = PaneRow {
     help: &[
         (
             "Map",
-            "m: regime over H and κ, of the majority of four random profiles; █ adhesion without a preload, ▒ only after \
+            "key m: regime over H and κ, of the majority of four random profiles; █ adhesion without a preload, ▒ only after \
              pressing, · hardly any; ◆ is the scene",
         ),
         ("Study", "map of a merged study: means over its profiles; ▓ ░ where profiles differ in their regimes"),

@@ -34,7 +34,7 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Sensitivity",
-        "Y: change of the median F_a where one number of the scene is 10 % smaller or larger, and the range over the \
+        "key Y: change of the median F_a where one number of the scene is 10 % smaller or larger, and the range over the \
          profiles",
     )],
 };

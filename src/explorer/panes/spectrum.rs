@@ -34,7 +34,7 @@ pub static ROW: PaneRow = PaneRow {
     },
     help: &[(
         "Spectrum",
-        "Q: power spectrum C over the wave number q; for a measured surface also h, ⟨∇z⟩ and κ or e_el/γ with their \
+        "key Q: power spectrum C over the wave number q; for a measured surface also h, ⟨∇z⟩ and κ or e_el/γ with their \
          standard errors",
     )],
     ..PaneRow::EMPTY

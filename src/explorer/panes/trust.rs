@@ -27,7 +27,7 @@ pub static ROW: PaneRow = PaneRow {
     studies: |_, computed| vec![study(computed)],
     help: &[(
         "Trust",
-        "A: relative error of F_a over the computing time, for both rules of edges and for the stepwise solver; ◆ is \
+        "key A: relative error of F_a over the computing time, for both rules of edges and for the stepwise solver; ◆ is \
          the scene. Below it the errors of F_a by their sources, and what other theories say",
     )],
     ..PaneRow::EMPTY
