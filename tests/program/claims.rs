@@ -102,10 +102,7 @@ fn check_boundaries(folder: &Path) {
         ),
     );
     let [touch, zero_force] = [kappa[0], kappa[2]].map(|(low, high)| format!("κ = {low:.2} to {high:.2}"));
-    assert_says(
-        "docs/findings.md",
-        &format!("half of F_a,max at {touch}, and F_a(F=0) at {zero_force}"),
-    );
+    assert_says("docs/findings.md", &format!("half of F_a,max at {touch}, and F_a(F=0) at {zero_force}"));
     assert!(kappa.iter().zip(&energy).all(|(kappa, energy)| energy.1 / energy.0 < kappa.1 / kappa.0));
     let (low, high) = range(kappa.iter().flat_map(|ends| [&ends.0, &ends.1]));
     assert_says("README.md", &format!("between κ = {low:.2} and {high:.1}"));
@@ -196,7 +193,10 @@ fn check_claims(folder: &Path) {
         HURST.map(|hurst| two_digits(corner.value(coefficient, &at(hurst)))).join(", ")
     };
     let skewness = [10, 20].map(|exponent| format!("{:.2}", skewness(exponent)));
-    assert_says("docs/findings.md", &format!("modes up to N/2, its root mean square stays {} for each N", skewness[0]));
+    assert_says(
+        "docs/findings.md",
+        &format!("modes up to N/2, its root mean square stays {} for each N", skewness[0]),
+    );
 
     assert!(range(&section.of_rows(share, &[])).0 > 0.0, "never zero");
     assert!(least > 0.9 && narrow.1 / narrow.0 < 1.2 && skewness[0] == skewness[1]);
@@ -222,7 +222,7 @@ fn check_claims(folder: &Path) {
             "without a preload, F_a is finite for small roughness and zero for large roughness (Fig. 5a, 6a)",
             "holds",
             format!(
-                "F_a is {}, {} and {} % of F_a,max at κ = 4, 6 and 8; it is never exactly zero: `figure-6`",
+                "F_a is {}, {} and {} % of F_a,max at κ = 4, 6 and 8; F_a is never exactly zero: `figure-6`",
                 bare[0], bare[1], bare[2]
             ),
         ),
@@ -256,7 +256,7 @@ fn check_claims(folder: &Path) {
             "F_a/F_n is very large at the boundary and falls with κ (Fig. 5b)",
             "holds",
             format!(
-                "F_a/F_n = {at_two} at κ = 2 for F_n = 1, 0.1, 0.01 E\\* h L; it falls as κ grows: `figure-6`"
+                "F_a/F_n = {at_two} at κ = 2 for F_n = 1, 0.1, 0.01 E\\* h L; the ratio falls as κ grows: `figure-6`"
             ),
         ),
         (
@@ -271,8 +271,8 @@ fn check_claims(folder: &Path) {
             "adhesion vanishes in the corner of large κ and H (Fig. 5b)",
             "in part",
             format!(
-                "F_a/F_n = {} for H = 0.1, 0.3 … 0.9 at κ = 12.5 and F_n = E\\* h L; but {} at κ = 25 and \
-                 F_n = 0.01 E\\* h L: `figure-5b`",
+                "for H = 0.1, 0.3 … 0.9: F_a/F_n falls with H at κ = 12.5 and F_n = E\\* h L ({}), but not at κ = 25 and \
+                 F_n = 0.01 E\\* h L ({}): `figure-5b`",
                 corner(12.5, 1.0),
                 corner(25.0, 0.01)
             ),

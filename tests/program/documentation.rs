@@ -159,7 +159,8 @@ fn pictures_are_those_of_their_commands() {
     for inside in ["docs/learn", "docs/examples", "docs/particles"] {
         std::fs::create_dir_all(folder.path().join(inside)).unwrap();
     }
-    for file in ["five-springs.ron", "five-springs.txt", "turned-at-first-touch.ron", "turned-at-zero-force.ron"]
+    for file in
+        ["five-springs.ron", "five-springs.txt", "turned-at-first-touch.ron", "turned-at-zero-force.ron"]
     {
         let file = format!("docs/examples/{file}");
         std::fs::write(folder.path().join(&file), read(&file)).unwrap();
@@ -254,7 +255,9 @@ fn intervals_hold_the_means_of_skewed_values_as_often_as_stated() {
     let [low, middle, high] = shares;
     assert_says(
         "docs/studies.md",
-        &format!("in {low}, {middle} and {high} % of the cases if the logarithm has the standard deviation 0.5, 1 and 2"),
+        &format!(
+            "in {low}, {middle} and {high} % of the cases if the logarithm has the standard deviation 0.5, 1 and 2"
+        ),
     );
 }
 

@@ -381,7 +381,11 @@ fn faulty_maps_have_the_moments_of_their_surface() {
     let says = |[h, gradient, energy]: [f64; 3]| format!("{h}, {gradient} and {energy} %");
     assert_says(
         "docs/surface-estimate.md",
-        &format!("h, ⟨∇z⟩ and e_el within {}. Without these options the errors reach {}.", says(with), says(without)),
+        &format!(
+            "h, ⟨∇z⟩ and e_el within {}. Without these options the errors reach {}.",
+            says(with),
+            says(without)
+        ),
     );
 }
 

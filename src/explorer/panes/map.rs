@@ -30,7 +30,10 @@ pub static ROW: PaneRow = PaneRow {
             "key m: regime over H and κ, of the majority of four random profiles; █ adhesion without a preload, ▒ only after \
              pressing, · hardly any; ◆ is the scene",
         ),
-        ("Study", "map of a merged study: means over its profiles; ▓ ░ where profiles differ in their regimes"),
+        (
+            "Study",
+            "map of a merged study: means over its profiles; ▓ ░ where profiles differ in their regimes",
+        ),
     ],
 };
 
