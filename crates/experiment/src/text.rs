@@ -36,8 +36,8 @@ impl Shape {
     }
 }
 
-/// The line at which the points begin, and their form: that of the first few like rows, or else of the first row. `None`
-/// without a row of numbers.
+/// Returns the line at which the points begin, and their form. The first few like rows decide, or else the first row.
+/// Returns `None` if there is no row of numbers.
 pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, TextFault> {
     for least in [2, 1] {
         let (mut first, mut run) = (None, None::<(usize, Shape)>);
