@@ -71,5 +71,5 @@ pub mod text_table {
     pub use crate::text_names::{HeadLines, Role, TextColumn, is_one_of};
 }
 
-/// First characters of a CSV file that begins with its scene.
+/// First characters of a CSV file of results. The comments that begin in this way state the program and the scene.
 pub const PROVENANCE: &str = "# asperity ";

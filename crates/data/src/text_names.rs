@@ -7,21 +7,21 @@ use std::collections::VecDeque;
 /// Limit of the number of characters of an unknown unit in round brackets.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column of a surface, by its name.
+/// Meaning of a column in a text file of a surface, by the name of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// The name says nothing.
+    /// The name states no meaning.
     #[default]
     Unknown,
-    /// Position along the first axis.
+    /// The column has positions along the first axis.
     X,
-    /// Position along the second axis.
+    /// The column has positions along the second axis.
     Y,
-    /// Height.
+    /// The column has heights.
     Height,
-    /// Number of the point.
+    /// The column has the number of each point.
     Number,
-    /// 0 for a point that was not measured.
+    /// The column has 0 for a point that was not measured.
     Valid,
 }
 
@@ -35,12 +35,12 @@ const ROLES: [(Role, &str); 6] = [
     (Role::Number, "index idx no nr number point points pt sample id"),
 ];
 
-/// Name of a column and, if the name states one, its unit.
+/// Name and meaning of a column, and its unit if the name states one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextColumn {
     /// Name of the column; empty if it has none.
     pub name: String,
-    /// What the column holds.
+    /// Meaning of the column.
     pub role: Role,
     /// Unit as the file writes it.
     pub unit: Option<String>,
@@ -122,8 +122,8 @@ pub fn is_one_of(word: &str, words: &str) -> bool {
     words.split(' ').any(|one| one == word)
 }
 
-/// The cells of a line of names, if there are `count` of them, or with the separator of the numbers up to `most`. They are
-/// split at the separator of the numbers, else at the separator of the line, else after closing brackets.
+/// Returns the cells of a line of names, if there are `count` of them, or with the separator of the numbers up to `most`. They
+/// are split at the separator of the numbers, else at the separator of the line, else after closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = match line.split_once([':', '=']) {
         Some((key, cells)) if is_one_of(&key.trim().to_lowercase(), "columns names fields units") => cells,
@@ -157,7 +157,7 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// Name, role and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral
+/// Returns name, role and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in `Lateral
 /// um`. An unknown unit is recognised in square brackets, behind a slash, or as a short word in round brackets: `height
 /// (measured)` is a name.
 fn column(cell: &str, is_unit: fn(&str) -> bool) -> TextColumn {

@@ -1,4 +1,4 @@
-//! Names of formats that are not read, by their first bytes or the files of an archive, so that a message can state the way out.
+//! Names of formats that are not read, by their first bytes or the files of an archive. A message can then state the way out.
 
 use crate::error::{Place, SurfaceError, refused};
 
@@ -67,7 +67,7 @@ fn unread(name: &str, allowed: &str) -> SurfaceError {
     refused(Place::File, format!("{name} is not read"), allowed)
 }
 
-/// Error for an archive with files of these names, none of which is an index.
+/// Returns the error for an archive with files of these names, none of which is an index.
 pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
     [x3p, in_json, in_yaml]: [&str; 3],

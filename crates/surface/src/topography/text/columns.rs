@@ -17,7 +17,7 @@ pub(super) struct List {
     pub valid: Option<usize>,
 }
 
-/// The columns of a list of points; `None` if the columns are rows of a map.
+/// Finds the columns of a list of points; `None` if the columns are rows of a map.
 pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceError> {
     let places = |role: Role| columns.iter().enumerate().filter(move |(_, column)| column.role == role);
     // `point 1`, `point 2` … are names of other things.

@@ -3,7 +3,7 @@
 use super::super::Unit;
 use asperity_data::text_table::{COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, is_one_of};
 
-/// Limit of the length of a header line that is examined, bytes.
+/// Largest length in bytes of a header line that is examined.
 const LONGEST: usize = 4096;
 
 /// Keys of sizes, channels and units in English and in the other languages of Gwyddion.
@@ -24,21 +24,20 @@ const SPACING_OF_AXIS: [&str; 2] = ["scale x", "scale y"];
 /// Keys of the number of columns and of rows.
 const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
 
-/// First words of the header of Wyko, whose rows run along y, and whose heights are in nm or, by its second number, in
-/// wavelengths.
+/// First words of the header of Wyko. Its rows run along y, and its heights are in nm or, by its second number, in wavelengths.
 const WYKO: &str = "wyko ascii data file format";
 
 /// Unit of lengths in headers of SPIP and Wyko.
 const NANOMETRE: &str = "nm";
 const MILLIMETRE: &str = "mm";
 
-/// A length with its unit, if it has one of its own.
+/// A length, with its unit if it has one of its own.
 type Length = (f64, Option<Unit>);
 
-/// The lines above the numbers of a text.
+/// Header of a text: the lines above its numbers, with the units, sizes and names that they state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextHeader {
-    /// Name of the channel.
+    /// Name of the channel, if the header states it.
     pub channel: Option<String>,
     /// Units of x, y and heights, from keys that name them.
     units: [Option<Unit>; 3],
@@ -50,7 +49,7 @@ pub struct TextHeader {
     sizes: [Option<Length>; 2],
     /// Distances between points of a map along and between rows.
     spacing: [Option<Length>; 2],
-    /// Number of columns and number of rows.
+    /// Number of columns and number of rows, if the header states them.
     pub counts: [Option<usize>; 2],
     /// Factor of the heights.
     factor: Option<f64>,
@@ -67,13 +66,13 @@ pub struct TextHeader {
 }
 
 impl TextHeader {
-    /// A header that states a unit of all lengths.
+    /// Creates a header that states a unit of all lengths.
     pub fn in_unit(unit: Option<Unit>) -> TextHeader {
         TextHeader { unit, ..TextHeader::default() }
     }
 
-    /// Reads a line: `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may name
-    /// columns.
+    /// Reads a line. It may be `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may
+    /// name columns.
     pub fn take(&mut self, line: &str) {
         let line = line.trim_start_matches(COMMENT).trim();
         if line.len() <= LONGEST && self.take_entry(line) {
@@ -164,7 +163,7 @@ impl TextHeader {
         true
     }
 
-    /// Distances along and between rows of a map of so many columns and rows, m.
+    /// Returns the distances in m along and between the rows of a map with these numbers of columns and rows.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         let metres = |lengths: &[Option<Length>; 2], axis: usize, usual: Option<Unit>| {
             let (length, unit) = lengths[axis]?;
@@ -179,14 +178,14 @@ impl TextHeader {
         })
     }
 
-    /// Factor of the heights.
+    /// Returns the factor by which the heights are multiplied.
     pub fn scale(&self) -> f64 {
         let of_unit = self.nanometres.filter(|_| self.units[2].is_none());
         let of_data = self.data_scale.0.filter(|_| self.data_scale.1);
         [self.factor, of_unit, of_data].into_iter().flatten().product()
     }
 
-    /// Unit of x (0), y (1) or heights (2): as the column states, else as a key states.
+    /// Returns the unit of x (0), y (1) or heights (2): as the column states, else as a key states.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
         let of_axis =
@@ -195,7 +194,7 @@ impl TextHeader {
     }
 }
 
-/// Key in lower case and value of a line.
+/// Returns the key of a line in lower case, and its value.
 fn entry(line: &str) -> Option<(String, String)> {
     let bare = |text: &str| text.trim_matches(['"', ',', ';', ' ', '\t']).to_owned();
     if let Some((key, value)) = line.split_once([':', '=', '：']) {
@@ -207,7 +206,8 @@ fn entry(line: &str) -> Option<(String, String)> {
     Some((key, bare(&value.join(" ")))).filter(|(_, value)| !value.is_empty())
 }
 
-/// The axes whose unit a key states: x (0), y (1) and heights (2); empty for the unit of all lengths; `None` for another key.
+/// Returns the axes whose unit a key states: x (0), y (1) and heights (2). The list is empty for the unit of all lengths, and
+/// `None` for another key.
 fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     let words = || key.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     if !words().any(|word| is_one_of(word, UNIT)) {
@@ -226,7 +226,7 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     if key == "値の単位" { Some(vec![2]) } else { Some(axes) }
 }
 
-/// Number of a text in any notation.
+/// Reads a number in any notation.
 fn number(text: &str) -> Option<f64> {
     match Decimal::default().read(text, Separator::SPACE) {
         TextCell::Number(value) if value.is_finite() => Some(value),
@@ -234,7 +234,7 @@ fn number(text: &str) -> Option<f64> {
     }
 }
 
-/// Length and unit of a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
+/// Reads a length and its unit from a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
 fn length(text: &str) -> Option<Length> {
     let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
     let (value, unit) = text.split_at(end);

@@ -20,10 +20,10 @@ use asperity_data::text_table::{COMMENT, each_line};
 use std::ops::Range;
 use table::{Table, is_header};
 
-/// Limit of the number of headers with numbers behind them.
+/// Largest number of headers with numbers behind them.
 const MOST_PARTS: usize = 256;
 
-/// Limit of the number of channels that a message lists.
+/// Largest number of channels that a message lists.
 const MOST_LISTED: usize = 8;
 
 /// Numbers of a text, with the header before them.
@@ -33,7 +33,7 @@ struct Part {
     table: Option<Table>,
 }
 
-/// Reads the channel with this number, from 0, of a text with several; without a number, the only channel whose heights are
+/// Reads the channel with this number, from 0, of a text with several. Without a number, reads the only channel whose heights are
 /// lengths.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     // Tables of results are in SI units.
@@ -91,8 +91,8 @@ fn no_numbers() -> SurfaceError {
     refused(Place::File, "no line of numbers", "a line of numbers for each point or row")
 }
 
-/// Index of the part and the rows of the channel with this number; without a number, of the only channel, or the only one
-/// whose heights are lengths.
+/// Returns the index of the part and the rows of the channel with this number. Without a number, chooses the only channel, or the
+/// only one whose heights are lengths.
 fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), SurfaceError> {
     let with_numbers =
         parts.iter().enumerate().filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
