@@ -40,10 +40,12 @@ mod totals;
 
 pub use adhesive::levels::Edges;
 pub use body::Reversal;
+pub use branches::Branch;
+pub use closed_form::ClosedForm;
 pub use contact::{Contact, ContactBuilder};
 pub use cycle::{Curve, Cycle, LoadOptions};
 pub use error::ContactError;
-pub use figures::Figures;
+pub use figures::{Figures, Mark};
 pub use history::{CurvePoint, Direction, History, LegRecord, Patch, Work};
 pub use modulus::Modulus;
 pub use profile::Profile;
@@ -55,15 +57,4 @@ pub mod motion {
     pub use crate::body::{Body, Motion, MovingBody, load_body};
     pub use crate::leg::{Leg, PatchState};
     pub use crate::stepwise::Stepwise;
-}
-
-/// Points of a force curve with a name, as preload and pull-off: for figures and readers of curves.
-pub mod points {
-    pub use crate::branches::{Branch, preload_point, pull_off_point};
-    pub use crate::figures::{Mark, marks};
-}
-
-/// Closed forms of single contacts: for comparisons with theory.
-pub mod closed_forms {
-    pub use crate::closed_form::{ClosedForm, flat_punch, ideal_adhesion_force};
 }

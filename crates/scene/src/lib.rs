@@ -34,7 +34,7 @@ pub mod discretisation {
     pub use crate::accuracy::estimate::Evidence;
     pub use crate::accuracy::ladder::{Progress, measure};
     pub use crate::accuracy::solution::Target;
-    pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, QUANTITIES, Row, Timing};
+    pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 }
 
 /// Table of the fields of a scene with names, units and ranges, and the values as a tree: for editors and plans of studies.
@@ -64,8 +64,7 @@ pub mod text {
 /// Stages of a loading as text: for editors of a loading.
 pub mod loading {
     pub use crate::scene::stages::{
-        STAGE_KINDS, StageKind, kind_and_number, loading_text, pressing_force, read_loading, read_stage,
-        stage_in_ron,
+        StageKind, loading_text, pressing_force, read_loading, read_stage, stage_in_ron,
     };
 }
 
@@ -77,8 +76,7 @@ pub mod library {
 
 /// Numbers and closed forms of theories beside the model: for reports that compare with them.
 pub mod theory {
-    pub use crate::analysis::governing::{DEFAULT_RANGE, LEAST_TABOR_NUMBER, SteepWaves, scene_tabor_number};
-    pub use crate::analysis::regime::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+    pub use crate::analysis::governing::SteepWaves;
     pub use crate::analysis::reversal_map::ReversalMap;
     pub use crate::reference::closed_form;
 }
@@ -94,7 +92,6 @@ pub mod instrument {
 pub mod stages {
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};
-    pub use crate::simulation::reversals::{FEW_SAMPLES, TURNING_POINTS};
     pub use crate::simulation::roughness::equivalent_springs;
     pub use crate::simulation::stages::AfterLeg;
     pub use crate::simulation::workload::{PlannedStage, Stage, Workload};

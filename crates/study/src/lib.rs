@@ -50,7 +50,7 @@ pub use compute::compute;
 pub use ensemble::{Ensemble, ensemble};
 pub use error::StudyError;
 pub use find::{Found, find};
-pub use plan::Plan;
+pub use plan::{Plan, StiffnessRange};
 pub use plan_text::Changes;
 pub use preload_curve::PreloadCurve;
 pub use preloads::Staircase;
@@ -65,32 +65,18 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Built-in plans, and numbers of a plan as text: for the command line.
-pub mod plans {
-    pub use crate::axis::DERIVED;
-    pub use crate::plan::{MOST_CELLS, StiffnessRange};
-    pub use crate::plan_text::PLANS;
-    pub use crate::preloads::{PRELOADS, parse_preloads, parse_range};
-    pub use crate::question::parse_condition;
-}
-
 /// Files of a folder of a study: for programs that show the progress of shards or read their results.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};
     pub use crate::store::{ShardFile, ShardHeader};
-    pub use crate::tables::{RESULTS, SIDECAR, SUMMARY};
 }
 
 /// Results over two axes, stored or computed while they are looked at: for maps and their boundaries.
 pub mod maps {
-    pub use crate::boundary::{
-        AdhesionBoundary, Boundaries, Crossing, USUAL_LEVELS, boundaries, protocol_name,
-    };
+    pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
     pub use crate::live_map::{Level, LiveMap};
-    pub use crate::live_plan::{MAP_LINES, live_plan};
-    pub use crate::place::moved;
     pub use crate::select::{Selected, Selection};
     pub use crate::study_map::StudyMap;
 }
@@ -98,7 +84,7 @@ pub mod maps {
 /// Cases with known results: for `asperity check` and its table.
 pub mod checks {
     pub use crate::check::case::Case;
-    pub use crate::check::{Check, Verdict, catalogue, checks, judge_case};
+    pub use crate::check::{Check, Verdict};
 }
 
 /// Comparisons with the half-space in three dimensions: for estimates of the error of the model.
@@ -113,6 +99,6 @@ pub mod half_space {
 pub mod trust {
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;
-    pub use crate::criterion::{Criterion, LEAST_TABOR_NUMBER_OF_JKR};
+    pub use crate::criterion::Criterion;
     pub use crate::measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
 }

@@ -3,11 +3,11 @@
 use crate::reference::{closed_form, smooth_adhesion_force};
 use crate::scene::checked::CheckedScene;
 use crate::scene::errors::SceneErrors;
+use crate::scene::model::FEW_SAMPLES;
 use crate::scene::model::{Scene, Solver};
 use crate::simulation::outcome::{Outcome, RunError};
-use crate::simulation::reversals::FEW_SAMPLES;
 use crate::simulation::stages::Simulation;
-use asperity_contact::points::{Branch, pull_off_point};
+use asperity_contact::Branch;
 use asperity_contact::{ContactError, Direction, History, LegRecord};
 use asperity_contact::{Edges, Move};
 use asperity_surface::Form;
@@ -226,7 +226,7 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
         }
     };
     let legs = &outcome.history.legs;
-    pull_off_point(legs)?;
+    Branch::pull_off(legs)?;
     let pulled = &legs[Branch::last_unloading(legs)?.stages];
     let passes = pulled.first()?.start() >= pull_off && pulled.last()?.end_in_contact().is_none();
     // Lengths are sums with rounding errors.
