@@ -1,6 +1,19 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
+//! # Names by task
+//!
+//! * A contact: [`Profile`], [`Modulus`], [`Edges`], and [`Contact`] from a [`ContactBuilder`].
+//! * Loading it: [`Move`]s with [`LoadOptions`], the turning points of [`Contact::reversals`] with a [`Reversal`] each.
+//! * Results: a [`Cycle`] with its [`History`] of [`LegRecord`]s in one [`Direction`] each; the [`Curve`] with its
+//!   [`CurvePoint`]s; the [`Patch`]es at the end; [`Figures`], the marked points ([`Mark`]) and the [`Branch`]es; the
+//!   [`Work`] done by the computer.
+//! * Theory beside them: [`ClosedForm`].
+//! * What is refused: [`ContactError`].
+//!
+//! Programs that move a contact step by step also need the module [`motion`].
+//!
 //! # Rules
 //!
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
@@ -12,9 +25,9 @@
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
-//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A [`Leg`] is the
-//! contact at all indentations of a motion in one direction, and a [`Body`] is a leg with the position on it. A [`Leg`] follows
-//! from these rules in one pass over a tree. [`Stepwise`] moves by small steps and relaxes after each step, as the paper does.
+//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A [`Leg`](motion::Leg) is the
+//! contact at all indentations of a motion in one direction, and a [`Body`](motion::Body) is a leg with the position on it. A [`Leg`](motion::Leg) follows
+//! from these rules in one pass over a tree. [`Stepwise`](motion::Stepwise) moves by small steps and relaxes after each step, as the paper does.
 //! Any function that allocates may return [`ContactError::OutOfMemory`]; the documentation of a function lists all other
 //! errors.
 
@@ -51,7 +64,7 @@ pub use modulus::Modulus;
 pub use profile::Profile;
 pub use target::Move;
 
-/// A contact that is moved step by step: for instruments, particle codes, and to compare with the rules themselves.
+/// Contacts that are moved step by step, as programs for instruments and for many particles do.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion, MovingBody, load_body};

@@ -47,7 +47,7 @@ pub enum Spacing {
 /// Axis of a study: a quantity that is varied, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Path of the varied field of a scene, or name of a quantity in [`DERIVED`].
+    /// Path of the varied field of a scene, or name of a quantity in [`Axis::DERIVED`].
     pub path: String,
     /// Name of the quantity in words, such as `Hurst exponent`.
     pub name: String,
@@ -57,7 +57,7 @@ pub struct Axis {
     pub unit: &'static str,
     /// Spacing of the values.
     pub spacing: Spacing,
-    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::Grid).
+    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::maps::Grid).
     pub values: Vec<f64>,
     pub(super) target: Target,
 }

@@ -1,6 +1,19 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
+//! # Names by task
+//!
+//! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record; [`Changes`] to a plan.
+//! * Computing: [`compute`](compute()) in memory; [`run_study`] with [`StudyProgress`] in a [`Folder`], of which each process computes a
+//!   [`Shard`]; [`merge`] afterwards. [`Stop`] ends a computation.
+//! * Results: [`Results`] with [`Statistics`], [`Spread`] and [`RegimeCounts`].
+//! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`], [`find`](find()) answers a [`Question`] by [`Found`] with an
+//!   [`Answer`] for each profile; [`PreloadCurve`] and [`Staircase`] over the preload; [`Sensitivity`] with the [`Influence`]
+//!   of each number and what [`Changed`].
+//! * What is refused: [`StudyError`].
+//!
+//! The modules are for programs: [`folders`], [`maps`], [`checks`], [`half_space`] and [`trust`].
 
 mod axis;
 mod boundary;
@@ -65,14 +78,14 @@ pub use statistics::{RegimeCounts, Spread, Statistics};
 pub use store::Folder;
 pub use tables::merge;
 
-/// Files of a folder of a study: for programs that show the progress of shards or read their results.
+/// Files of the folder of a study, for programs that show the progress of its shards.
 pub mod folders {
     pub use crate::results::Merged;
     pub use crate::status::{Attempt, ShardStatus, Status};
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Results over two axes, stored or computed while they are looked at: for maps and their boundaries.
+/// Results over two axes, read from a study or computed while a map is on the screen.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
@@ -81,13 +94,13 @@ pub mod maps {
     pub use crate::study_map::StudyMap;
 }
 
-/// Cases with known results: for `asperity check` and its table.
+/// Cases with known results, which `asperity check` computes.
 pub mod checks {
     pub use crate::check::case::Case;
     pub use crate::check::{Check, Verdict};
 }
 
-/// Comparisons with the half-space in three dimensions: for estimates of the error of the model.
+/// Comparison of the model with rough squares on a half-space in three dimensions.
 pub mod half_space {
     pub use crate::reference::{
         Compared, Loaded, Reference, ReferenceBudget, ReferenceEvent, ReferenceOptions,
@@ -95,7 +108,7 @@ pub mod half_space {
     pub use crate::square_loops::SquareLoops;
 }
 
-/// Errors of a result by their causes, and criteria of other theories: for statements on how far to trust a result.
+/// Causes of the error of a result, and criteria of other theories for adhesion.
 pub mod trust {
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;

@@ -1,6 +1,19 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
+//! # Names by task
+//!
+//! * Reading: [`read`] and [`parse`] with [`ReadOptions`] return a [`Topography`]; [`Unit`], [`Cut`] and [`Detrend`] are
+//!   options, and [`Cropped`] says what was left out.
+//! * Analysis: [`analyse`] with [`AnalysisOptions`] returns an [`Analysis`]: [`PointStatistics`], [`LineMoments`] of one
+//!   [`Moment`] each, a [`SelfAffineFit`], each a [`ValueWithError`].
+//! * Profiles for the model: [`EquivalentLine`] of a measured surface, [`SelfAffine`] with its [`Amplitude`], [`Form`] and
+//!   [`FormTable`].
+//! * What is refused: [`SurfaceError`] at a [`Place`].
+//!
+//! The modules are for programs: [`lines`] on which a scene is computed, [`spectra`] for figures, and [`files`] for readers
+//! of other formats.
 
 mod error;
 mod line;
@@ -21,14 +34,14 @@ pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Content of files for other readers: bytes, gzip and columns of NumPy arrays, as readers of force curves need them.
+/// Contents of files and errors at places in them, for readers of force curves.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;
     pub use crate::topography::open::{content, unpacked};
 }
 
-/// Lines of random and measured roughness: for the computation of a scene on them.
+/// Lines of random and of measured roughness, on which a scene is computed.
 pub mod lines {
     pub use crate::line::equivalent::MeasuredRoughness;
     pub use crate::line::form::{power_law_factor, struve_0};
@@ -39,7 +52,7 @@ pub mod lines {
     pub use crate::line::table::Rows;
 }
 
-/// Powers by wavenumber: for figures of measured spectra.
+/// Powers by wavenumber, for figures of measured spectra.
 pub mod spectra {
     pub use crate::spectrum::isotropic::{End, IsotropicSpectrum, Node};
     pub use crate::spectrum::periodogram::{Along, Bin, line_spectrum};

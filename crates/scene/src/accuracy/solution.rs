@@ -20,7 +20,7 @@ pub(super) const FEWEST: u64 = 16;
 /// Factors between the loads of a scene and the loads around them.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of [`crate::accuracy::table::QUANTITIES`], in that order; `None` for a missing quantity.
+/// Relative errors or differences of [`crate::accuracy::table::CostTable::QUANTITIES`], in that order; `None` for a missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
 /// Forces, energy, contact length and force curve of one solution. A value of zero has no relative error and is left out.

@@ -87,7 +87,7 @@ pub struct Row {
     pub seconds: Option<Timing>,
     /// Shortest time over the time of one Fourier transform, [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
-    /// Relative errors of the [`QUANTITIES`], in their order.
+    /// Relative errors of the [`CostTable::QUANTITIES`], in their order.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
 }
@@ -101,7 +101,7 @@ pub struct CostReference {
     pub adhesion_force: Option<f64>,
     /// True if a formula gives `adhesion_force`. The other quantities are always from the finest solution.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself, for the [`QUANTITIES`] in their order.
+    /// Estimated relative errors of the reference itself, for the [`CostTable::QUANTITIES`] in their order.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<f64>; 4],
 }

@@ -59,7 +59,7 @@ impl Simulation {
 
     /// Unloads a checked scene from `count` turning points, and returns the unloading curves (first-order reversal curves).
     /// The turning points are equally spaced between the indentations at two preloads in N. Without `preloads` the turning
-    /// points lie between first touch and the preload of the scene. A `count` outside [`TURNING_POINTS`] becomes the nearest
+    /// points lie between first touch and the preload of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest
     /// allowed number.
     ///
     /// # Errors
