@@ -95,7 +95,8 @@ pub struct CurveOptions {
     pub units: Vec<String>,
     /// Travel of the piezo, such as 500nm, for a file with one column of forces
     ///
-    /// The forces are evenly spaced over the travel, there and back. By default the file gives the travel.
+    /// The forces are evenly spaced over the travel, there and back. By default the file gives the
+    /// travel.
     #[cfg_attr(feature = "clap", arg(long, value_name = "LENGTH", value_parser = positive_length))]
     pub ramp: Option<f64>,
     /// Segments that are used: 2 is the retraction without the approach
