@@ -1,7 +1,8 @@
 //! Scenes: named, read from files or from text, with other values of their fields.
 
 use crate::failure::Failure;
-use asperity::scene::{Document, is_path, open};
+use asperity::scene::library::is_path;
+use asperity::scene::{Document, open};
 use pyo3::prelude::*;
 
 /// A checked scene: one problem with material, profile, adhesion, loading and numerics.

@@ -6,7 +6,7 @@ use super::progress::ProgressLine;
 use super::scene::{ProfileArguments, SceneArguments};
 use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
-use asperity_study::{Reference, ReferenceOptions};
+use asperity_study::half_space::{Reference, ReferenceOptions};
 use clap::Args;
 use std::io::Write;
 

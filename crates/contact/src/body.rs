@@ -17,7 +17,8 @@ use std::time::{Duration, Instant};
 /// touch.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
+/// use asperity_contact::motion::{Body, MovingBody};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -51,7 +52,8 @@ pub trait MovingBody {
 /// whole state of the model.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+/// use asperity_contact::motion::Body;
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -74,7 +76,8 @@ pub struct Body {
 /// A motion of a body without a force curve, the result of [`Body::move_to`].
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile};
+/// use asperity_contact::motion::Body;
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -387,7 +390,8 @@ impl MovingBody for Body {
 /// Returns the error of the first stage that fails, or the first error of `after`.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
+/// use asperity_contact::motion::{Body, load_body};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

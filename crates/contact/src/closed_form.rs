@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 /// indentation follow from the contact radius.
 ///
 /// ```
-/// use asperity_contact::{ClosedForm, Modulus};
+/// use asperity_contact::closed_forms::ClosedForm;
+/// use asperity_contact::Modulus;
 ///
 /// let sphere = ClosedForm::sphere(1.0e-4, Modulus::effective(1.0e6)?, 0.05);
 /// let (radius, force) = sphere.force_controlled_pull_off();
@@ -40,7 +41,8 @@ impl ClosedForm {
     /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface: g(x) = (π/2) |x| tan θ.
     ///
     /// ```
-    /// use asperity_contact::{ClosedForm, Modulus};
+    /// use asperity_contact::closed_forms::ClosedForm;
+    /// use asperity_contact::Modulus;
     ///
     /// let cone = ClosedForm::cone(0.1, Modulus::effective(1.0e6)?, 0.05);
     /// // Without adhesion F = π a² E* tan θ / 2 at a contact radius a.
@@ -106,7 +108,7 @@ impl ClosedForm {
 /// effective modulus in Pa and γ the work of adhesion in J/m².
 ///
 /// ```
-/// use asperity_contact::{flat_punch, ideal_adhesion_force};
+/// use asperity_contact::closed_forms::{flat_punch, ideal_adhesion_force};
 ///
 /// // A punch as wide as the profile is a flat face: L = 2a.
 /// let [punch, face] = [flat_punch(1.0e-5, 1.0e6, 0.05), ideal_adhesion_force(0.05, 1.0e6, 2.0e-5)];

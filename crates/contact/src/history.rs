@@ -128,7 +128,8 @@ impl LegRecord {
 /// A whole loading history: the records of its motions, the final patches and the computing work.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, Profile, load_body};
+/// use asperity_contact::motion::{Body, load_body};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
@@ -150,7 +151,8 @@ pub struct History {
 /// Counts of computing work. Unlike times, they are the same on every machine.
 ///
 /// ```
-/// use asperity_contact::{Body, Contact, Modulus, Move, MovingBody, Profile};
+/// use asperity_contact::motion::{Body, MovingBody};
+/// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

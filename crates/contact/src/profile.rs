@@ -174,7 +174,8 @@ impl Profile {
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
     ///
     /// ```
-    /// use asperity_contact::{ContactTree, Edges, Profile};
+    /// use asperity_contact::motion::ContactTree;
+    /// use asperity_contact::{Edges, Profile};
     ///
     /// let profile = Profile::from_gaps(vec![0.0, 3.0e-8, 1.0e-8], 1.0e-6)?;
     /// profile.build_tree(Edges::SubCell, ContactTree::default())?;

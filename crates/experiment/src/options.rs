@@ -1,7 +1,7 @@
 //! Options for reading and preparing a measured curve, which are arguments of the command line too.
 
 use asperity_data::parse_quantity;
-use asperity_scene::quoted;
+use asperity_scene::text::quoted;
 use std::fmt;
 use std::str::FromStr;
 

@@ -9,8 +9,8 @@ use asperity_data::{Kind, Table};
 use asperity_data::{format_quantity, format_rounded};
 use asperity_plot::Figure;
 use asperity_scene::Scene;
-use asperity_scene::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
-use asperity_study::Reference;
+use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob, QUANTITIES, Row};
+use asperity_study::half_space::Reference;
 use serde::Serialize;
 
 /// Headings of the columns of errors, in the order of [`QUANTITIES`].

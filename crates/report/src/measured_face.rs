@@ -3,8 +3,9 @@
 
 use asperity_data::format_quantity;
 use asperity_data::{grouped, path_name, printable};
+use asperity_surface::Analysis;
 use asperity_surface::Topography;
-use asperity_surface::{Analysis, End};
+use asperity_surface::spectra::End;
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 

@@ -18,7 +18,8 @@ use std::sync::Arc;
 /// A leg remains valid after the body has moved on, and its clones share their memory.
 ///
 /// ```
-/// use asperity_contact::{Contact, Leg, Modulus, Profile};
+/// use asperity_contact::{Contact, Modulus, Profile};
+/// use asperity_contact::motion::Leg;
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;

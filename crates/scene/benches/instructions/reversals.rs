@@ -1,9 +1,11 @@
 //! Instructions of 64 reversals over those of one loop to the deepest of them on the same line, trees included.
 
 use crate::instructions::callgrind;
-use asperity_contact::{Body, Contact, Modulus, MovingBody, Profile};
+use asperity_contact::motion::{Body, MovingBody};
+use asperity_contact::{Contact, Modulus, Profile};
 use asperity_contact::{Edges, Move};
-use asperity_surface::{Line, SelfAffine};
+use asperity_surface::SelfAffine;
+use asperity_surface::lines::Line;
 use std::hint::black_box;
 use std::sync::Arc;
 

@@ -21,7 +21,7 @@ const MOST_TRIED: u64 = 1 << 21;
 /// Parses a tolerance, a relative error: `1e-3` or `0.1 %`. The error states the allowed range, above 0 and below 1.
 ///
 /// ```
-/// use asperity_scene::parse_tolerance;
+/// use asperity_scene::discretisation::parse_tolerance;
 ///
 /// assert_eq!(parse_tolerance("0.1%"), Ok(0.001));
 /// assert!(parse_tolerance("2").is_err());
@@ -136,7 +136,8 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, or if the scene cannot be computed.
 ///
 /// ```
-/// use asperity_scene::{choose, open};
+/// use asperity_scene::discretisation::choose;
+/// use asperity_scene::open;
 /// use std::path::Path;
 ///
 /// let sphere = open("jkr-sphere")?;

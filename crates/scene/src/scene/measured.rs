@@ -1,8 +1,9 @@
 //! A measured surface as the roughness of a scene: its files, and the options for reading and analysing them.
 
 use super::fields::default_of;
-use asperity_surface::MeasuredOptions;
-use asperity_surface::{AnalysisOptions, Detrend, End};
+use asperity_surface::lines::MeasuredOptions;
+use asperity_surface::spectra::End;
+use asperity_surface::{AnalysisOptions, Detrend};
 use asperity_surface::{Cut, ReadOptions, Unit};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

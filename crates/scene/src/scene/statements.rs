@@ -25,7 +25,8 @@ pub struct Statement {
 /// such as the form, is listed by its numbers.
 ///
 /// ```
-/// use asperity_scene::{open, statements};
+/// use asperity_scene::open;
+/// use asperity_scene::fields::statements;
 ///
 /// let stated = statements(open("jkr-sphere")?.scene());
 /// let length = stated.iter().find(|one| one.field.path == "length").unwrap();

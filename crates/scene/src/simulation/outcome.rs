@@ -7,7 +7,8 @@ use crate::analysis::regime::Regime;
 use crate::scene::errors::SceneErrors;
 use asperity_contact::{ContactError, Figures, History, Patch};
 use asperity_data::{format_quantity, rounded_up};
-use asperity_surface::{Histogram, SurfaceError};
+use asperity_surface::SurfaceError;
+use asperity_surface::lines::Histogram;
 use serde::Serialize;
 use thiserror::Error;
 

@@ -10,7 +10,8 @@ use crate::analysis::reversal_map::ReversalMap;
 use crate::scene::checked::CheckedScene;
 use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::Move;
-use asperity_contact::{Body, ContactError, Reversal};
+use asperity_contact::motion::Body;
+use asperity_contact::{ContactError, Reversal};
 use std::ops::RangeInclusive;
 
 /// Allowed numbers of turning points of a [`ReversalMap`].

@@ -120,7 +120,7 @@ impl MeasuredProfile {
     /// The profile is shorter than `length`.
     ///
     /// ```
-    /// use asperity_surface::{MeasuredOptions, MeasuredProfile};
+    /// use asperity_surface::lines::{MeasuredOptions, MeasuredProfile};
     ///
     /// let options = MeasuredOptions::default();
     /// let profile = MeasuredProfile::new(b"x [um] z [nm]\n0 10\n1 20\n2 40\n", &options)?;
