@@ -37,7 +37,7 @@ pub struct Contact {
     closing: Arc<OnceLock<Closing>>,
 }
 
-/// Builder of a [`Contact`], which sets its properties.
+/// Builder that sets the properties of a [`Contact`].
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Profile};
@@ -141,7 +141,7 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force of full contact in N. Without adhesion it is the force at which the last spring touches the rigid body.
+    /// Returns the force of full contact in N. Without adhesion the last spring touches the rigid body at this force.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};

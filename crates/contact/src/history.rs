@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of the motion of a body to the target of one loading stage.
+/// Record of one loading stage, the motion of a body to one target.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};

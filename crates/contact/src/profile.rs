@@ -131,8 +131,8 @@ impl Profile {
         self.spacing
     }
 
-    /// Returns the length of the foundation under the profile in m. Except under a punch it is the number of points times their
-    /// distance.
+    /// Returns the length of the foundation under the profile in m. The length is the number of points times their distance,
+    /// except under a punch.
     pub fn length(&self) -> f64 {
         self.length
     }

@@ -43,7 +43,8 @@ pub struct FormTable {
     slopes: Vec<[f64; 3]>,
 }
 
-/// Rows of a form, which its clones share once the rows are read. In a comparison, rows that are not read equal all others.
+/// Rows of a form. All clones of the form share the rows once they are read. In a comparison, rows that are not read equal all
+/// others.
 #[derive(Clone, Debug, Default)]
 pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
