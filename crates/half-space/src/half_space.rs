@@ -1,4 +1,4 @@
-//! A rigid rough square on a half-space: the front of the crate, in SI units.
+//! A rigid rough square on a half-space, in SI units.
 
 use super::error::HalfSpaceError;
 use super::operators::Boundary;

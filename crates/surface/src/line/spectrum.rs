@@ -70,7 +70,7 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m, by the sums of
+    /// Returns the roughness amplitude of a profile of rms height 1 m and length L in m. It is summed over the modes, as in
     /// [`Self::gradient_per_height`].
     ///
     /// ```
