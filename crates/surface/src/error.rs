@@ -1,9 +1,14 @@
 //! The error of this crate: the place, what was found there, and what is allowed.
 
+use asperity_data::text_table::TextFault;
 use asperity_data::{OutOfMemory, ReadError, shown};
 use std::fmt;
 use std::path::Path;
 use thiserror::Error;
+
+/// Formats that are read, for messages.
+const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
+                                  or X3P in Gwyddion";
 
 /// Place of a fault. Lines and points count from 1. Bytes count from 0, after decompression.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -171,6 +176,27 @@ impl From<OutOfMemory> for SurfaceError {
 impl From<ReadError> for SurfaceError {
     fn from(error: ReadError) -> Self {
         SurfaceError::Unreadable { place: Place::File, reason: error.to_string() }
+    }
+}
+
+impl From<TextFault> for SurfaceError {
+    fn from(fault: TextFault) -> Self {
+        let (place, found, allowed) = match fault {
+            TextFault::NotText { line, byte } => {
+                let found = format!("byte {byte} of the line is zero, so this is no text");
+                (Place::Line(line), found, FORMATS.to_owned())
+            }
+            TextFault::LongLine { line } => {
+                let most = format!("{} bytes", TextFault::LONGEST_LINE);
+                (Place::Line(line), format!("longer than {most}"), format!("at most {most}"))
+            }
+            TextFault::OutOfMemory(error) => return error.into(),
+            other => {
+                let allowed = "numbers with decimal points, or without separators of thousands";
+                (Place::File, other.to_string(), allowed.to_owned())
+            }
+        };
+        refused(place, found, allowed)
     }
 }
 

@@ -2,10 +2,6 @@
 
 use crate::error::{Place, SurfaceError, refused};
 
-/// Formats that are read, for messages.
-pub(super) const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
-                                  or X3P in Gwyddion";
-
 const GWYDDION: &str = "the same saved as GWY or X3P in Gwyddion";
 const PICTURE: &str = "the heights as text, X3P, SUR or GWY, from the program that drew them";
 const CURVE: &str = "a surface; a force curve exported as text, for asperity fit";

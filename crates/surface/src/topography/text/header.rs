@@ -1,13 +1,10 @@
 //! Header before the numbers of a text: units, sizes, and the lines that may name columns.
 
 use super::super::Unit;
-use super::layout::{COMMENT, Decimal, Separator, TextCell};
-use super::names::{IsUnit, TextColumn, columns_of, is_one_of};
-use std::collections::VecDeque;
+use asperity_data::text_table::{COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, is_one_of};
 
-/// Largest length in bytes of a header line that is examined, and the number of last lines that may name columns.
+/// Largest length in bytes of a header line that is examined.
 const LONGEST: usize = 4096;
-const LAST_LINES: usize = 64;
 
 /// Keys of sizes, channels and units in English and in the other languages of Gwyddion.
 const WIDTH: &str = "width x-length šířka breite anchura largeur larghezza 幅 폭 largura ширина";
@@ -65,7 +62,7 @@ pub struct TextHeader {
     /// True if heights are in wavelengths.
     is_in_wavelengths: bool,
     /// The last lines that are no such entries and may name columns.
-    lines: VecDeque<String>,
+    pub lines: HeadLines,
 }
 
 impl TextHeader {
@@ -81,10 +78,7 @@ impl TextHeader {
         if line.len() <= LONGEST && self.take_entry(line) {
             return;
         }
-        if self.lines.len() == LAST_LINES {
-            self.lines.pop_front();
-        }
-        self.lines.push_back(line.to_owned());
+        self.lines.take(line);
     }
 
     fn take_entry(&mut self, line: &str) -> bool {
@@ -198,24 +192,6 @@ impl TextHeader {
             self.units[axis].or_else(|| self.nanometres.filter(|_| axis == 2).and(NANOMETRE.parse().ok()));
         of_column.or(of_axis).or(self.unit)
     }
-
-    /// Returns the names and units of the columns. They are from the last line with a name for each of `count` columns, and
-    /// from a row of units. Lines of numbers may end with further separators, up to `cells` cells. Without such a line nothing
-    /// is known of the columns.
-    pub fn columns(
-        &self,
-        count: usize,
-        cells: usize,
-        separator: Separator,
-        is_unit: IsUnit,
-    ) -> Vec<TextColumn> {
-        columns_of(&self.lines, (count, cells), separator, is_unit)
-    }
-
-    /// Returns true if the header has a line with this text alone.
-    pub fn has_line(&self, text: &str) -> bool {
-        self.lines.iter().any(|line| line == text)
-    }
 }
 
 /// Returns the key of a line in lower case, and its value.
@@ -268,8 +244,8 @@ fn length(text: &str) -> Option<Length> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::names::Role;
     use super::*;
+    use asperity_data::text_table::Role;
 
     fn header(lines: &[&str]) -> TextHeader {
         let mut header = TextHeader::default();
@@ -280,7 +256,7 @@ mod tests {
     /// Units of positions and heights of a table of x and height.
     fn units(lines: &[&str]) -> [Option<&'static str>; 2] {
         let header = header(lines);
-        let columns = header.columns(2, 2, Separator::SPACE, Unit::is_name);
+        let columns = header.lines.columns(2, 2, Separator::SPACE, Unit::is_name);
         [(0, 0), (2, 1)].map(|(axis, column)| header.unit(axis, Some(&columns[column])).map(Unit::name))
     }
 
@@ -338,8 +314,8 @@ mod tests {
         ] {
             let count = roles.len();
             let mut header = TextHeader::default();
-            header.lines.push_back(line.to_owned());
-            let found = header.columns(count, count, Separator::of(line), Unit::is_name);
+            header.lines.take(line);
+            let found = header.lines.columns(count, count, Separator::of(line), Unit::is_name);
             assert_eq!(found.iter().map(|column| column.role).collect::<Vec<_>>(), roles, "{line}");
         }
     }

@@ -6,11 +6,10 @@ use super::super::reading::Reading;
 use super::super::surface::LARGEST;
 use super::columns::{List, list_of};
 use super::header::TextHeader;
-use super::layout::{Decimal, ONE_MARK, Separator, TextCell};
-use super::names::{Role, TextColumn};
 use super::{matrix, warnings};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
+use asperity_data::text_table::{Decimal, ONE_MARK, Role, Separator, TextCell, TextColumn};
 use asperity_data::{gathered, push, reserve};
 use std::ops::Range;
 
@@ -246,7 +245,7 @@ impl Table {
             self.breaks.clear();
             self.lines = vec![(0, self.line(rows.start))];
         }
-        let columns = header.columns(self.columns(), cells, self.separator, Unit::is_name);
+        let columns = header.lines.columns(self.columns(), cells, self.separator, Unit::is_name);
         let Some(list) = list_of(&columns)? else {
             return Ok(self.map(header, is_open)?.scaled(|_| false, header.scale()));
         };

@@ -1,9 +1,6 @@
 //! Cells of a line of text: separators, decimal marks and marks that separate thousands.
 
-use crate::error::{Place, SurfaceError, refused};
-
-/// Characters that begin a comment.
-pub(crate) const COMMENT: [char; 3] = ['#', '%', '!'];
+use crate::text_lines::TextFault;
 
 /// Separator of the columns of a text, determined from its first line of numbers. It is a semicolon, a tab, a comma, or a space
 /// for any white space.
@@ -138,16 +135,9 @@ impl Decimal {
 
     /// Returns an error if the commas of the numbers read are ambiguous: each may be a decimal mark or separate thousands. Then
     /// all commas have three digits behind them, and other numbers have no comma.
-    pub fn check(&self) -> Result<(), SurfaceError> {
-        if self.mark == Some(',') && self.has_whole && !self.is_certain {
-            let fault = "each comma in a number may be a decimal mark or separate thousands, as in 1,234";
-            return Err(refused(
-                Place::File,
-                fault,
-                "numbers with decimal points, or without separators of thousands",
-            ));
-        }
-        Ok(())
+    pub fn check(&self) -> Result<(), TextFault> {
+        let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
+        if is_doubtful { Err(TextFault::DoubtfulCommas) } else { Ok(()) }
     }
 }
 
