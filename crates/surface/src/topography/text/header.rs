@@ -61,7 +61,7 @@ pub struct TextHeader {
     pub is_along_y: bool,
     /// True if heights are in wavelengths.
     is_in_wavelengths: bool,
-    /// The last lines that are no such entries and may name columns.
+    /// Last lines of the header that have no key and may name columns.
     pub lines: HeadLines,
 }
 
