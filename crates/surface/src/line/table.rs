@@ -192,8 +192,8 @@ impl FormTable {
     /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing` (m) from the axis, the first
     /// on the axis.
     ///
-    /// One depth takes a square root for each row nearer the axis. Where many points lie between two rows, a polynomial
-    /// therefore interpolates the contribution of all rows at least one interval away.
+    /// One depth takes a square root for each row nearer the axis. With many points between two rows, a polynomial therefore
+    /// interpolates what the rows at least one interval away contribute.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {

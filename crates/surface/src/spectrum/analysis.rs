@@ -107,8 +107,8 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// Returns an error for a surface with uneven or few points or without roughness, and for an [`End::Continues`] that the
-/// surfaces already resolve.
+/// Returns an error for a surface with uneven points, with too few points or without roughness. Returns an error for an
+/// [`End::Continues`] that the surfaces already resolve.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};

@@ -66,7 +66,7 @@ pub struct TextHeader {
 }
 
 impl TextHeader {
-    /// Creates a header that states a unit of all lengths.
+    /// Creates a header that states this unit for all lengths.
     pub fn in_unit(unit: Option<Unit>) -> TextHeader {
         TextHeader { unit, ..TextHeader::default() }
     }
