@@ -40,8 +40,8 @@ const CONTINUED: f64 = 4.0;
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. With `None` it is the one that a container states, or else the tilt. From a
-    /// periodic surface only the mean is removed, because removing a plane would leave a step at the borders.
+    /// Polynomial removed before the analysis. With `None` it is the polynomial that a container states, or else the tilt. From
+    /// a periodic surface the default removes only the mean, because removing a plane would leave a step at the borders.
     pub detrend: Option<Detrend>,
     /// True for a surface that continues periodically at its borders. No window function is used for it. A container may also
     /// state that its surface is periodic.
