@@ -104,7 +104,7 @@ impl Body {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at an indentation in m of the motion `leg`, which the body may continue.
+    /// Creates a body at an indentation in m on a leg; the body can continue the motion of the leg.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].

@@ -157,7 +157,8 @@ impl Contact {
         self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
     }
 
-    /// Returns the displacement D = d + F/k of the instrument in m, for an indentation in m and a force in N.
+    /// Returns the displacement D = d + F/k in m of the instrument that moves the body, at an indentation d in m and a force F
+    /// in N.
     pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
         indentation + force / self.loading_stiffness
     }

@@ -92,9 +92,9 @@ impl Form {
         points / 2
     }
 
-    /// Returns the displacement of the body along the foundation in cells. It moves the axis from L/2 onto a spring: by ½ for
-    /// an even number of springs, and by 0 for an odd one. Form and roughness are displaced together, so that their relative
-    /// position does not depend on the number of springs. A punch has no tip and is not displaced.
+    /// Returns the displacement of the body along the foundation, in cells of one spring spacing. It moves the axis from L/2
+    /// onto a spring: by ½ for an even number of springs, and by 0 for an odd one. Form and roughness are displaced together,
+    /// so that their relative position does not depend on the number of springs. A punch has no tip and is not displaced.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() { 0.5 } else { 0.0 }
     }

@@ -14,8 +14,8 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, at least `first`.
     pub last: u64,
-    /// Mode of the roll-off: the length L over the roll-off wavelength, which need not be a whole number. Any value up to
-    /// `first`, such as 0, means no roll-off.
+    /// Mode of the roll-off: the length L over the roll-off wavelength, above which the spectrum of the surface is flat. It
+    /// need not be a whole number. Any value up to `first`, such as 0, means no roll-off.
     pub roll_off_mode: f64,
 }
 
