@@ -71,7 +71,7 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// A motion of a body without a force curve, the result of [`Body::move_to`].
+/// Result of [`Body::move_to`]: a motion of a body without a force curve.
 ///
 /// ```
 /// use asperity_contact::{Body, Contact, Modulus, Move, Profile};

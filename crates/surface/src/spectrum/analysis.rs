@@ -85,7 +85,7 @@ pub struct Analysis {
     /// other, or were levelled one by one.
     pub offsets: bool,
     /// Difference between waves parallel to an axis of a map and waves in neighbouring directions, as a share of the squared
-    /// gradient. It is 0 if such waves are left out, or if the difference is small or may be chance.
+    /// gradient. The share is 0 if the waves are left out, or if the difference is small or may be chance.
     pub apart: f64,
     /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. The largest
     /// distance of several maps counts; `None` if no map has such a displacement.
