@@ -31,8 +31,8 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. They also hold
-    /// for a paraboloid with this radius at its summit.
+    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. The closed forms
+    /// also hold for a paraboloid with this radius of curvature at its summit.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm { line_coefficient: radius.recip(), exponent: 2.0, effective_modulus, work_of_adhesion }
@@ -77,8 +77,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This force is the
-    /// smallest of all.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. No force of the
+    /// contact is smaller.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);

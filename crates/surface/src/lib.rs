@@ -21,7 +21,7 @@ pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Content of files for other readers: bytes, gzip and columns of NumPy arrays, as readers of force curves need them.
+/// Reading of bytes, gzip and columns of NumPy arrays, for readers of other files such as force curves.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;
