@@ -50,7 +50,8 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Returns the adhesion force over the ideal one, F_a/F_a,max; `None` without a tensile force or without adhesion.
+    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal one; `None` without a tensile force or without
+    /// adhesion.
     pub fn adhesion_share(&self) -> Option<f64> {
         Some(self.figures.adhesion_force? / self.ideal_adhesion_force.filter(|ideal| *ideal > 0.0)?)
     }
