@@ -87,7 +87,8 @@ pub struct LineFacts {
 pub struct Timings {
     /// Time in s for making the profile.
     pub line: f64,
-    /// Time in s for building the contact tree ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the histogram of heights.
+    /// Time in s for building the contact tree ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the
+    /// histogram of the heights.
     pub tree: f64,
     /// Time in s for finding the indentations at which patches change, or for the steps of the stepwise solver.
     #[serde(rename = "loop")]
