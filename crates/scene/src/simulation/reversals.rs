@@ -16,7 +16,7 @@ use std::ops::RangeInclusive;
 
 /// Allowed numbers of turning points of a [`ReversalMap`].
 pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
-/// Largest number of grid points of a map below its first turning point, over the number of turning points.
+/// Largest number of grid points below the first turning point of a map, for each turning point.
 const MOST_BELOW: usize = 4;
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
