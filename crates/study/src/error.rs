@@ -83,7 +83,7 @@ pub enum StudyError {
         /// Memory that the study needs, in bytes.
         bytes: u64,
     },
-    /// The system starts no thread, for the contained reason.
+    /// The system could not start a thread. The contained error is the reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }
