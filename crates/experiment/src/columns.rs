@@ -3,9 +3,10 @@
 use crate::metadata::Metadata;
 use crate::options::CurveOptions;
 use asperity_data::shown;
+use asperity_data::text_table::TextColumn;
 use asperity_data::{format_quantity, parse_quantity};
-use asperity_surface::TextColumn;
-use asperity_surface::{Place, SurfaceError, refused};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
 
 /// For displacement and force: name in words, SI unit, example of a unit, and known names of columns as letters. Preferred
 /// names come first. The displacement of the instrument is preferred to the displacement of the body, which lacks the

@@ -11,7 +11,7 @@ use crate::zero::FreeParts;
 use asperity_data::format_quantity;
 use asperity_data::grouped;
 use asperity_data::mean;
-use asperity_surface::content;
+use asperity_surface::files::content;
 use std::path::Path;
 
 /// Largest number of points that a fit uses; of more points, neighbours are averaged.

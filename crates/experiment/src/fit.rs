@@ -4,19 +4,19 @@
 use crate::baseline::dot;
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
+use crate::fit_result::{FitResult, FittedParameter};
 use crate::model::Model;
 use crate::parameter::{Coordinate, Free, Parameter, Values};
 use crate::population::WRONG_SIDE;
-use crate::reason::{Reason, reason};
+use crate::reason::reason;
 use crate::scene::{with_values, wrong};
 use crate::search::{Found, MISFIT, Search};
 use crate::space::Space;
 use crate::statistics::{block_error, correlated, correlation, spread, widen};
-use asperity_data::{Control, format_within};
+use asperity_data::{Control, format_rounded};
 use asperity_scene::Document;
 use asperity_scene::Simulation;
 use asperity_scene::scene_tabor_number;
-use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
 /// parameter is undetermined.
@@ -26,104 +26,6 @@ const FLAT: f64 = 1.0;
 const ENOUGH: usize = 400;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
-
-/// A fitted parameter with its errors.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-#[non_exhaustive]
-pub struct FittedParameter {
-    /// Which parameter it is.
-    #[serde(skip)]
-    pub parameter: Parameter,
-    /// Value of the smallest residuals; all values are in the SI unit of the parameter.
-    pub value: f64,
-    /// Ends of the 95 % interval; the whole range where the profile is random and the model does not describe the curve.
-    #[serde(flatten, serialize_with = "low_and_high")]
-    pub interval: (f64, f64),
-    /// Standard error due to the noise.
-    pub noise_error: f64,
-    /// Value at which the search began.
-    pub start: f64,
-    /// Range in which the value was searched.
-    pub range: (f64, f64),
-}
-
-fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Result<S::Ok, S::Error> {
-    let mut map = serializer.serialize_map(Some(2))?;
-    map.serialize_entry("low", low)?;
-    map.serialize_entry("high", high)?;
-    map.end()
-}
-
-impl FittedParameter {
-    /// A value of the parameter in words, with the digits that its interval determines, unless it is the whole range.
-    pub fn text(&self, value: f64) -> String {
-        let half = 0.5 * (self.interval.1 - self.interval.0);
-        format_within(value, if self.interval == self.range { 0.0 } else { half }, self.parameter.row().unit)
-    }
-}
-
-/// Result of a fit.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[non_exhaustive]
-pub struct FitResult {
-    /// The free parameters with their errors.
-    #[serde(serialize_with = "by_name")]
-    pub parameters: Vec<FittedParameter>,
-    /// Root mean square residual of all points, N.
-    pub residual: f64,
-    /// Root mean square residual over the noise.
-    pub residual_over_noise: f64,
-    /// Share of the points whose residual exceeds 5 times the noise.
-    pub beyond_five_sigma: f64,
-    /// Root mean square residual of the points in contact over the noise; points inside a jump of the model count as
-    /// described, and other single points count as 5 times that root mean square.
-    pub misfit: f64,
-    /// Upper end of the interval of the work of adhesion, J/m², if a scene without adhesion describes the curve
-    /// equally well.
-    #[serde(skip)]
-    pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values.
-    pub tabor: Option<f64>,
-    /// Why the model does not describe the curve; `None` if it does.
-    pub reason: Option<Reason>,
-    /// Correlation of each pair of parameters.
-    pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs of parameters that the curve cannot separate; a pair of the same parameter for one that the curve does not
-    /// determine.
-    pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Change of the scene by the file of the curve, in words.
-    #[serde(skip)]
-    pub instrument: Option<String>,
-    /// Number of curves computed by the fit.
-    pub evaluations: usize,
-    /// Force of the model at each point, N, including the zero and the drift of the curve, which the fit refines.
-    #[serde(skip)]
-    pub model: Vec<f64>,
-    /// The scene with the fitted values, loaded as the measured curve was.
-    #[serde(rename = "scene", serialize_with = "scene_of")]
-    pub document: Document,
-}
-
-fn by_name<S: Serializer>(parameters: &[FittedParameter], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(parameters.iter().map(|one| (one.parameter, one)))
-}
-
-fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, S::Error> {
-    document.scene().serialize(serializer)
-}
-
-impl FitResult {
-    /// Returns true if the model describes the curve.
-    pub fn describes(&self) -> bool {
-        self.misfit <= MISFIT
-    }
-
-    /// Returns true if the model does not describe the curve and the profile of the scene is random: the specimen has another
-    /// one, and the values found say nothing about it.
-    pub fn has_other_profile(&self) -> bool {
-        !self.describes() && self.document.scene().seed().is_some()
-    }
-}
 
 /// Fit of a scene, with its free parameters, to a measured curve.
 ///
@@ -199,6 +101,8 @@ fn find(
     let mut simulation = Simulation::new(given.resolve(""));
     let instrument = curve.with_instrument(given).map_err(wrong)?.1;
     let (document, space) = Space::of(curve, given, &mut simulation, free, stop)?;
+    let is_fixed = space.coordinates.iter().all(|one| one.parameter != Parameter::Offset);
+    let assumptions = instrument.into_iter().chain(is_fixed.then(|| fixed_touch(curve))).collect();
     let Searched { found, rests, misfit, evaluations } =
         searched(curve, &document, &mut simulation, &space, report)?;
     if let Some(free) = space.extended(&found.best.at, free) {
@@ -271,11 +175,24 @@ fn find(
         reason: reason.transpose()?,
         correlations,
         not_distinguished,
-        instrument,
+        assumptions,
         evaluations,
         model,
         document: found,
     })
+}
+
+/// The first touch that a fit takes from the curve if it does not search the offset, in words. A displacement off by half the
+/// distance of two points shifts the modulus by more than its interval where the noise is small.
+fn fixed_touch(curve: &MeasuredCurve) -> String {
+    let distances = curve.displacement.iter().map(|at| (at - curve.touch).abs());
+    let next = distances.filter(|distance| *distance > 0.0).fold(f64::INFINITY, f64::min);
+    let [touch, next] = [curve.touch, next].map(|at| format_rounded(at, 3, "m"));
+    format!(
+        "First touch was taken at the point at {touch}, and the next point is {next} away. The offset was not fitted, so the \
+         intervals leave out this uncertainty: --free {} fits it.",
+        Parameter::Offset.name()
+    )
 }
 
 /// Result of a search: the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
@@ -324,6 +241,7 @@ mod tests {
         Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
     };
     use crate::options::Drift;
+    use crate::reason::Reason;
     use asperity_contact::Move;
 
     /// Asserts that the values differ from the truth by at most a few standard errors, and that the residuals are as large
@@ -361,6 +279,22 @@ mod tests {
         let scene = fit.document.scene();
         assert_eq!(scene.adhesion.unwrap().work(), Some(work));
         assert!(matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0));
+    }
+
+    /// First touch lies between two points: an offset that is not fitted shifts the modulus beyond its interval, which is said.
+    #[test]
+    fn an_offset_that_is_not_fitted_is_named() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let [fixed, free] = ["work,modulus", "work,modulus,offset"].map(|free| fitted(&curve, &made, free));
+        let truth = truth(&made, Parameter::Modulus);
+        let holds = |fit: &FitResult| {
+            let (low, high) = fit.parameters[1].interval;
+            (low..=high).contains(&truth)
+        };
+        assert!(!holds(&fixed) && holds(&free), "{truth:e} {:?} {:?}", fixed.parameters, free.parameters);
+        let of_offset = |fit: &FitResult| fit.assumptions.iter().any(|text| text.contains("--free offset"));
+        assert!(of_offset(&fixed) && !of_offset(&free), "{:?}", fixed.assumptions);
     }
 
     /// A point in the middle of the jump at pull-off changes neither the fit nor the number of curves computed for it; as far

@@ -1,6 +1,7 @@
 //! Binary files of instruments, which are refused with the way to a text.
 
-use asperity_surface::{Place, SurfaceError, refused};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
 use std::path::Path;
 
 /// For each binary format: ends of file names, first bytes, name, and the way to a text file.

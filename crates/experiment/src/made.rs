@@ -1,7 +1,8 @@
 //! Test curves of scenes with known values.
 
 use crate::curve::MeasuredCurve;
-use crate::fit::{Fit, FitResult};
+use crate::fit::Fit;
+use crate::fit_result::FitResult;
 use crate::options::{CurveOptions, Drift};
 use crate::parameter::{Free, Parameter};
 use crate::scene::radius_of;

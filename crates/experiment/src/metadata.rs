@@ -1,7 +1,7 @@
 //! What the lines above the numbers of a curve say about the instrument.
 
 use asperity_data::parse_quantity;
-use asperity_surface::{Decimal, Separator, TextCell};
+use asperity_data::text_table::{Decimal, Separator, TextCell};
 
 /// Names of the stiffness of the instrument, of the deflection for 1 V, and of the travel of the piezo, as letters.
 const STIFFNESS: [&str; 6] =

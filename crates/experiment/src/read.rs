@@ -9,9 +9,10 @@ use crate::options::CurveOptions;
 use crate::segment::Label;
 use crate::text::{Above, Shape, beginning, is_comment, segment_of};
 use asperity_data::shown;
+use asperity_data::text_table::{Decimal, ONE_MARK, TextCell, TextColumn, each_line};
 use asperity_data::{PROVENANCE, grouped, npy};
-use asperity_surface::{Decimal, ONE_MARK, TextCell, TextColumn, each_text};
-use asperity_surface::{Place, SurfaceError, columns as npy_columns, refused, unpacked};
+use asperity_surface::files::{columns as npy_columns, refused, unpacked};
+use asperity_surface::{Place, SurfaceError};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -286,7 +287,7 @@ fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Surface
     let (mut above, mut points, mut decimal) = (Above::default(), None::<Points>, Decimal::default());
     // Name of a segment above its points.
     let mut name = String::new();
-    each_text(bytes, |number, line| {
+    each_line(bytes, |number, line| {
         let place = Place::Line(number);
         if let Some(segment) = segment_of(line).filter(|_| is_comment(line)) {
             segment.clone_into(&mut name);

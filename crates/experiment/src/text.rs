@@ -2,12 +2,12 @@
 
 use crate::columns::is_unit;
 use crate::metadata::Metadata;
-use asperity_surface::{Decimal, Separator, SurfaceError, TextCell, TextColumn, TextHeader, each_text};
+use asperity_data::text_table::{
+    COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, TextFault, each_line,
+};
 
 /// Number of like rows of numbers that make them points. Lines of metadata with numbers are fewer.
 const RUN: usize = 5;
-/// Characters that begin a comment.
-const COMMENT: [char; 3] = ['#', '%', '!'];
 /// Header line of tables that PyJibe and afmformats write, whose columns are in SI units.
 const OF_AFMFORMATS: &str = "END METADATA";
 
@@ -38,13 +38,13 @@ impl Shape {
 
 /// Returns the line at which the points begin, and their form. The first few like rows decide, or else the first row.
 /// Returns `None` if there is no row of numbers.
-pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, SurfaceError> {
+pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, TextFault> {
     for least in [2, 1] {
         let (mut first, mut run) = (None, None::<(usize, Shape)>);
         let (mut length, mut has_found) = (0, false);
-        each_text(bytes, |number, line| {
+        each_line(bytes, |number, line| {
             if has_found || line.is_empty() || is_comment(line) {
-                return Ok(());
+                return Ok::<(), TextFault>(());
             }
             let Some(shape) = Shape::of(line, least) else {
                 run = None;
@@ -81,7 +81,7 @@ pub(crate) fn segment_of(comment: &str) -> Option<&str> {
 /// Lines above the points.
 #[derive(Default)]
 pub(crate) struct Above {
-    pub header: TextHeader,
+    pub header: HeadLines,
     pub metadata: Metadata,
     /// Names of columns followed by the first numbers, from a file without a line end between them.
     merged: Option<String>,
@@ -107,11 +107,11 @@ impl Above {
 
     /// Returns names and units of the columns.
     pub fn columns(&self, shape: &Shape) -> Vec<TextColumn> {
-        let of = |header: &TextHeader| header.columns(shape.count, shape.count, shape.separator, is_unit);
+        let of = |header: &HeadLines| header.columns(shape.count, shape.count, shape.separator, is_unit);
         match &self.merged {
             None => of(&self.header),
             Some(names) => {
-                let mut header = TextHeader::default();
+                let mut header = HeadLines::default();
                 header.take(names);
                 of(&header)
             }

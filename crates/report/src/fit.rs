@@ -55,7 +55,7 @@ impl Report for FitReport<'_> {
             ));
         }
         sheet.heading(&format!("Curve {title}"));
-        curve.statements.iter().chain(&fit.instrument).for_each(|sentence| sheet.paragraph(sentence));
+        curve.statements.iter().chain(&fit.assumptions).for_each(|sentence| sheet.paragraph(sentence));
         sheet.heading(&format!("Fit of {}", fit.document.title()));
         let quantity = |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
         let header = ["", "value", "95 % interval", "standard error", "start"];
@@ -121,7 +121,7 @@ impl Report for FitReport<'_> {
             pull_off_work: pull_off_force.and_then(|force| self.pull_off_work(force)),
             points_used: curve.points,
             points_left_out: curve.missing,
-            reading: curve.statements.iter().chain(&fit.instrument).collect(),
+            reading: curve.statements.iter().chain(&fit.assumptions).collect(),
         }))
     }
 

@@ -156,6 +156,13 @@ impl FitsReport<'_> {
                 grouped(self.rows.len() as u64)
             ));
         }
+        if !self.free.contains(&Parameter::Offset) {
+            text.push(format!(
+                "The offset was not fitted, so the intervals leave out that first touch is known to the distance of two points \
+                 only: --free {} fits it.",
+                Parameter::Offset.name()
+            ));
+        }
         text
     }
 }

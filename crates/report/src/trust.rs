@@ -139,7 +139,7 @@ mod tests {
         let document = scene(&[]);
         let (scene, outcome) = (document.scene(), run(&document).unwrap());
         let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_| ()).unwrap();
+        let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_, _| ()).unwrap();
         let rows = |ensemble: Option<&Ensemble>| {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
             error_rows(scene, None, &budget, ensemble)

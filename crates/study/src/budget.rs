@@ -104,7 +104,8 @@ mod tests {
         let document = open("pressure-sensitive").unwrap().set_all(&fields).unwrap();
         let outcome = run(&document).unwrap();
         let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(document.scene(), &[], 17, simulation, &|| false, &mut |_| ()).unwrap();
+        let ensemble =
+            Ensemble::of(document.scene(), &[], 17, simulation, &|| false, &mut |_, _| ()).unwrap();
         let estimate = |error| Estimate {
             target: Target::AdhesionForce,
             error,

@@ -142,7 +142,7 @@ mod tests {
              roughness: SelfAffine(hurst: 0.3, rms_height: 1.0e-7, modes: (1, 64), seed: 1)",
         );
         let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_| ()).unwrap();
+        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_, _| ()).unwrap();
         let found = rows(&rough, Some(&ensemble));
         assert_eq!(names(&found)[4..], ["Tabor number", "this program", "this program"]);
         let smooth = run(&rough).unwrap().smooth_adhesion_force.unwrap();

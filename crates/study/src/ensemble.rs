@@ -53,7 +53,8 @@ impl Ensemble {
     /// turned at first touch and at zero force. A profile that cannot follow the loading has no values.
     ///
     /// `workers` are the simulation of the first thread and the number of threads, which share the profiles. The results do
-    /// not depend on this number. After each profile `report` receives the results so far.
+    /// not depend on this number. After each profile `report` receives the number of profiles so far, and a
+    /// function that copies the ensemble so far.
     ///
     /// # Errors
     /// Several profiles are requested of a scene whose profile is fixed, the memory does not suffice, or `stop` returned
@@ -64,11 +65,15 @@ impl Ensemble {
         profiles: u64,
         workers: (Simulation, usize),
         stop: &Stop<'_>,
-        report: &mut dyn FnMut(&Ensemble),
+        report: &mut dyn FnMut(u64, &dyn Fn() -> Ensemble),
     ) -> Result<Ensemble, StudyError> {
         let record = [&Ensemble::NUMBERS[..], &Quantity::REGIMES, further].concat();
         let mut results = Results::begin(scene, &record, profiles, None)?;
-        let mut see = |results: &Results| report(&Ensemble { results: results.clone() });
+        let mut computed = 0;
+        let mut see = |results: &Results| {
+            computed += 1;
+            report(computed, &|| Ensemble { results: results.clone() });
+        };
         results.extend_each(workers, stop, &mut see)?;
         Ok(Ensemble { results })
     }
@@ -136,7 +141,7 @@ pub fn ensemble(
     StudyError::check_threads(control.threads())?;
     let workers = (Simulation::new(document.resolve("")), control.threads());
     let stop = control.stop();
-    let mut see = |part: &Ensemble| control.report(part.computed());
+    let mut see = |computed: u64, _: &dyn Fn() -> Ensemble| control.report(computed);
     Ensemble::of(document.scene(), &[], profiles, workers, stop, &mut see)
 }
 
@@ -151,7 +156,7 @@ mod tests {
     }
 
     fn ensemble(scene: &CheckedScene, profiles: u64, jobs: usize) -> Result<Ensemble, StudyError> {
-        Ensemble::of(scene, &[], profiles, (Simulation::default(), jobs), &|| false, &mut |_| ())
+        Ensemble::of(scene, &[], profiles, (Simulation::default(), jobs), &|| false, &mut |_, _| ())
     }
 
     /// Each profile is the scene with the seed of that profile, and no bit depends on the number of threads.
@@ -188,9 +193,10 @@ mod tests {
     fn an_ensemble_reports_each_profile_and_stops() {
         let scene = scene("rough-sphere");
         let (mut parts, ended) = (Vec::new(), AtomicBool::new(false));
-        let mut see = |part: &Ensemble| {
-            parts.push(part.computed());
-            ended.store(part.computed() == 3, Ordering::Relaxed);
+        let mut see = |computed: u64, part: &dyn Fn() -> Ensemble| {
+            assert_eq!(part().computed(), computed);
+            parts.push(computed);
+            ended.store(computed == 3, Ordering::Relaxed);
         };
         let stop = || ended.load(Ordering::Relaxed);
         let stopped = Ensemble::of(&scene, &[], 400, (Simulation::default(), 1), &stop, &mut see);
