@@ -33,7 +33,7 @@ pub enum StudyError {
     /// A measured file of the study cannot be read.
     #[error(transparent)]
     Measured(#[from] SurfaceError),
-    /// A file could not be written, such as a table.
+    /// A file, such as a table, could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
     /// A scene of the study could not be computed.
