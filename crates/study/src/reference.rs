@@ -135,7 +135,7 @@ pub enum ReferenceEvent {
         threads: usize,
         /// Memory of all threads, in bytes.
         bytes: u64,
-        /// Estimated computing time of all squares, s, from smaller squares.
+        /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
     },
     /// The computation of a square is finished.
