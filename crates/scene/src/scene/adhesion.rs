@@ -20,7 +20,7 @@ pub enum RoughnessParameter {
     /// κ = √(h⟨∇z⟩E*/γ), eq. (11).
     #[default]
     Kappa,
-    /// e_el/γ, with the elastic energy of conformity e_el per area.
+    /// e_el/γ, with the elastic energy e_el per area that flattens the roughness.
     ElasticEnergyRatio,
 }
 
