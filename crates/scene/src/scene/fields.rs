@@ -1,7 +1,7 @@
 //! The table of all fields of a scene: paths, symbols, units, ranges, steps, defaults, meanings.
 //!
-//! Reading and writing, checks of ranges, defaults, overrides, steps of the keys, axes of studies, the explorer's list of
-//! parameters, random scenes of the tests and the reference in docs/scene-file.md all iterate over this table.
+//! Many parts use this table: the reader and the writer of scenes, checks, overrides, keys, and axes of studies. The
+//! explorer, the random scenes of tests and the reference in docs/scene-file.md use it too.
 
 use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
@@ -13,14 +13,14 @@ use super::range::Range::{Band, Choice, List, Text, Wavelengths, Whole};
 use super::stages::{MOST_STAGES, STAGES};
 use super::text::read_ron;
 
-/// Version of the scene file.
+/// Version of the format of scene files.
 pub const SCENE_VERSION: u32 = 1;
 
 /// Largest number of springs.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// The field at a path. Where variants of a choice have fields of the same name, `variant` decides; for `None` the first
-/// one is returned.
+/// Returns the field at a path. If several variants have a field of this name, `variant` decides; `None` selects the first
+/// one.
 ///
 /// ```
 /// let radius = asperity_scene::field("form.radius", Some("Paraboloid")).unwrap();
@@ -31,13 +31,13 @@ pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
     FIELDS.iter().find(|field| field.path == path && is_of(field))
 }
 
-/// Value of an omitted field that has a default.
+/// Returns the default value of a field.
 pub(super) fn default_of<T: DeserializeOwned>(path: &str) -> T {
     let row = FIELDS.iter().find(|field| field.path == path && !field.default.is_empty());
     row.and_then(|row| read_ron(row.default).ok()).expect("a row of the table with a default of this type")
 }
 
-/// Fields inside the group or choice at a path, for this variant; fields at the top for an empty path.
+/// Returns the fields directly inside the group or the variant at a path; an empty path is the whole scene.
 pub(super) fn fields_inside(path: &str, variant: Option<&str>) -> impl Iterator<Item = &'static Field> {
     let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
     FIELDS.iter().filter(move |field| field.parent() == path && is_of(field))
@@ -60,7 +60,7 @@ const ROUGHNESS: Range = Choice(&[
 const SWITCH: Range = Choice(&["false", "true"]);
 const UNIT: Range = Text { least: 0, most: 20, lines: false };
 
-/// Every field of a scene, in the order of a scene file.
+/// All fields of a scene, in the order of a scene file.
 // Two or three lines for a row: what it is, and what it means.
 #[rustfmt::skip]
 pub const FIELDS: &[Field] = &[
