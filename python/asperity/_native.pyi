@@ -28,12 +28,12 @@ __all__ = [
 
 __version__: str
 
-# Number of profiles, number of threads, and the callback of the progress.
+# Number of profiles, number of threads, and the function that receives the progress.
 _Call: TypeAlias = tuple[int | None, int | None, Callable[[int, int], object] | None]
 
 @final
 class Profile:
-    """The profile of heights or of a scene; `asperity.Profile` gives its parts their names."""
+    """Profile of given heights or of a scene. Users see it as `asperity.Profile`."""
 
     def __new__(cls, heights: npt.NDArray[np.float64], spacing: float) -> Profile: ...
     @staticmethod
@@ -43,7 +43,7 @@ class Profile:
 
 @final
 class Loop:
-    """The loop of a profile of heights or of a computed scene; `asperity.Loop` gives its parts their names."""
+    """Force loop of a profile or of a computed scene. Users see it as `asperity.Loop`."""
 
     @staticmethod
     def of_heights(
@@ -61,7 +61,7 @@ class Loop:
 
 @final
 class Scene:
-    """A checked scene: one problem with material, profile, adhesion, loading and numerics."""
+    """A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of its computation."""
 
     @staticmethod
     def open(name: str) -> Scene: ...
@@ -73,7 +73,7 @@ class Scene:
 
 @final
 class Surface:
-    """An analysed measured surface, from which profiles and scenes are made."""
+    """A measured surface after its analysis. It makes profiles and scenes with the measured spectrum."""
 
     @staticmethod
     def of_files(words: list[str]) -> Surface: ...
@@ -86,7 +86,7 @@ class Surface:
 
 @final
 class Report:
-    """A result in the formats of the program."""
+    """A result that can be written in the formats of the program, such as JSON."""
 
     def write(self, format: str) -> bytes: ...
 

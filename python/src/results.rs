@@ -51,7 +51,7 @@ fn on_profiles(
 ) -> Result<Ensemble, Failure> {
     let further = if is_asked { &Ensemble::FURTHER[..] } else { &[] };
     let simulation = Simulation::new(document.resolve(""));
-    let mut report = |so_far: &Ensemble| watch.report(so_far.computed(), profiles);
+    let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| watch.report(computed, profiles);
     Ok(Ensemble::of(document.scene(), further, profiles, (simulation, jobs), &|| watch.stop(), &mut report)?)
 }
 

@@ -1,5 +1,5 @@
-//! Linear operators of a half-space on a square grid, in units of the side L and the effective modulus E*: displacement
-//! by pressure, its approximate inverse, and the extension of numbers from a contact to the grid around it.
+//! Linear operators of a half-space on a square grid, in units of the side L and the effective modulus E*. They are the
+//! displacement by a pressure, its approximate inverse, and the extension of numbers from a contact to the grid around it.
 
 use super::convolution::Convolution;
 use asperity_data::{OutOfMemory, resized};
@@ -8,12 +8,12 @@ use std::f64::consts::{PI, TAU};
 /// Number of sweeps by which a residual is extended beyond the contact.
 const SWEEPS: usize = 6;
 
-/// Surroundings of the square.
+/// Surroundings of the square on the half-space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
     /// The square is alone on the half-space.
     Free,
-    /// The square is repeated in both directions without an end.
+    /// The square is repeated without end in both directions.
     Periodic,
 }
 
@@ -31,7 +31,7 @@ pub struct Operators {
 }
 
 impl Operators {
-    /// Bytes of the operators of a grid.
+    /// Returns the number of bytes of the operators of a grid.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         let (displacement, stiffness) = paddings(cells, boundary);
         Convolution::<f64>::bytes(cells, displacement)
@@ -62,7 +62,7 @@ impl Operators {
         })
     }
 
-    /// Displacements by pressures, both row by row.
+    /// Computes the displacements by pressures, both row by row.
     pub fn displace<C>(
         &mut self,
         context: &mut C,
@@ -73,9 +73,9 @@ impl Operators {
         self.displacement.apply(context, pressure, displacement);
     }
 
-    /// Approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E, where D is E*|q|/2 and E
-    /// extends displacements smoothly beyond the contact, since zeros there would act as a wall at each edge. The operator
-    /// is symmetric; it is approximate, so that single precision is enough. `outside` is 1 off the contact and 0 on it.
+    /// Computes approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E. D is E*|q|/2, and E
+    /// extends displacements smoothly beyond the contact, because zeros there would act as a wall at each edge. The operator is
+    /// symmetric. It is only approximate, so single precision is enough. `outside` is 1 off the contact and 0 on it.
     /// `visit` gets each row once it is computed.
     pub fn precondition(
         &mut self,
@@ -179,7 +179,7 @@ fn sweep_row(of: [&[f32]; 5], to: &mut [f32], each: impl Fn(f32, f32, f32) -> f3
     }
 }
 
-/// Sides of the padded grids of both operators.
+/// Returns the sides of the padded grids of both operators.
 fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
     match boundary {
         Boundary::Periodic => (cells, cells),
@@ -188,7 +188,8 @@ fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
     }
 }
 
-/// Displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in units of the cell (Love 1929).
+/// Returns the displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in units of the cell (Love
+/// 1929).
 fn of_a_cell(x: f64, y: f64) -> f64 {
     let part = |x: f64, y: f64| {
         let r = x.hypot(y);

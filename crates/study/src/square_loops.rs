@@ -1,4 +1,4 @@
-//! Loops of random squares in three dimensions beside the line, as far as they are computed.
+//! Loops of random squares in three dimensions for comparison with the profile, as far as they are computed.
 
 use super::error::StudyError;
 use super::profiles::Stop;
@@ -7,26 +7,26 @@ use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Loops of random squares, as far as they are computed.
+/// Loops of loading and unloading for random squares in three dimensions, as far as they are computed.
 #[derive(Clone, Debug, Default)]
 pub struct SquareLoops {
-    /// Number of squares in all.
+    /// Number of squares when all are computed.
     pub maps: u64,
-    /// Indentation, m, and force, N, from first touch on, of each square that is done.
+    /// Indentation in m and force in N of each computed square, from first touch on.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force, N, of each line, or without adhesion the indentation, m, under the preload.
+    /// Adhesion force of each line in N, or without adhesion the indentation in m under the preload.
     pub lines: Vec<f64>,
-    /// The same of each square that is done.
+    /// The same number of each computed square.
     pub squares: Vec<f64>,
-    /// The comparison with the line, once all squares are done.
+    /// Comparison with random profiles; `None` until all squares are computed.
     pub reference: Option<Reference>,
 }
 
 impl SquareLoops {
-    /// Computes the loops of a scene, and reports the loops so far after each of them.
+    /// Computes the loops of a scene. After each loop `report` receives the loops so far.
     ///
     /// # Errors
-    /// Those of [`Reference::of`].
+    /// The same as the errors of [`Reference::of`].
     pub fn of(
         scene: &CheckedScene,
         simulation: (Simulation, usize),
