@@ -146,10 +146,8 @@ impl HalfSpace {
         let Square { side, effective_modulus, .. } = *square;
         let cell = (side / grid.cells as f64).powi(2);
         let pressure: Vec<f64> = grid.pressure.iter().map(|value| value * effective_modulus).collect();
-        let gap =
-            grid.displacement.iter().zip(&grid.depths).map(|(of, depth)| (of + depth - grid.level) * side);
         Pressed {
-            gap: gap.collect(),
+            gap: grid.levels.iter().map(|level| (level - grid.level) * side).collect(),
             force: cell * pressure.iter().sum::<f64>(),
             indentation: grid.level * side,
             area: cell * grid.outside.iter().filter(|out| **out == 0.0).count() as f64,

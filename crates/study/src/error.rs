@@ -122,7 +122,11 @@ impl StudyError {
 
     /// Returns true if the computation was stopped rather than failed.
     pub fn is_interruption(&self) -> bool {
-        matches!(self, StudyError::Run { error, .. } if error.is_interruption())
+        match self {
+            StudyError::Run { error, .. } => error.is_interruption(),
+            StudyError::HalfSpace(error) => *error == HalfSpaceError::Stopped,
+            _ => false,
+        }
     }
 
     pub(super) fn folder(path: &Path, reason: impl ToString) -> StudyError {
