@@ -28,7 +28,7 @@ const PAGES: [(&str, &str); 17] = [
     ("scene-file.md", "fields of a scene, waves, loading, forms"),
     ("results.md", "summary, JSON, tables, figures"),
     ("keys.md", "panes and keys of the explorer, typed values, configuration"),
-    ("studies.md", "inverse questions, parameter studies, statistics, clusters"),
+    ("studies.md", "the preload for a wanted result, parameter studies, statistics, clusters"),
     ("reversals.md", "adhesion against preload, Everett function"),
     (
         "particles.md",
@@ -38,7 +38,7 @@ const PAGES: [(&str, &str); 17] = [
     ("surface-estimate.md", "how a measured spectrum is estimated, and its errors"),
     ("experiment.md", "measured force curves: reading, fit of the work of adhesion, errors"),
     ("model.md", "equations, regimes, other theories, validity"),
-    ("findings.md", "claims of the paper, boundary of adhesion, stiffness: citable results"),
+    ("findings.md", "results to cite: claims of the paper, boundary of adhesion, stiffness"),
     ("accuracy.md", "rounding, errors against closed forms, cost of accuracy, scatter of profiles"),
     ("line-and-three-dimensions.md", "how far to trust the line: the same contact in three dimensions"),
     ("performance.md", "times, latency of the explorer, memory"),

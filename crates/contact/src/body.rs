@@ -73,7 +73,7 @@ pub struct Body {
     curve_time: Duration,
 }
 
-/// A motion of a body without a force curve, the result of [`Body::move_to`].
+/// Result of [`Body::move_to`]: a motion of a body without a force curve.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -107,7 +107,7 @@ impl Body {
         Self::on(Leg::apart(contact, Direction::Unloading), ContactState::free(0.0), samples)
     }
 
-    /// Creates a body at an indentation in m of the motion `leg`, which the body may continue.
+    /// Creates a body at an indentation in m on a leg; the body can continue the motion of the leg.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the stepwise solver, and [`ContactError::OutOfMemory`].

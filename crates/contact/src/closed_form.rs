@@ -41,6 +41,7 @@ impl ClosedForm {
     /// effective modulus in Pa and γ the work of adhesion in J/m².
     ///
     /// ```
+    /// use asperity_contact::ClosedForm;
     ///
     /// // A punch as wide as the profile is a flat face: L = 2a.
     /// let [punch, face] = [ClosedForm::flat_punch(1.0e-5, 1.0e6, 0.05), ClosedForm::ideal_adhesion_force(0.05, 1.0e6, 2.0e-5)];
@@ -50,8 +51,8 @@ impl ClosedForm {
         (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
     }
 
-    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. They also hold
-    /// for a paraboloid with this radius at its summit.
+    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R. The closed forms
+    /// also hold for a paraboloid with this radius of curvature at its summit.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm { line_coefficient: radius.recip(), exponent: 2.0, effective_modulus, work_of_adhesion }
@@ -96,8 +97,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. This force is the
-    /// smallest of all.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0. No force of the
+    /// contact is smaller.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);

@@ -99,7 +99,7 @@ impl Figures {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// First point in contact, if the contact forms there in a jump, at a tensile force.
+    /// First point in contact, if the contact forms in a jump and the force there is tensile.
     JumpIn,
     /// Point of the preload; see [`Branch::preload`].
     Preload,

@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of the motion of a body to the target of one loading stage.
+/// Record of one loading stage, the motion of a body to one target.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -29,7 +29,7 @@ pub struct LegRecord {
     /// Direction of the motion.
     pub direction: Direction,
     /// Force curve of the motion: the samples, and on unloading also the points of the smallest force and of the smallest
-    /// displacement. A jump into or out of contact has one point before it and one point after it.
+    /// displacement of the instrument. A jump into or out of contact has one point before it and one point after it.
     pub curve: Vec<CurvePoint>,
     /// On loading the point of the largest force, exact to rounding; on unloading the first point.
     pub largest: CurvePoint,

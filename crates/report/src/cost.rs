@@ -16,8 +16,8 @@ use serde::Serialize;
 /// Headings of the columns of errors, in the order of [`CostTable::QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
-/// Report on the cost of accuracy of a scene: computing time and errors for many settings. The fields of the JSON have this
-/// order.
+/// Report on the cost of accuracy of a scene: computing time and errors for many settings. JSON has the fields in the order
+/// given here.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
     /// Title of the scene.

@@ -110,7 +110,7 @@ impl SurfaceFile {
     }
 }
 
-/// Measured surfaces of one face, with their common analysis.
+/// Measured surfaces of one face, which is the surface of one body, with their common analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
     /// Facts about each surface.

@@ -72,11 +72,11 @@ quantities! {
         symbol: "κ", needs: Needs::Profile, of: |case| case.governing.kappa,
     }
     ElasticEnergy {
-        name: "elastic_energy", meaning: "elastic energy of conformity per area",
+        name: "elastic_energy", meaning: "elastic energy per area that flattens the roughness",
         symbol: "e_el", unit: "J/m²", needs: Needs::Profile, of: |case| case.governing.elastic_energy(),
     }
     ElasticEnergyRatio {
-        name: "elastic_energy_ratio", meaning: "elastic energy of conformity over the work of adhesion",
+        name: "elastic_energy_ratio", meaning: "elastic energy that flattens the roughness over the work of adhesion",
         symbol: "e_el/γ", needs: Needs::Profile, of: |case| case.governing.elastic_energy_ratio,
     }
     WorkOfAdhesion {

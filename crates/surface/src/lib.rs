@@ -34,7 +34,7 @@ pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Contents of files and errors at places in them, for readers of force curves.
+/// Reading of bytes, gzip and columns of NumPy arrays, for readers of other files such as force curves.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;

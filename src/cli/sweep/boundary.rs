@@ -18,7 +18,7 @@ Examples:
 F_a(d=0) never quite vanishes: it falls about exponentially with κ. So κ* is where its mean over the
 profiles falls below a share of F_a,max for good; intervals contain 95 % of 1000 resamplings of
 the profiles.
---x gives the boundary in e_el/γ, the elastic energy of conformity over the work of adhesion.";
+--x gives the boundary in e_el/γ: elastic energy to flatten the roughness over work of adhesion.";
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, mut_args(without_look))]

@@ -209,8 +209,8 @@ fn squares(app: &App) -> (String, Meaning) {
     match app.studies.failure::<SquareLoops>() {
         Some(why) => (format!("three dimensions: {why}"), Meaning::Error),
         None => {
-            let words = square_loops_words(app.studies.value().unwrap_or(&SquareLoops::default()));
-            (words, Meaning::Title)
+            let (loops, is_adhesive) = (app.studies.value(), app.edit.scene.adhesion.is_some());
+            (square_loops_words(loops.unwrap_or(&SquareLoops::default()), is_adhesive), Meaning::Title)
         }
     }
 }

@@ -261,8 +261,8 @@ impl Leg {
         together.filter(|events| jump(events) >= least).map(|events| events[0].0).collect()
     }
 
-    /// Returns for each spring of the profile the smallest indentation in m at which it is in contact: −∞ for always, +∞ for
-    /// never.
+    /// Returns for each spring of the profile the smallest indentation in m at which the spring is in contact: −∞ for always,
+    /// +∞ for never.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {

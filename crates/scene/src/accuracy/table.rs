@@ -85,7 +85,7 @@ pub struct Row {
     pub springs: u64,
     /// Times of whole runs that reuse no earlier result; `None` if no run was timed.
     pub seconds: Option<Timing>,
-    /// Shortest time over the time of one Fourier transform, [`CostTable::transform_seconds`].
+    /// Shortest time divided by the time of one Fourier transform, [`CostTable::transform_seconds`].
     pub transforms: Option<f64>,
     /// Relative errors of the [`CostTable::QUANTITIES`], in their order.
     #[serde(serialize_with = "by_name")]
@@ -130,7 +130,7 @@ pub struct CostTable {
 
 impl CostTable {
     /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest contact
-    /// length. The error of the curve is the mean difference of forces at equal indentations over the largest force.
+    /// length. The error of the curve is the mean difference of forces at equal indentations, divided by the largest force.
     pub const QUANTITIES: [&str; 4] = ["adhesion_force", "curve", "dissipated_energy", "contact_length"];
 
     /// Returns the rows of one setting, from coarse to fine.

@@ -37,7 +37,8 @@ pub struct Governing {
     pub amplitude: Option<Amplitude>,
     /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ) of eq. (11); `None` without roughness or adhesion.
     pub kappa: Option<f64>,
-    /// Elastic energy that flattens the roughness over the work of adhesion, e_el/γ; `None` without roughness or adhesion.
+    /// Ratio e_el/γ of the elastic energy that flattens the roughness to the work of adhesion; `None` without roughness or
+    /// adhesion.
     pub elastic_energy_ratio: Option<f64>,
 }
 

@@ -18,7 +18,7 @@ pub struct Measured {
     /// Name of the measured file, relative to the scene file.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub file: String,
-    /// Names of files with further measurements of the same surface. The spectrum is estimated from all of them together.
+    /// Names of files with further measurements of the same surface. The spectrum is estimated from all files together.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,

@@ -334,7 +334,7 @@ impl From<NumericsText> for Numerics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// Exact solver: it finds the indentation of each event directly, so there is no error from a step.
+    /// Exact solver: it computes at which indentations patches form, merge, split and detach, without an error from a step.
     Exact,
     /// Method of the paper: move the body by a step, relax the springs, repeat.
     Stepwise {

@@ -15,7 +15,7 @@ const DESCRIPTIONS: [&str; 5] = ["version", "title", "notice", "observe", "numer
 /// A field of a scene and its value as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
-    /// The field.
+    /// Field that has the value.
     pub field: &'static Field,
     /// Value of the field with its unit and all its digits.
     pub value: String,

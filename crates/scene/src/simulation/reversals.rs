@@ -14,7 +14,7 @@ use asperity_contact::Move;
 use asperity_contact::motion::Body;
 use asperity_contact::{ContactError, Reversal};
 
-/// Largest number of grid points of a map below its first turning point, over the number of turning points.
+/// Largest number of grid points below the first turning point of a map, for each turning point.
 const MOST_BELOW: usize = 4;
 
 /// Function that receives each unloading with the index of its turning point.

@@ -195,7 +195,7 @@ fn join_ends(heights: &mut [f64]) {
     (0..).zip(heights).for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
-/// Files of one face with their contents. All of them are samples of the same roughness.
+/// Paths and contents of the measured files of one face. All files are samples of the same roughness.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
 /// Reads the files of one or two faces.
