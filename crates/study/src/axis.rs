@@ -105,7 +105,7 @@ impl Axis {
         let (spacing, values) = match *text {
             AxisText::List { ref values, .. } => (Spacing::List, values.clone()),
             AxisText::Linear { from, to, count, .. } => {
-                check_ends(from, to, count, MOST_VALUES)?;
+                check_ends(from, to, count, MOST_VALUES).map_err(|error| error.to_string())?;
                 if !(to - from).is_finite() {
                     return Err(format!("from {from:?} to {to:?}: the range overflows a 64-bit float"));
                 }
@@ -113,8 +113,8 @@ impl Axis {
                 (Spacing::Linear, self.between(from, to, count, at))
             }
             AxisText::Logarithmic { from, to, count, .. } => {
-                check_ends(from, to, count, MOST_VALUES)?;
-                check_logarithm(from)?;
+                check_ends(from, to, count, MOST_VALUES).map_err(|error| error.to_string())?;
+                check_logarithm(from).map_err(|error| error.to_string())?;
                 let (first, last) = (from.ln(), to.ln());
                 let at = |share: f64| (first * (1.0 - share) + last * share).exp();
                 (Spacing::Logarithmic, self.between(from, to, count, at))
@@ -344,19 +344,22 @@ impl Target {
     }
 }
 
-pub(super) fn check_logarithm(from: f64) -> Result<(), String> {
-    if from > 0.0 { Ok(()) } else { Err(format!("from {from:?}: a logarithmic axis begins above 0")) }
+pub(super) fn check_logarithm(from: f64) -> Result<(), StudyError> {
+    let refused = || StudyError::refused(None, format!("from {from:?}"), "a logarithmic axis begins above 0");
+    if from > 0.0 { Ok(()) } else { Err(refused()) }
 }
 
-pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), String> {
+pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), StudyError> {
+    let refused = |allowed| Err(StudyError::refused(None, format!("from {from:?} to {to:?}"), allowed));
     if !(2..=most).contains(&count) {
-        return Err(format!("count = {count}: allowed: from 2 to {most}"));
+        let allowed = format!("from 2 to {most}");
+        return Err(StudyError::refused(None, format!("count = {count}"), allowed));
     }
     if !(from.is_finite() && to.is_finite()) {
-        return Err(format!("from {from:?} to {to:?}: both ends must be finite"));
+        return refused("both ends must be finite");
     }
     if from >= to {
-        return Err(format!("from {from:?} to {to:?}: `from` must be less than `to`"));
+        return refused("`from` must be less than `to`");
     }
     Ok(())
 }

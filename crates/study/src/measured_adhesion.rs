@@ -110,12 +110,15 @@ impl MeasuredAdhesion {
         }
         let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;
-        MeasuredAdhesion::solve(scene, &line, count, jobs)
+        MeasuredAdhesion::of_line(scene, &line, count, jobs)
     }
 
-    /// Does the same as [`MeasuredAdhesion::of`] for a checked scene. `line` has the spectrum of its measured surface,
-    /// analysed with the options of the scene.
-    pub fn solve(
+    /// Computes a scene on `count` profiles of this equivalent line, as [`MeasuredAdhesion::of`] does. The line replaces the
+    /// measured surface of the scene, whose options of reading and analysis are not used.
+    ///
+    /// # Errors
+    /// A profile fails: the first one.
+    pub fn of_line(
         scene: &CheckedScene,
         line: &EquivalentLine,
         count: u32,
@@ -192,8 +195,8 @@ mod tests {
     #[test]
     fn both_spreads_are_those_of_separate_runs() {
         let (scene, line) = scene_and_line("(work: 0.05)");
-        let found = MeasuredAdhesion::solve(&scene, &line, 6, 1).unwrap();
-        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 6, 3).unwrap(), found);
+        let found = MeasuredAdhesion::of_line(&scene, &line, 6, 1).unwrap();
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 6, 3).unwrap(), found);
         let force = |line: EquivalentLine, seed: u64| {
             let scene = scene.with_seed(seed);
             let measured = Arc::new(MeasuredRoughness::Equivalent(line));
@@ -243,13 +246,13 @@ mod tests {
     #[test]
     fn a_given_kappa_is_that_of_the_fitted_spectrum() {
         let (scene, line) = scene_and_line("(kappa: 1.5)");
-        let by_kappa = MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap();
+        let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap();
         let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
         let mut simulation = Simulation::default().with_measured(measured);
         let outcome = simulation.run(&scene, &|| false, &mut |_, _, _| Ok(())).unwrap();
         let work = outcome.governing.work_of_adhesion.unwrap();
         let with_work = |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
         let scene = scene.with(with_work).unwrap();
-        assert_eq!(MeasuredAdhesion::solve(&scene, &line, 2, 1).unwrap(), by_kappa);
+        assert_eq!(MeasuredAdhesion::of_line(&scene, &line, 2, 1).unwrap(), by_kappa);
     }
 }

@@ -2,6 +2,7 @@
 //! staircase of one profile.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
+use super::error::StudyError;
 use super::plan::PRELOAD;
 use super::quantity::Quantity;
 use super::results::Results;
@@ -16,7 +17,8 @@ use std::ops::RangeInclusive;
 
 /// Usual number of preloads, and what a text of preloads may be.
 const USUAL: usize = 64;
-const ALLOWED: &str = "allowed: two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
+const ALLOWED: &str =
+    "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
 /// Share of the axis of preloads within which each step of a staircase is located, which is less than the width of a line
 /// in a figure.
@@ -39,18 +41,21 @@ impl Axis {
     ///
     /// let axis = Axis::parse_preloads("1nN..1uN:4:log").expect("two forces");
     /// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
-    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().contains("`from` must be less than `to`"));
+    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().to_string().contains("`from` must be less than `to`"));
     /// ```
-    pub fn parse_preloads(text: &str) -> Result<Axis, String> {
+    pub fn parse_preloads(text: &str) -> Result<Axis, StudyError> {
         let mut parts = text.split(':').map(str::trim);
         let ends = Axis::parse_range(parts.next().unwrap_or_default(), "N");
-        let ends = ends.map_err(|error| format!("{error}; {ALLOWED}"))?;
+        let ends = ends.map_err(|error| match error {
+            StudyError::Refused { found, .. } => StudyError::refused(None, found, ALLOWED),
+            other => other,
+        })?;
         let (mut count, mut scale) = (USUAL, AxisScale::Linear);
         for part in parts {
             match part.parse() {
                 Ok(number) => count = number,
                 Err(_) if part == "log" => scale = AxisScale::Logarithmic,
-                Err(_) => return Err(ALLOWED.into()),
+                Err(_) => return Err(StudyError::refused(None, format!("{part:?}"), ALLOWED)),
             }
         }
         Axis::of_preloads(ends, count, scale)
@@ -62,12 +67,12 @@ impl Axis {
     /// The text is wrong; the error says what is allowed.
     ///
     /// ```
-    /// assert_eq!(asperity_study::Axis::parse_range("1nm..2um", "m"), Ok((1e-9, 2e-6)));
+    /// assert_eq!(asperity_study::Axis::parse_range("1nm..2um", "m").ok(), Some((1e-9, 2e-6)));
     /// ```
-    pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), String> {
-        let (from, to) =
-            text.split_once("..").ok_or_else(|| format!("{text:?} is no range, such as 1..20"))?;
-        let number = |text: &str| parse_quantity(text, unit).map_err(|error| error.to_string());
+    pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), StudyError> {
+        let refused = |found| StudyError::refused(None, found, "two numbers, such as 1..20");
+        let (from, to) = text.split_once("..").ok_or_else(|| refused(format!("{text:?}")))?;
+        let number = |text: &str| parse_quantity(text, unit).map_err(|error| refused(error.to_string()));
         Ok((number(from)?, number(to)?))
     }
 
@@ -75,11 +80,12 @@ impl Axis {
     ///
     /// # Errors
     /// The forces or their number are not allowed; the error says what is allowed.
-    pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, String> {
+    pub fn of_preloads((from, to): (f64, f64), count: usize, scale: AxisScale) -> Result<Axis, StudyError> {
         check_ends(from, to, count as u64, *Axis::PRELOADS.end() as u64)?;
         let range = LEG_FORCE.range;
         if !(range.contains(from) && range.contains(to)) {
-            return Err(format!("from {from:?} to {to:?}: allowed: {range} N"));
+            let found = format!("from {from:?} to {to:?}");
+            return Err(StudyError::refused(None, found, format!("{range} N")));
         }
         let is_logarithmic = scale == AxisScale::Logarithmic;
         if is_logarithmic {
@@ -385,7 +391,7 @@ mod tests {
             ("-1..1:log", "begins above 0"),
             ("0..1e31", "allowed: from -1e30 to 1e30 N"),
         ] {
-            let error = Axis::parse_preloads(wrong).unwrap_err();
+            let error = Axis::parse_preloads(wrong).unwrap_err().to_string();
             assert!(error.contains(allowed), "{wrong}: {error}");
         }
     }

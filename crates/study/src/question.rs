@@ -74,25 +74,27 @@ impl Question {
     /// use asperity_study::Quantity;
     /// use asperity_study::Question;
     ///
-    /// assert_eq!(Question::parse_condition("F_a/F_a,max = 80 %"), Ok((Quantity::AdhesionShare, 0.8)));
-    /// assert!(Question::parse_condition("F_a/F_a,max = 120 %").unwrap_err().contains("allowed: from 0 to 1"));
+    /// assert_eq!(Question::parse_condition("F_a/F_a,max = 80 %").ok(), Some((Quantity::AdhesionShare, 0.8)));
+    /// assert!(Question::parse_condition("F_a/F_a,max = 120 %").unwrap_err().to_string().contains("allowed: from 0 to 1"));
     /// ```
-    pub fn parse_condition(text: &str) -> Result<(Quantity, f64), String> {
+    pub fn parse_condition(text: &str) -> Result<(Quantity, f64), StudyError> {
         // The symbol F_a(F=0) has the sign itself.
         let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
-        let (name, value) = text.rsplit_once('=').ok_or_else(|| format!("{text:?}: allowed: {example}"))?;
-        let quantity = Quantity::named(name)?;
+        let refused = |found: String| StudyError::refused(None, found, example);
+        let (name, value) = text.rsplit_once('=').ok_or_else(|| refused(format!("{text:?}")))?;
+        let quantity = Quantity::named(name).map_err(refused)?;
         if quantity.is_regime() {
-            return Err(format!("{} is not a number; allowed: {example}", quantity.name()));
+            return Err(refused(format!("{} is not a number", quantity.name())));
         }
         let target = parse_quantity(value, quantity.unit())
-            .map_err(|error| format!("value of {}: {error}", quantity.symbol_or_name()))?;
+            .map_err(|error| refused(format!("value of {}: {error}", quantity.symbol_or_name())))?;
         let (least, most) = quantity.bounds();
         if target < least || target > most {
             let [found, least, end] = [target, least, most].map(|one| format_quantity(one, quantity.unit()));
             let allowed =
                 if most.is_finite() { format!("from {least} to {end}") } else { format!("at least {least}") };
-            return Err(format!("{} = {found}; allowed: {allowed}", quantity.symbol_or_name()));
+            let found = format!("{} = {found}", quantity.symbol_or_name());
+            return Err(StudyError::refused(None, found, allowed));
         }
         Ok((quantity, target))
     }

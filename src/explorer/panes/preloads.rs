@@ -36,6 +36,7 @@ pub static ROW: PaneRow = PaneRow {
                 stop,
                 report,
             )
+            .map_err(|error| error.to_string())
         })]
     },
     help: &[(
