@@ -49,7 +49,8 @@ pub use modulus::Modulus;
 pub use profile::Profile;
 pub use target::Move;
 
-/// A contact that is moved step by step: for instruments, particle codes, and to compare with the rules themselves.
+/// Bodies that move from target to target, as instruments and particle codes need them. The stepwise solver serves to check the
+/// exact one.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion, MovingBody, load_body};
@@ -57,13 +58,13 @@ pub mod motion {
     pub use crate::stepwise::Stepwise;
 }
 
-/// Points of a force curve with a name, as preload and pull-off: for figures and readers of curves.
+/// Named points of a force curve, such as preload and pull-off, for figures and readers of curves.
 pub mod points {
     pub use crate::branches::{Branch, preload_point, pull_off_point};
     pub use crate::figures::{Mark, marks};
 }
 
-/// Closed forms of single contacts: for comparisons with theory.
+/// Closed forms of single contacts, for comparisons with theory.
 pub mod closed_forms {
     pub use crate::closed_form::{ClosedForm, flat_punch, ideal_adhesion_force};
 }
