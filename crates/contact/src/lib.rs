@@ -1,6 +1,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
+//!
 //! # Rules
 //!
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
@@ -12,11 +13,11 @@
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
 //! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
 //!
-//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A [`Leg`] is the
-//! contact at all indentations of a motion in one direction, and a [`Body`] is a leg with the position on it. A [`Leg`] follows
-//! from these rules in one pass over a tree. [`Stepwise`] moves by small steps and relaxes after each step, as the paper does.
-//! Any function that allocates may return [`ContactError::OutOfMemory`]; the documentation of a function lists all other
-//! errors.
+//! A [`Contact`] has the profile, the modulus and the adhesion, which remain the same while the body moves. A
+//! [`Leg`](motion::Leg) is the contact at all indentations of a motion in one direction, and a [`Body`](motion::Body) is a leg
+//! with the position on it. A leg follows from these rules in one pass over a tree. [`Stepwise`](motion::Stepwise) moves by
+//! small steps and relaxes after each step, as the paper does. Any function that allocates may return
+//! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
 
 mod adhesive;
 mod body;
