@@ -9,9 +9,10 @@ use asperity::explorer::commands::table::bindings;
 use asperity::explorer::config::Config;
 use asperity::explorer::pane::Pane;
 use asperity::explorer::panes::row;
+use asperity::scene::Document;
 use asperity::scene::Simulation;
-use asperity::scene::{Document, FIELDS, Field, LEG_FORCE, Range};
-use asperity::scene::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
+use asperity::scene::fields::{FIELDS, Field, LEG_FORCE, Range};
+use asperity::scene::theory::{INSENSITIVE_SHARE, NEGLIGIBLE_COEFFICIENT, VANISHING_SHARE};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -281,8 +282,8 @@ fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
 /// The first step of the tour: the keys are those of the explorer, the numbers those of the answer.
 #[test]
 fn the_tour_begins_with_the_question() {
-    let scene = asperity::scene::open(asperity::scene::DEFAULT).unwrap();
-    let condition = asperity::study::parse_condition("F_a/F_a,max = 20 %").unwrap();
+    let scene = asperity::scene::open(asperity::scene::library::DEFAULT).unwrap();
+    let condition = asperity::study::plans::parse_condition("F_a/F_a,max = 20 %").unwrap();
     let mut simulation = Simulation::default();
     let question = Question::new(scene.scene(), "preload", condition, Ensemble::PROFILES, &mut simulation);
     let found = Found::of(question.unwrap(), (simulation, 2), &|| false, &mut |_| ()).unwrap();

@@ -1,7 +1,8 @@
 //! Quantities that a study records for each cell and profile: one row of a table for each.
 
 use super::case_outcome::CaseOutcome;
-use asperity_scene::{Regime, did_you_mean};
+use asperity_scene::Regime;
+use asperity_scene::text::did_you_mean;
 use serde::{Deserialize, Serialize};
 
 struct Row {

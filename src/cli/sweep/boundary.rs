@@ -4,7 +4,7 @@ use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use asperity_report::Format;
 use asperity_scene::RoughnessParameter;
-use asperity_study::{USUAL_LEVELS, boundaries};
+use asperity_study::maps::{USUAL_LEVELS, boundaries};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
