@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::profile::Profile;
 use crate::quantity::array;
 use crate::scene::Scene;
-use asperity::contact::points::marks;
+use asperity::contact::Mark;
 use asperity::contact::{CurvePoint, Figures, LegRecord};
 use asperity::scene::instrument::displacements;
 use asperity::scene::loading::read_loading;
@@ -127,7 +127,7 @@ impl Loop {
         values.set_item("tabor", outcome.and_then(|outcome| outcome.tabor_number))?;
         values.set_item("regime", outcome.and_then(|outcome| Some(outcome.regime?.name())))?;
         values.set_item("share", outcome.and_then(Outcome::adhesion_share))?;
-        let named = marks(self.stages()).into_iter();
+        let named = Mark::all(self.stages()).into_iter();
         let named: Vec<_> =
             named.map(|(mark, point)| (mark.name(), (point.indentation, point.force))).collect();
         values.set_item("jumps", PyDict::from_sequence(&named.into_pyobject(py)?)?)?;

@@ -8,8 +8,8 @@ use crate::report::{Report, of_scene};
 use crate::scene::Scene;
 use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Simulation, estimate};
+use asperity::study::Axis;
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
-use asperity::study::plans::{parse_condition, parse_preloads, parse_range};
 use asperity::study::trust::MeasuredAdhesion;
 use asperity::study::{Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
 use asperity_report::{FindReport, PreloadReport, ReferenceReport, ReversalReport, RunReport};
@@ -104,11 +104,11 @@ pub fn find(
     call: Call,
 ) -> PyResult<Report> {
     reported(py, scene, call, move |document, (profiles, jobs), watch| {
-        let (scene, condition) = (document.scene(), parse_condition(condition)?);
+        let (scene, condition) = (document.scene(), Question::parse_condition(condition)?);
         let mut simulation = Simulation::new(document.resolve(""));
         let mut question = Question::new(scene, field, condition, profiles, &mut simulation)?;
         if let Some(range) = range {
-            question.searched = parse_range(range, question.axis.unit)?;
+            question.searched = Axis::parse_range(range, question.axis.unit)?;
         }
         let mut report = |done| watch.report(done, profiles);
         let found = Found::of(question, (simulation, jobs), &|| watch.stop(), &mut report)?;
@@ -123,7 +123,7 @@ pub fn find(
 #[pyfunction]
 pub fn preloads(py: Python<'_>, scene: &Scene, preloads: &str, call: Call) -> PyResult<Report> {
     reported(py, scene, call, move |document, (profiles, jobs), watch| {
-        let (stop, axis) = (|| watch.stop(), parse_preloads(preloads)?);
+        let (stop, axis) = (|| watch.stop(), Axis::parse_preloads(preloads)?);
         let mut simulation = Simulation::new(document.resolve(""));
         let staircase = Staircase::find(document.scene(), &axis, &mut simulation, &stop, &mut |_| ())?;
         let mut results = Results::begin(document.scene(), &Results::OF_PRELOADS, profiles, Some(&axis))?;
@@ -150,7 +150,7 @@ pub fn reversals(
     call: Call,
 ) -> PyResult<Report> {
     reported(py, scene, call, move |document, _, watch| {
-        let ends = range.map(|range| parse_range(range, "N")).transpose()?;
+        let ends = range.map(|range| Axis::parse_range(range, "N")).transpose()?;
         let mut simulation = Simulation::new(document.resolve("")).for_one_scene();
         let map = simulation.reversal_map(document.scene(), ends, count, &|| watch.stop())?;
         Ok(Report::new(move |format| {
