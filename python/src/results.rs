@@ -8,10 +8,10 @@ use crate::report::{Report, of_scene};
 use crate::scene::Scene;
 use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Simulation, estimate};
-use asperity::study::{
-    Ensemble, Found, MeasuredAdhesion, Plan, Quantity, Question, Reference, ReferenceEvent, ReferenceOptions,
-    Results, Staircase, compute, parse_condition, parse_preloads, parse_range,
-};
+use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
+use asperity::study::plans::{parse_condition, parse_preloads, parse_range};
+use asperity::study::trust::MeasuredAdhesion;
+use asperity::study::{Ensemble, Found, Plan, Quantity, Question, Results, Staircase, compute};
 use asperity_report::{FindReport, PreloadReport, ReferenceReport, ReversalReport, RunReport};
 use pyo3::prelude::*;
 use std::sync::Arc;

@@ -7,7 +7,7 @@ use super::scene::{ProfileArguments, SceneArguments};
 use super::sweep::run::stop_by_signal;
 use asperity_report::{Format, ReferenceProgress, ReferenceReport};
 use asperity_scene::{Document, Simulation};
-use asperity_study::{Reference, ReferenceOptions};
+use asperity_study::half_space::{Reference, ReferenceOptions};
 use clap::Args;
 use std::io::Write;
 use std::sync::atomic::Ordering;

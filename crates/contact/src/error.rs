@@ -73,7 +73,8 @@ pub enum ContactError {
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
     TooManySteps(f64),
-    /// A motion or a search needs a [`Leg`](crate::Leg) of the exact solver, but the leg belongs to the stepwise solver.
+    /// A motion or a search needs a [`Leg`](crate::motion::Leg) of the exact solver, but the leg belongs to the stepwise
+    /// solver.
     #[error("a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver")]
     Stepwise,
     /// The program has a defect; the field describes the state that should not occur.
@@ -90,7 +91,7 @@ impl ContactError {
         if let ContactError::Stage { index, .. } = self { Some(*index) } else { None }
     }
 
-    /// Returns the smallest force in N that the contact bears, if a stage was refused because its force is smaller.
+    /// Returns the smallest force in N that the contact bears, if a stage was refused because of a smaller target force.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() { Some(*smallest) } else { None }
     }

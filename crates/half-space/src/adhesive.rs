@@ -14,9 +14,10 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Ratio of the energy ½σg to the work of adhesion above which a cell opens. It was found once with spheres.
+/// Ratio of the energy ½σg of a crack closure to the work of adhesion, above which a cell opens. It was found once with
+/// spheres.
 pub const OPENING: f64 = 1.29;
-/// Ratio of the energy ½σg to the work of adhesion on closing below which a cell closes.
+/// Ratio of the energy ½σg of a crack closure to the work of adhesion on closing, below which a cell closes.
 pub const CLOSING: f64 = 0.8;
 /// Allowed error of stresses, as a share of the largest stress of an edge.
 const TOLERANCE: f64 = 1e-3;

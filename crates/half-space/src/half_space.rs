@@ -1,4 +1,4 @@
-//! A rigid rough square on a half-space: the front of the crate, in SI units.
+//! A rigid rough square on a half-space, in SI units.
 
 use super::error::HalfSpaceError;
 use super::operators::Boundary;
@@ -43,8 +43,8 @@ pub struct Pressed {
     pub indentation: f64,
     /// Area of the cells in contact in m².
     pub area: f64,
-    /// Largest violation of the conditions on the gap, over the rms height. The gap is zero on the contact and at least
-    /// zero elsewhere. The conditions on the pressure hold exactly: it is nowhere negative, and its sum is the force.
+    /// Largest violation of the conditions on the gap, over the rms height. The gap is zero on the contact and at least zero
+    /// elsewhere. The pressure is nowhere negative, and the sum over all cells is the force, both exactly.
     pub residual: f64,
     /// True if the residual reached the required tolerance; false if the solver used up its steps before.
     pub is_reached: bool,
@@ -159,7 +159,7 @@ impl HalfSpace {
     }
 }
 
-/// Checks a number of cells along a side.
+/// Checks that a number of cells along a side is allowed.
 ///
 /// # Errors
 /// The number is not a power of two from 32 to 8192.

@@ -1,9 +1,9 @@
 //! Contact without adhesion: nested projected conjugate gradients on an active set.
 //!
-//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed set of cells the gap is
-//! made uniform by preconditioned conjugate gradients (Polak and Ribière); meanwhile pressures may become negative. The set
-//! changes where the cells that pull or penetrate outweigh what the gradients have left over. An active set in one loop
-//! with the gradients is the idea of Polonsky and Keer (1999).
+//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed set of cells, preconditioned
+//! conjugate gradients (Polak and Ribière) make the gap uniform. Pressures may become negative in the meantime. The set changes
+//! where the cells that pull or penetrate outweigh what the gradients have left over. An active set in one loop with the
+//! gradients is the idea of Polonsky and Keer (1999).
 
 use super::error::HalfSpaceError;
 use super::operators::{Boundary, OWN_DISPLACEMENT, Operators};
@@ -115,8 +115,8 @@ impl Grid {
         }
     }
 
-    /// Begins with the solution of a coarser grid. The edge of the contact lies where a signed number changes its sign. On
-    /// the contact it is the pressure as a displacement of one cell, elsewhere minus the gap.
+    /// Begins with the solution of a coarser grid. The edge of the contact lies where a number changes its sign. The number is
+    /// the pressure as a displacement of one cell on the contact, and minus the gap elsewhere.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let own = OWN_DISPLACEMENT / coarse.cells as f64;
         let signed = |at: usize| {

@@ -7,7 +7,8 @@ use asperity_data::{AxisScale, Table, object};
 use asperity_data::{format_quantity, format_rounded, grouped, memory_size};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
-use asperity_study::{Compared, Loaded, Reference, ReferenceEvent, SquareLoops, Statistics};
+use asperity_study::Statistics;
+use asperity_study::half_space::{Compared, Loaded, Reference, ReferenceEvent, SquareLoops};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -69,7 +70,7 @@ impl ReferenceProgress {
         }
     }
 
-    /// What is lost where the comparison is stopped now, in words.
+    /// Returns in words what is lost if the comparison is stopped now.
     pub fn lost(&self) -> String {
         match self.maps {
             0 => "stopped before the first square".to_owned(),

@@ -6,7 +6,9 @@ use asperity_contact::Move;
 use asperity_data::AxisScale;
 use asperity_data::format_quantity;
 use asperity_data::{printable, round_to};
-use asperity_scene::{FIELDS, Field, Range, RoughnessParameter, Scene, did_you_mean, field};
+use asperity_scene::fields::{FIELDS, Field, Range, field};
+use asperity_scene::text::did_you_mean;
+use asperity_scene::{RoughnessParameter, Scene};
 use serde::{Deserialize, Serialize};
 
 /// Largest number of values on one axis.
@@ -55,7 +57,7 @@ pub struct Axis {
     pub unit: &'static str,
     /// Spacing of the values.
     pub spacing: Spacing,
-    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::Grid).
+    /// Values in SI units, in the order of the plan; ascending on an axis of a [`Grid`](crate::maps::Grid).
     pub values: Vec<f64>,
     pub(super) target: Target,
 }

@@ -17,8 +17,9 @@ use asperity_data::{format_quantity, format_range, format_rounded};
 use asperity_experiment::FitResult;
 use asperity_report::square_loops_words;
 use asperity_scene::Estimate;
-use asperity_scene::SteepWaves;
-use asperity_study::{Ensemble, Quantity, SquareLoops};
+use asperity_scene::theory::SteepWaves;
+use asperity_study::half_space::SquareLoops;
+use asperity_study::{Ensemble, Quantity};
 use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
