@@ -15,10 +15,11 @@ impl Scene {
     /// Opens a built-in scene by its name, or the scene of a file.
     #[staticmethod]
     fn open(name: &str) -> Result<Scene, Failure> {
-        match open(name).map_err(Failure::from) {
-            Err(Failure::Value(message)) if is_path(name) => Err(Failure::of_files(&[name.into()], message)),
-            document => Ok(Scene { document: document? }),
-        }
+        let document = open(name).map_err(|errors| match is_path(name) {
+            true => Failure::of_files(&[name.into()], errors),
+            false => errors.into(),
+        });
+        Ok(Scene { document: document? })
     }
 
     /// Reads a scene from text; its files are relative to the working folder.
